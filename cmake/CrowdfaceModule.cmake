@@ -1,0 +1,30 @@
+# How a module of crowdface is built: one static library a module, includes from src/.
+
+# Flags that every target shares. Bits must not depend on the compiler: no contraction, no fast math.
+add_library(crowdface_flags INTERFACE)
+target_compile_options(crowdface_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
+if(CROWDFACE_WERROR)
+  target_compile_options(crowdface_flags INTERFACE -Werror)
+endif()
+if(CROWDFACE_SANITIZE)
+  target_compile_options(crowdface_flags INTERFACE
+    -fsanitize=${CROWDFACE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(crowdface_flags INTERFACE -fsanitize=${CROWDFACE_SANITIZE})
+endif()
+
+# crowdface_module(NAME SOURCES … [DEPENDS modules or public targets] [PRIVATE private targets])
+function(crowdface_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE" ${ARGN})
+  add_library(crowdface_${name} STATIC ${arg_SOURCES})
+  add_library(crowdface::${name} ALIAS crowdface_${name})
+  set_target_properties(crowdface_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(crowdface_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(crowdface_${name} PUBLIC cxx_std_20)
+  target_link_libraries(crowdface_${name}
+    PUBLIC ${arg_DEPENDS}
+    PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:crowdface_flags>)
+  set_property(GLOBAL APPEND PROPERTY CROWDFACE_MODULES crowdface_${name})
+endfunction()

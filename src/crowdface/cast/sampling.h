@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/plane/weights.h"
+
+namespace crowdface {
+
+/// A closed range to draw from; both ends equal: a fixed value.
+struct Range {
+  double low = 0;
+  double high = 0;
+  bool operator==(const Range&) const = default;
+};
+
+/// Where on the weight plane a region's position is drawn.
+struct PositionDistribution {
+  enum class Kind {
+    kUniform,  ///< anywhere in the convex hull of the sources' anchors
+    kAround,   ///< in the disc of `radius` around a head's anchor
+    kFixed,    ///< always at `at`
+  };
+  Kind kind = Kind::kUniform;
+  std::optional<Eigen::Index> head;  ///< kAround: whose anchor; none: the face's own target's
+  double radius = 0;                 ///< kAround: in units of the plane
+  PlanePoint at = PlanePoint::Zero();  ///< kFixed
+};
+
+/// How much is smoothed away, L.
+struct SmoothnessDistribution {
+  enum class Unit {
+    kFraction,    ///< of L_max, the paper's slider
+    kIterations,  ///< whole iterations
+    kSize,        ///< millimetres: the wavelength that is halved (docs/method.md)
+  };
+  Unit unit = Unit::kFraction;
+  Range range = {0.2, 0.8};
+};
+
+/// The distributions of one region.
+struct RegionSampling {
+  PositionDistribution position;
+  SmoothnessDistribution smoothness;
+  Range extrapolation = {1, 1};  ///< factor e of Fig. 6
+};
+
+/// A head and how often it is drawn, relative to the others.
+struct WeightedHead {
+  Eigen::Index head = 0;
+  double weight = 1;
+};
+
+/// How sampled faces are drawn.
+struct SamplingOptions {
+  std::vector<WeightedHead> targets;   ///< heads that may be the target, with their frequency
+  std::vector<Eigen::Index> sources;   ///< heads whose details take part, ascending
+  std::vector<RegionSampling> regions;  ///< one for each region (one in all without regions)
+  std::optional<int> max_sources;      ///< keep only the largest weights of a position; none: all
+};
+
+/// A face spelled out by hand; what is left out is drawn as for a sampled face.
+struct HandRecipe {
+  struct Region {
+    std::optional<PlanePoint> position;
+    std::vector<WeightedHead> weights;  ///< empty: none given; not both position and weights
+    std::optional<SmoothnessDistribution> smoothness;
+    std::optional<Range> extrapolation;
+  };
+  std::string id;
+  std::optional<Eigen::Index> target;
+  std::vector<Region> regions;  ///< one for each region
+};
+
+}  // namespace crowdface

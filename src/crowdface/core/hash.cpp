@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/hash.h"
+
+#include <xxhash.h>
+
+#include <bit>
+#include <new>
+
+namespace crowdface {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "digests are defined on little-endian");
+
+Digest to_digest(XXH128_hash_t hash) { return {hash.high64, hash.low64}; }
+
+}  // namespace
+
+struct Hasher::State {
+  XXH3_state_t* xxh = XXH3_createState();
+  State() {
+    if (xxh == nullptr) throw std::bad_alloc();
+    XXH3_128bits_reset(xxh);
+  }
+  ~State() { XXH3_freeState(xxh); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+};
+
+std::string Digest::hex() const {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string out(32, '0');
+  for (int i = 0; i < 16; ++i) {
+    out[static_cast<std::size_t>(15 - i)] = kDigits[(high >> (4 * i)) & 15];
+    out[static_cast<std::size_t>(31 - i)] = kDigits[(low >> (4 * i)) & 15];
+  }
+  return out;
+}
+
+Digest hash_bytes(std::string_view bytes) {
+  return to_digest(XXH3_128bits(bytes.data(), bytes.size()));
+}
+
+Hasher::Hasher() : state_(std::make_unique<State>()) {}
+Hasher::~Hasher() = default;
+
+Hasher& Hasher::add_raw(const void* bytes, std::size_t size) {
+  if (size > 0) XXH3_128bits_update(state_->xxh, bytes, size);
+  return *this;
+}
+Hasher& Hasher::add_integer(std::uint64_t value) { return add_raw(&value, sizeof value); }
+Hasher& Hasher::add(std::string_view text) {
+  return add_integer(text.size()).add_raw(text.data(), text.size());
+}
+Hasher& Hasher::add(double value) { return add_integer(std::bit_cast<std::uint64_t>(value)); }
+Hasher& Hasher::add(const Digest& digest) {
+  return add_integer(digest.high).add_integer(digest.low);
+}
+Digest Hasher::digest() const { return to_digest(XXH3_128bits_digest(state_->xxh)); }
+
+}  // namespace crowdface

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace crowdface {
+
+/// A 128-bit XXH3 digest. Not for security: it tells changed content, not an adversary.
+struct Digest {
+  std::uint64_t high = 0;
+  std::uint64_t low = 0;
+  bool operator==(const Digest&) const = default;
+  /// 32 lower-case hexadecimal digits.
+  std::string hex() const;
+};
+
+/// Digest of a run of bytes.
+Digest hash_bytes(std::string_view bytes);
+
+/// Builds a digest from parts; each text is preceded by its length, so parts cannot run together.
+class Hasher {
+ public:
+  Hasher();
+  ~Hasher();
+  Hasher(const Hasher&) = delete;
+  Hasher& operator=(const Hasher&) = delete;
+
+  Hasher& add(std::string_view text);
+  Hasher& add(double value);
+  Hasher& add(const Digest& digest);
+  template <std::integral T>
+  Hasher& add(T value) {
+    return add_integer(static_cast<std::uint64_t>(value));
+  }
+  /// Raw bytes of an array of numbers, preceded by their count.
+  template <class T>
+  Hasher& add_array(std::span<const T> values) {
+    add_integer(values.size());
+    return add_raw(values.data(), values.size_bytes());
+  }
+  Digest digest() const;
+
+ private:
+  Hasher& add_integer(std::uint64_t value);
+  Hasher& add_raw(const void* bytes, std::size_t size);
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/interrupt.h"
+
+#include <csignal>
+
+#include "crowdface/core/error.h"
+
+namespace crowdface {
+namespace {
+
+volatile std::sig_atomic_t signal_seen = 0;
+
+extern "C" void remember_signal(int signal) {
+  signal_seen = signal;
+  // A user who asks twice means it.
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    struct sigaction action {};
+    action.sa_handler = remember_signal;
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+bool interrupted() { return signal_seen != 0; }
+
+void throw_if_interrupted() {
+  if (interrupted()) {
+    throw Interrupted("interrupted by a signal; run the same command again to go on");
+  }
+}
+
+}  // namespace crowdface

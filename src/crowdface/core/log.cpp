@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/log.h"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <string>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+struct Sinks {
+  std::shared_ptr<spdlog::sinks::stderr_color_sink_mt> terminal =
+      std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  std::shared_ptr<spdlog::sinks::basic_file_sink_mt> file;
+  LogLevel level = LogLevel::kNormal;
+  std::shared_ptr<spdlog::logger> logger = std::make_shared<spdlog::logger>("crowdface", terminal);
+
+  Sinks() {
+    terminal->set_pattern("%^%l:%$ %v");
+    terminal->set_level(spdlog::level::info);
+    logger->set_level(spdlog::level::debug);
+    logger->flush_on(spdlog::level::info);
+  }
+};
+
+Sinks& sinks() {
+  static Sinks instance;
+  return instance;
+}
+
+spdlog::string_view_t view(std::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+void set_log_level(LogLevel level) {
+  sinks().level = level;
+  sinks().terminal->set_level(level == LogLevel::kQuiet     ? spdlog::level::warn
+                              : level == LogLevel::kVerbose ? spdlog::level::debug
+                                                            : spdlog::level::info);
+}
+
+LogLevel log_level() { return sinks().level; }
+
+void add_log_file(const std::filesystem::path& path) {
+  close_log_file();
+  try {
+    sinks().file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string());
+  } catch (const spdlog::spdlog_ex& error) {
+    throw CannotCreate(concat(path.string(), ": log file cannot be opened: ", error.what()));
+  }
+  sinks().file->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+  sinks().file->set_level(spdlog::level::debug);
+  sinks().logger->sinks().push_back(sinks().file);
+}
+
+void close_log_file() {
+  if (!sinks().file) return;
+  sinks().file->flush();
+  std::erase(sinks().logger->sinks(), sinks().file);
+  sinks().file.reset();
+}
+
+void log_debug(std::string_view text) { sinks().logger->log(spdlog::level::debug, view(text)); }
+void log_info(std::string_view text) { sinks().logger->log(spdlog::level::info, view(text)); }
+void log_warning(std::string_view text) { sinks().logger->log(spdlog::level::warn, view(text)); }
+void log_error(std::string_view text) { sinks().logger->log(spdlog::level::err, view(text)); }
+
+}  // namespace crowdface

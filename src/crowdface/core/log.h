@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace crowdface {
+
+enum class LogLevel { kQuiet, kNormal, kVerbose };
+
+/// What reaches standard error; a log file always gets everything.
+void set_log_level(LogLevel level);
+LogLevel log_level();
+/// Also writes everything to this file (appended). \throws CannotCreate.
+void add_log_file(const std::filesystem::path& path);
+/// Stops writing to the file.
+void close_log_file();
+
+/// One line each; the text is used as it is.
+void log_debug(std::string_view text);
+void log_info(std::string_view text);
+void log_warning(std::string_view text);
+void log_error(std::string_view text);
+
+}  // namespace crowdface

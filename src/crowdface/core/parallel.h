@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace crowdface {
+
+/// While it lives, parallel loops use at most `threads` threads (0: all the machine has).
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
+
+/// Threads parallel loops use at present.
+int thread_count();
+
+/// Calls `body(begin, end)` for the fixed blocks [0, block), [block, 2·block), … of [0, count), in
+/// any order on any thread. The blocks do not depend on the thread count, so that a body that
+/// writes only its own block gives the same bits on any machine. An exception ends the loop.
+void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
+                     const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body);
+
+/// Calls `body(i)` for each i in [0, count), one task each: for few, heavy items.
+void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body);
+
+/// Sum of `term(begin, end)` over the fixed blocks of [0, count), added in block order.
+double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,
+                    const std::function<double(std::ptrdiff_t, std::ptrdiff_t)>& term);
+
+}  // namespace crowdface

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <charconv>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crowdface {
+
+/// The whole of `text` as a finite decimal number, or nothing. Never depends on the locale; a
+/// leading '+' is allowed, white space, hexadecimal, "nan" and "inf" are not.
+std::optional<double> parse_double(std::string_view text);
+
+/// The whole of `text` as an unsigned decimal integer, or nothing (sign, overflow, leftovers).
+std::optional<std::uint64_t> parse_unsigned(std::string_view text);
+
+/// Shortest decimal text that reads back as exactly this number.
+std::string format_number(double value);
+/// Fixed notation with this many decimals.
+std::string format_fixed(double value, int decimals);
+
+/// `text` between double quotes, control characters and quotes escaped; long text is shortened.
+std::string quoted(std::string_view text);
+
+/// The candidate nearest to `word` by edit distance if it is near enough to be what was meant.
+std::optional<std::string> nearest_word(std::string_view word,
+                                        const std::vector<std::string>& candidates);
+
+/// "a, b, c".
+std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
+
+namespace detail {
+inline void append(std::string& out, std::string_view text) { out += text; }
+inline void append(std::string& out, const std::string& text) { out += text; }
+inline void append(std::string& out, const char* text) { out += text; }
+inline void append(std::string& out, char c) { out += c; }
+inline void append(std::string& out, double value) { out += format_number(value); }
+template <std::integral T>
+void append(std::string& out, T value) {
+  char buffer[24];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  out.append(buffer, end);
+}
+}  // namespace detail
+
+/// All parts one after the other; numbers in shortest, locale-free form.
+template <class... Parts>
+std::string concat(const Parts&... parts) {
+  std::string out;
+  (detail::append(out, parts), ...);
+  return out;
+}
+
+}  // namespace crowdface

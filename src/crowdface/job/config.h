@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/blend/normalization.h"
+#include "crowdface/cast/sampling.h"
+#include "crowdface/core/units.h"
+#include "crowdface/plane/layout.h"
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// What to do about heads that do not stand in one frame.
+enum class Align {
+  kCheck,  ///< warn
+  kRigid,  ///< move every head onto the first by its best rotation and translation
+  kNone,   ///< neither
+};
+
+/// How the levels of smoothing are represented.
+enum class Levels {
+  kExact,  ///< every level by the filter itself
+  kCubic,  ///< the paper's cubic in L per vertex (§5.1)
+};
+
+enum class View { kFront, kThreeQuarter, kProfile };
+
+/// A config file, read, checked and with every name resolved. Fields bear the names of their YAML
+/// keys; docs/config.md explains each. Paths are absolute or relative to the working directory.
+struct Config {
+  std::filesystem::path file;  ///< where it was read from
+
+  struct Crowd {
+    std::string name;
+    std::uint64_t count = 0;  ///< sampled faces; recipes come on top
+    std::uint64_t seed = 1;
+  } crowd;
+
+  struct Faces {
+    std::vector<std::filesystem::path> files;    ///< one a head, in the order of their indices
+    std::vector<std::string> names;              ///< #heads, the files' names without ending
+    LengthUnit units = LengthUnit::kCentimetre;  ///< required in the file: never guessed
+    Axis up = {1, 1};
+    Axis front = {2, 1};
+    Align align = Align::kCheck;
+    std::vector<std::vector<std::string>> tags;  ///< #heads
+  } faces;
+
+  struct Regions {
+    std::vector<std::string> names;  ///< empty: the whole head as one region, called "all"
+    std::vector<std::string> mask;   ///< image paths, may hold <UDIM>; channels in this order
+  } regions;
+
+  struct Smoothing {
+    double max_size_mm = 240;
+    std::optional<std::uint64_t> max_iterations;  ///< overrides max_size_mm
+    Boundary boundary = Boundary::kFixed;
+    OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< key `operator`
+    Levels levels = Levels::kExact;
+  } smoothing;
+
+  struct Blending {
+    Normalization normalization = Normalization::kPartition;
+  } blending;
+
+  struct Plane {
+    Layout layout = Layout::kCircle;
+    std::map<Eigen::Index, PlanePoint> anchors;  ///< by head; override the layout, all if kManual
+  } plane;
+
+  SamplingOptions sampling;
+  std::vector<HandRecipe> recipes;
+
+  struct ContactSheet {
+    int columns = 6;
+    int rows = 4;
+    int cell = 256;  ///< pixels, one view
+    std::vector<View> views = {View::kFront};
+  };
+  struct Output {
+    std::filesystem::path directory;
+    bool obj = true;                            ///< `meshes: [obj]`; false for `meshes: []`
+    std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
+  } output;
+
+  /// Region names as they stand in a plan: `regions.names`, or "all".
+  std::vector<std::string> region_names() const;
+};
+
+}  // namespace crowdface
