@@ -8,6 +8,9 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(OpenImageIO REQUIRED)
+# Debian's OpenImageIO names the headers of OpenCV too, which it neither needs nor installs.
+set_property(TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTORIES
+  ${OpenImageIO_INCLUDE_DIRS})
 find_package(embree 3 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)

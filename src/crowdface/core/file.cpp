@@ -143,7 +143,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
   write_file(path, std::vector<std::string_view>{bytes});
 }
 
-void create_directories(const fs::path& path) {
+void make_directories(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error)) {

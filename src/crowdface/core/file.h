@@ -36,6 +36,6 @@ void write_file(const std::filesystem::path& path, const std::vector<std::string
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Creates a folder and its parents. \throws CannotCreate.
-void create_directories(const std::filesystem::path& path);
+void make_directories(const std::filesystem::path& path);
 
 }  // namespace crowdface

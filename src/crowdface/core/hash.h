@@ -31,6 +31,8 @@ class Hasher {
   Hasher& operator=(const Hasher&) = delete;
 
   Hasher& add(std::string_view text);
+  /// Bytes as they are, no length before them: pieces of one text give its `hash_bytes`.
+  Hasher& add_raw(std::string_view bytes) { return add_raw(bytes.data(), bytes.size()); }
   Hasher& add(double value);
   Hasher& add(const Digest& digest);
   template <std::integral T>

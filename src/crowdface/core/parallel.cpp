@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <vector>
@@ -32,17 +33,21 @@ void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   if (count <= 0) return;
   const std::ptrdiff_t blocks = (count + block - 1) / block;
   if (blocks == 1) return body(0, count);
-  tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
-    body(b * block, std::min(count, (b + 1) * block));
+  // Isolated: a thread that waits for this loop must not begin another heavy item of an outer one.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
+      body(b * block, std::min(count, (b + 1) * block));
+    });
   });
 }
 
 void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body) {
-  tbb::parallel_for(tbb::blocked_range<std::ptrdiff_t>(0, std::max<std::ptrdiff_t>(count, 0), 1),
-                    [&](const auto& range) {
-                      for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) body(i);
-                    },
-                    tbb::simple_partitioner());
+  const tbb::blocked_range<std::ptrdiff_t> items(0, std::max<std::ptrdiff_t>(count, 0), 1);
+  const auto run = [&](const tbb::blocked_range<std::ptrdiff_t>& range) {
+    for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) body(i);
+  };
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(items, run, tbb::simple_partitioner()); });
 }
 
 double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,

@@ -23,6 +23,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// The power of ten of a number's first digit that is not zero: 2 for "123", -3 for "0.001",
+/// 998 for "0.1e999". (from_chars tells neither of too large and too small which it was.)
+long long decimal_exponent(std::string_view number) {
+  if (number.starts_with('-')) number.remove_prefix(1);
+  const std::size_t e = number.find_first_of("eE");
+  const std::string_view digits = number.substr(0, e);
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const std::size_t first = std::min(digits.find_first_of("123456789"), digits.size());
+  const auto distance = static_cast<long long>(point) - static_cast<long long>(first);
+  const long long leading = first < point ? distance - 1 : distance;
+  if (e == std::string_view::npos) return leading;
+  std::string_view power = number.substr(e + 1);
+  if (power.starts_with('+')) power.remove_prefix(1);
+  long long exponent = 0;
+  const auto error = std::from_chars(power.data(), power.data() + power.size(), exponent).ec;
+  constexpr long long kHuge = 1'000'000'000'000;
+  if (error != std::errc{}) return power.starts_with('-') ? -kHuge : kHuge;
+  return leading + std::clamp(exponent, -kHuge, kHuge);
+}
+
 }  // namespace
 
 std::optional<double> parse_double(std::string_view text) {
@@ -36,7 +56,7 @@ std::optional<double> parse_double(std::string_view text) {
   if (end != text.data() + text.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
     // Too small to represent reads as zero; too large is no number.
-    return value < 1 && value > -1 && value != HUGE_VAL ? std::optional<double>(0.0) : std::nullopt;
+    return decimal_exponent(text) < 0 ? std::optional<double>(0.0) : std::nullopt;
   }
   if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
   return value;

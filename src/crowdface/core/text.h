@@ -25,6 +25,8 @@ std::string format_fixed(double value, int decimals);
 
 /// `text` between double quotes, control characters and quotes escaped; long text is shortened.
 std::string quoted(std::string_view text);
+/// The same; without it, std::quoted would be chosen for strings.
+inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
 
 /// The candidate nearest to `word` by edit distance if it is near enough to be what was meant.
 std::optional<std::string> nearest_word(std::string_view word,

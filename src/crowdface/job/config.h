@@ -12,6 +12,7 @@
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/plane/layout.h"
+#include "crowdface/render/view.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
 namespace crowdface {
@@ -28,8 +29,6 @@ enum class Levels {
   kExact,  ///< every level by the filter itself
   kCubic,  ///< the paper's cubic in L per vertex (§5.1)
 };
-
-enum class View { kFront, kThreeQuarter, kProfile };
 
 /// A config file, read, checked and with every name resolved. Fields bear the names of their YAML
 /// keys; docs/config.md explains each. Paths are absolute or relative to the working directory.
@@ -85,7 +84,7 @@ struct Config {
   };
   struct Output {
     std::filesystem::path directory;
-    bool obj = true;                            ///< `meshes: [obj]`; false for `meshes: []`
+    bool obj = true;  ///< `meshes: [obj]`; false for `meshes: []`
     std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
   } output;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/mesh/normals.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace crowdface {

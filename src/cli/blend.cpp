@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/job/pipeline.h"
+
+namespace crowdface::cli {
+namespace {
+
+/// The line of a plan that "FILE#ID" names.
+PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
+  const std::size_t hash = reference.rfind('#');
+  if (hash == reference.npos || hash == 0 || hash + 1 == reference.size()) {
+    throw UsageError(concat("--recipe: expected PLAN.jsonl#ID, found ", quoted(reference)));
+  }
+  const std::string file = reference.substr(0, hash), id = reference.substr(hash + 1);
+  std::vector<std::string> ids;
+  for (PlanLine& line : read_plan(file, names)) {
+    if (line.recipe.id == id) return std::move(line);
+    ids.push_back(line.recipe.id);
+  }
+  const auto nearest = nearest_word(id, ids);
+  throw InvalidInput(concat(file, ": expected a recipe with the id ", quoted(id), ", found none",
+                            nearest ? concat("; did you mean ", *nearest, "?") : ""));
+}
+
+void blend(const ConfigOptions& options, const std::string& reference, const std::string& out,
+           bool any_settings) {
+  const Job job = load_job(options.config, options.overrides);
+  const PlanLine line = find_recipe(reference, job.names);
+  if (line.settings != job.settings.hex() && !any_settings) {
+    throw InvalidInput(concat(reference, ": was cast under other settings: expected ",
+                              job.settings.hex(), " (heads, masks and smoothing of ",
+                              options.config, "), found ", line.settings,
+                              "; --any-settings blends it all the same"));
+  }
+  Prepared prepared;
+  if (job.config.smoothing.levels == Levels::kCubic) {
+    prepared = prepare(job.config, job.inputs, job.smoothing, options.cache_path());
+  }
+  const Positions positions = build_face(job, prepared, line.recipe);
+  write_obj_like(job.inputs.files[static_cast<std::size_t>(line.recipe.target)],
+                 job.inputs.faces.topology, positions, out);
+  log_info(concat(line.recipe.id, " written to ", out));
+}
+
+}  // namespace
+
+Run add_blend(CLI::App& program) {
+  struct Options {
+    CommonOptions common;
+    ConfigOptions config;
+    std::string recipe, out;
+    bool any_settings = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("blend", "One face from its recipe in a plan");
+  options->config.add_to(*command);
+  command->add_option("--recipe", options->recipe, "Which: the plan's file, #, the face's id")
+      ->required()
+      ->type_name("PLAN.jsonl#ID");
+  command->add_option("-o,--output", options->out, "The mesh to write")
+      ->required()
+      ->type_name("OUT.obj");
+  command->add_flag("--any-settings", options->any_settings,
+                    "Blend even if heads, masks or smoothing differ from the plan's");
+  options->common.add_to(*command);
+  return [options] {
+    const auto threads = options->common.apply();
+    blend(options->config, options->recipe, options->out, options->any_settings);
+  };
+}
+
+}  // namespace crowdface::cli

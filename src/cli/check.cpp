@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/pipeline.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface::cli {
+namespace {
+
+void describe(const Job& job) {
+  const Inputs& inputs = job.inputs;
+  const auto& boundary = inputs.adjacency.boundary;
+  std::cout << concat(
+      job.config.file.string(), " is fine\n", "heads       ", job.names.heads.size(), ": ",
+      join(job.names.heads), "\ntopology    ", inputs.faces.topology.vertex_count, " vertices, ",
+      inputs.faces.topology.face_count(), " faces, ", inputs.components.count(), " components, ",
+      std::count(boundary.begin(), boundary.end(), true), " vertices on open rims\n",
+      "edges       ", format_fixed(inputs.edge_length_mm, 3), " mm (rms, on the skin)\n",
+      "smoothing   up to ", inputs.max_level, " iterations, a size of ",
+      format_fixed(size_of_iterations(job.smoothing.kind(), inputs.max_level,
+                                      inputs.edge_length_mm), 1),
+      " mm\n", "regions     ", join(job.names.regions), "\n", "faces       ",
+      job.config.crowd.count, " sampled, ", job.config.recipes.size(), " by hand\n", "output      ",
+      job.config.output.directory.string(), "\n");
+}
+
+/// One picture a region, its mask on the mean head.
+void write_masks(const Job& job, const std::filesystem::path& directory) {
+  Positions mean = Positions::Zero(job.inputs.faces.topology.vertex_count, 3);
+  for (const Head& head : job.inputs.faces.heads) mean += head.positions;
+  mean /= static_cast<double>(job.inputs.faces.heads.size());
+  Config::ContactSheet sheet;
+  sheet.cell = 512;
+  sheet.views = {View::kFront, View::kThreeQuarter};
+  const CrowdRenders renders(job.config, sheet, job.inputs);
+  make_directories(directory);
+  const auto write = [&](const std::string& name, const VertexColours& colours) {
+    const std::filesystem::path path = directory / concat(name, ".png");
+    write_file(path, renders.render_png(mean, &colours));
+    log_info(path.string());
+  };
+  const auto& alpha = job.inputs.regions.alpha;
+  for (Index k = 0; k < alpha.cols(); ++k) {
+    write(job.names.regions[static_cast<std::size_t>(k)],
+          mask_colours(alpha.col(k), palette_colour(k)));
+  }
+  if (alpha.cols() > 1) write("all", region_colours(alpha));
+}
+
+}  // namespace
+
+Run add_check(CLI::App& program) {
+  struct Options {
+    CommonOptions common;
+    ConfigOptions config;
+    std::string masks;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "check", "Validate config, heads and masks: every problem at once, nothing written");
+  options->config.add_to(*command);
+  command->add_option("--masks", options->masks, "Render each region's mask on the mean head here")
+      ->type_name("DIR");
+  options->common.add_to(*command);
+  return [options] {
+    const auto threads = options->common.apply();
+    const Job job = load_job(options->config.config, options->config.overrides);
+    describe(job);
+    if (!options->masks.empty()) write_masks(job, options->masks);
+  };
+}
+
+}  // namespace crowdface::cli

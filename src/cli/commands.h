@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace crowdface::cli {
+
+/// Runs a command after the command line was read.
+using Run = std::function<void()>;
+
+/// Each adds its subcommand to the program and returns what it does.
+Run add_generate(CLI::App& program);
+Run add_prepare(CLI::App& program);
+Run add_plan(CLI::App& program);
+Run add_blend(CLI::App& program);
+Run add_smooth(CLI::App& program);
+Run add_sheet(CLI::App& program);
+Run add_synth(CLI::App& program);
+Run add_check(CLI::App& program);
+Run add_init(CLI::App& program);
+Run add_cache(CLI::App& program);
+
+}  // namespace crowdface::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/common_options.h"
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/job/head_cache.h"
+
+namespace crowdface::cli {
+namespace {
+
+/// Adds an option whose value is kept only if it was given.
+void add_optional(CLI::App& command, const std::string& name, std::optional<std::string>& value,
+                  const std::string& help, const std::string& type) {
+  command
+      .add_option_function<std::string>(
+          name, [&value](const std::string& text) { value = text; }, help)
+      ->type_name(type);
+}
+
+}  // namespace
+
+void CommonOptions::add_to(CLI::App& command) {
+  command.add_option("--threads", threads, "Threads to use (default: all the machine has)")
+      ->type_name("N");
+  auto* quiet_flag = command.add_flag("-q,--quiet", quiet, "Only warnings and errors");
+  command.add_flag("-v,--verbose", verbose, "More about what happens")->excludes(quiet_flag);
+  command.add_option("--log-file", log_file, "Also write everything to this file")
+      ->type_name("FILE");
+}
+
+std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
+  constexpr std::uint64_t kMostThreads = 1024;
+  set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);
+  if (!log_file.empty()) add_log_file(log_file);
+  const std::uint64_t limit =
+      threads.empty() ? 0 : whole_number("--threads", threads, 1, kMostThreads);
+  return std::make_unique<ThreadLimit>(static_cast<int>(limit));
+}
+
+void ConfigOptions::add_to(CLI::App& command) {
+  command.add_option("config", config, "The config file (docs/config.md)")
+      ->required()
+      ->type_name("CONFIG");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [this](const std::vector<std::string>& values) {
+            overrides.set.insert(overrides.set.end(), values.begin(), values.end());
+          },
+          "Override one config value, such as smoothing.boundary=free; may be repeated")
+      ->type_name("KEY.PATH=VALUE")
+      ->expected(1)
+      ->take_all()
+      ->trigger_on_parse();
+  add_optional(command, "--seed", overrides.seed, "Override crowd.seed", "N");
+  add_optional(command, "--count", overrides.count, "Override crowd.count", "N");
+  add_optional(command, "--out", overrides.out, "Override output.directory", "DIR");
+  command.add_option("--cache", cache, "Folder of prepared heads")->type_name("DIR");
+}
+
+std::filesystem::path ConfigOptions::cache_path() const {
+  return cache.empty() ? cache_directory() : std::filesystem::path(cache);
+}
+
+void WriteOptions::add_to(CLI::App& command) {
+  command.add_flag("--force", force, "Replace another config's crowd in the output folder");
+  command.add_flag("--dry-run", dry_run, "Check everything, say what would be written, write nothing");
+}
+
+GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {
+  return {cache, force ? Replace::kForce : Replace::kRefuse, dry_run};
+}
+
+std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
+                           std::uint64_t most) {
+  const auto value = parse_unsigned(text);
+  if (!value || *value < least || *value > most) {
+    throw UsageError(concat(option, ": expected a whole number from ", least, " to ", most,
+                            ", found ", quoted(text)));
+  }
+  return *value;
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <memory>
+#include <system_error>
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/job/starter_config.h"
+
+namespace crowdface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> obj_files(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".obj") files.push_back(entry.path());
+  }
+  if (error) throw MissingInput(concat(folder.string(), ": ", error.message()));
+  std::sort(files.begin(), files.end());
+  if (files.size() < 2) {
+    throw MissingInput(concat(folder.string(), ": expected at least 2 OBJ files, found ",
+                              files.size()));
+  }
+  return files;
+}
+
+/// The unit in which the mesh is as tall as a head, with or without neck and shoulders.
+LengthUnit guess_unit(double height) {
+  constexpr double kTypicalHeight_mm = 280;
+  LengthUnit best = LengthUnit::kCentimetre;
+  double best_ratio = 1e300;
+  for (const LengthUnit unit :
+       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre}) {
+    const double mm = std::max(height * mm_per(unit), 1e-9);
+    const double ratio = std::max(mm / kTypicalHeight_mm, kTypicalHeight_mm / mm);
+    if (ratio < best_ratio) {
+      best_ratio = ratio;
+      best = unit;
+    }
+  }
+  return best;
+}
+
+void init(const fs::path& heads, const fs::path& out, bool force) {
+  const std::vector<fs::path> files = obj_files(heads);
+  std::error_code ignored;
+  if (fs::exists(out, ignored) && !force) {
+    throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
+  }
+  const Positions first = read_obj(files[0]).positions;
+  StarterFacts facts;
+  const fs::path here = fs::absolute(out).lexically_normal().parent_path();
+  facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
+  for (const fs::path& file : files) facts.names.push_back(file.stem().string());
+  facts.head_height = first.col(facts.up.index).maxCoeff() - first.col(facts.up.index).minCoeff();
+  facts.units = guess_unit(facts.head_height);
+  facts.crowd_name = "crowd";
+  write_file(out, starter_config(facts));
+  log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
+                  name_of(facts.units), " because the first head is ",
+                  format_fixed(facts.head_height, 2),
+                  " units tall. Check that, then: crowdface check ", out.string()));
+}
+
+}  // namespace
+
+Run add_init(CLI::App& program) {
+  struct Options {
+    CommonOptions common;
+    std::string heads, out = "crowd.yaml";
+    bool force = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("init", "Write a commented starter config for a folder of heads");
+  command->add_option("heads", options->heads, "The folder")->required()->type_name("HEADS_DIR");
+  command->add_option("-o,--output", options->out, "The config to write")
+      ->type_name("CONFIG")
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "Replace an existing file");
+  options->common.add_to(*command);
+  return [options] {
+    const auto threads = options->common.apply();
+    init(options->heads, options->out, options->force);
+  };
+}
+
+}  // namespace crowdface::cli

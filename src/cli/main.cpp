@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "cli/commands.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/version.h"
+
+namespace {
+
+using crowdface::ExitCode;
+
+constexpr const char* kDescription =
+    "Crowds of believable faces from a handful of scanned heads.\n"
+    "\n"
+    "A first crowd, from nothing:\n"
+    "  crowdface synth -o heads --count 8 --vertices 20000 --seed 1\n"
+    "  crowdface init heads                 # writes a commented config: crowd.yaml\n"
+    "  crowdface check crowd.yaml           # every problem at once\n"
+    "  crowdface generate crowd.yaml        # meshes, renders, contact sheets, report";
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 3 constraints cannot be met, 64 usage or config, 65 bad data,\n"
+    "66 input missing, 70 a bug, 73/74 output failed, 75 interrupted (run again to go on).\n"
+    "`crowdface COMMAND --help` explains a command; docs/config.md explains every config key.";
+
+/// The one place where errors become messages and exit codes.
+int run(const crowdface::cli::Run& command) {
+  try {
+    command();
+    return static_cast<int>(ExitCode::kDone);
+  } catch (const crowdface::Error& error) {
+    crowdface::log_error(error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    crowdface::log_error("out of memory; fewer threads (--threads) need less");
+    return static_cast<int>(ExitCode::kIoError);
+  } catch (const std::exception& error) {
+    crowdface::log_error(crowdface::concat("internal error, please report it: ", error.what()));
+    return static_cast<int>(ExitCode::kBug);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program(kDescription, "crowdface");
+  program.footer(kFooter);
+  program.set_version_flag("--version", std::string("crowdface ") + crowdface::kVersion);
+  program.require_subcommand(1);
+  crowdface::cli::Run chosen;
+  using crowdface::cli::Run;
+  for (Run (*add)(CLI::App&) :
+       {crowdface::cli::add_generate, crowdface::cli::add_check, crowdface::cli::add_init,
+        crowdface::cli::add_plan, crowdface::cli::add_prepare, crowdface::cli::add_blend,
+        crowdface::cli::add_smooth, crowdface::cli::add_sheet, crowdface::cli::add_synth,
+        crowdface::cli::add_cache}) {
+    const std::size_t before = program.get_subcommands({}).size();
+    Run command = add(program);
+    program.get_subcommands({})[before]->final_callback(
+        [&chosen, command = std::move(command)] { chosen = command; });
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are no errors; everything else is wrong usage.
+    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+  }
+  crowdface::catch_interrupts();
+  return run(chosen);
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "crowdface/job/generate.h"
+
+namespace crowdface::cli {
+
+Run add_plan(CLI::App& program) {
+  struct Options {
+    CommonOptions common;
+    ConfigOptions config;
+    WriteOptions write;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("plan", "Cast the crowd only: plan.jsonl and crowd.csv, no meshes");
+  options->config.add_to(*command);
+  options->write.add_to(*command);
+  options->common.add_to(*command);
+  return [options] {
+    const auto threads = options->common.apply();
+    plan(options->config.config, options->config.overrides,
+         options->write.with_cache(options->config.cache_path()));
+  };
+}
+
+}  // namespace crowdface::cli

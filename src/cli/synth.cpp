@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/synth/synthetic_head.h"
+
+namespace crowdface::cli {
+namespace {
+
+constexpr std::uint64_t kMostHeads = 1000;
+constexpr std::uint64_t kFewestVertices = 5000, kMostVertices = 1'200'000;
+constexpr int kMaskSize = 1024;
+
+struct Options {
+  CommonOptions common;
+  std::string out, count = "8", vertices = "20000", seed = "1", mask;
+};
+
+std::string head_name(std::uint64_t index) {
+  std::string number = concat(index);
+  if (number.size() < 2) number.insert(0, 1, '0');
+  return concat("synth_", number);
+}
+
+void synth(const Options& options) {
+  const std::uint64_t count = whole_number("--count", options.count, 0, kMostHeads);
+  const std::uint64_t vertices =
+      whole_number("--vertices", options.vertices, kFewestVertices, kMostVertices);
+  const std::uint64_t seed = whole_number("--seed", options.seed, 0, UINT64_MAX);
+  const std::filesystem::path directory = options.out;
+  make_directories(directory);
+  const SyntheticHeads heads(static_cast<Index>(vertices));
+  {
+    Progress progress("synthetic heads", count);
+    for (std::uint64_t i = 1; i <= count; ++i) {
+      throw_if_interrupted();
+      write_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},
+                concat("synthetic head ", i, " of seed ", seed, ", made by crowdface synth; cm"),
+                directory / concat(head_name(i), ".obj"));
+      progress.step();
+    }
+  }
+  const std::filesystem::path mask =
+      options.mask.empty() ? directory / "regions.png" : std::filesystem::path(options.mask);
+  write_file(mask, encode_png(kMaskSize, kMaskSize, 3, synthetic_region_mask(kMaskSize)));
+  log_info(concat(count, " heads of ", heads.topology().vertex_count, " vertices in ",
+                  directory.string(), ", their regions in ", mask.string()));
+}
+
+}  // namespace
+
+Run add_synth(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "synth", "Synthetic heads in one topology, with UVs and a region mask");
+  command->add_option("-o,--output", options->out, "The folder to write to")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--count", options->count, "How many heads")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--vertices", options->vertices, "About how many vertices each, 5000 to 1200000")
+      ->type_name("V")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Which heads; the same seed gives the same heads")
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_option("--mask", options->mask, "Where the region mask goes (default: DIR/regions.png)")
+      ->type_name("FILE");
+  options->common.add_to(*command);
+  return [options] {
+    const auto threads = options->common.apply();
+    synth(*options);
+  };
+}
+
+}  // namespace crowdface::cli

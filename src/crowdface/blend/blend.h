@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "crowdface/blend/recipe.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/region/region_weights.h"
+#include "crowdface/smooth/cubic_fit.h"
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// The face a recipe stands for, with exact levels (Eq. 7, in the form below): one filter
+/// application per region. With C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k C̄_k,
+///
+///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ] = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
+///
+/// so that a vertex that no iteration moves keeps the target's position to the bit, and so does
+/// every vertex where D_k = 0 (the target blended with itself).
+/// \param regions  α, #V by #regions, rows summing to one; as many regions as the recipe has.
+/// \return         #V by 3, in the heads' unit.
+/// \throws InvalidInput if recipe, regions and face set do not fit together.
+Positions blend_exact(const FaceSet& faces, const SmoothingOperator& smoothing,
+                      const RegionWeights& regions, const Recipe& recipe);
+
+/// The same from the paper's cubic levels (Eqs. 5–7 with S̃): A = B + Σ_k α_k Σ_p φ_p(L_k)·
+/// (c_p(B) − e_k Σ_i ω̂_ki c_p(C_i)), since C − S̃_L C = −Σ_p φ_p c_p(C).
+/// \param fits  one for each head of the face set.
+Positions blend_cubic(const FaceSet& faces, std::span<const CubicFit> fits,
+                      const RegionWeights& regions, const Recipe& recipe);
+
+}  // namespace crowdface

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/blend/recipe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+void divide_by_sum(std::vector<SourceWeight>& weights, double extra = 0) {
+  double sum = extra;
+  for (const SourceWeight& source : weights) sum += source.weight;
+  if (sum == 0) return;
+  for (SourceWeight& source : weights) source.weight /= sum;
+}
+
+/// Keeps the `count` largest, in their old order; of equals the first.
+void keep_largest(std::vector<SourceWeight>& weights, std::size_t count) {
+  if (weights.size() <= count) return;
+  std::stable_sort(weights.begin(), weights.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  weights.resize(count);
+  std::sort(weights.begin(), weights.end(),
+            [](const auto& a, const auto& b) { return a.head < b.head; });
+}
+
+}  // namespace
+
+std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
+                                     const std::vector<Index>& sources, const PlanePoint& position,
+                                     Normalization normalization, std::optional<int> max_sources) {
+  std::vector<Index> heads = sources;
+  if (std::find(heads.begin(), heads.end(), target) == heads.end()) {
+    heads.insert(std::upper_bound(heads.begin(), heads.end(), target), target);
+  }
+  std::vector<PlanePoint> taking_part;
+  for (const Index head : heads) taking_part.push_back(anchors[static_cast<std::size_t>(head)]);
+  const std::vector<double> omega = inverse_square_weights(taking_part, position);  // Eq. 4
+
+  std::vector<SourceWeight> weights;
+  double omega_0 = 0;
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    if (normalization == Normalization::kPrinted && heads[i] == target) {
+      omega_0 = omega[i];
+    } else {
+      weights.push_back({heads[i], omega[i]});
+    }
+  }
+  if (max_sources) keep_largest(weights, static_cast<std::size_t>(*max_sources));
+  divide_by_sum(weights, omega_0);  // ω̂_i = ω_i / Σ_{i=0}^n ω_i, the quotient of Eq. 3
+  std::erase_if(weights, [](const SourceWeight& source) { return source.weight == 0; });
+  return weights;
+}
+
+std::vector<SourceWeight> normalized_weights(std::vector<SourceWeight> weights) {
+  double sum = 0;
+  for (const SourceWeight& source : weights) {
+    if (!(source.weight >= 0) || !std::isfinite(source.weight)) {
+      throw InvalidInput(concat("expected weights of zero or more, found ", source.weight));
+    }
+    sum += source.weight;
+  }
+  if (!(sum > 0) || !std::isfinite(sum)) {
+    throw InvalidInput(concat("expected weights with a positive, finite sum, found ", sum));
+  }
+  std::erase_if(weights, [](const SourceWeight& source) { return source.weight == 0; });
+  std::sort(weights.begin(), weights.end(),
+            [](const auto& a, const auto& b) { return a.head < b.head; });
+  divide_by_sum(weights);
+  return weights;
+}
+
+}  // namespace crowdface

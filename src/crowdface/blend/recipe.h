@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/blend/normalization.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/plane/weights.h"
+
+namespace crowdface {
+
+/// A head whose detail takes part, and its normalised weight ω̂.
+struct SourceWeight {
+  Index head = 0;
+  double weight = 0;
+  bool operator==(const SourceWeight&) const = default;
+};
+
+/// What a recipe says about one region: all that Eq. 7 needs.
+struct RegionRecipe {
+  std::optional<PlanePoint> position;  ///< m_k, if the weights come from one
+  std::vector<SourceWeight> weights;   ///< ω̂_ki, ascending heads, none zero
+  double smoothness = 0;               ///< L_k/L_max
+  std::uint64_t iterations = 0;        ///< L_k
+  double extrapolation = 1;            ///< e_k, the factor of Fig. 6
+};
+
+/// The nearest neighbours of a face, for people to judge by.
+struct Nearest {
+  Index head = 0;                    ///< the input head nearest to it
+  double head_mm = 0;
+  std::optional<std::string> crowd;  ///< the nearest face before it in the plan
+  double crowd_mm = 0;
+};
+
+/// One face: with the face set and the regions it determines the mesh to the bit.
+struct Recipe {
+  std::string id;
+  std::optional<std::uint64_t> index;  ///< from 1; none for a hand-written recipe
+  std::optional<std::string> family;
+  Index target = 0;
+  std::uint32_t attempt = 0;           ///< how many draws were thrown away before this one
+  std::vector<RegionRecipe> regions;   ///< one for each region
+  std::optional<Nearest> nearest;
+};
+
+/// The weights ω̂ of a position (Eqs. 3 and 4).
+/// Partition: the target takes part as face 0 with its own detail, whether or not it is a source, and
+/// the weights sum to one. Printed: the target's ω_0 counts in the denominator only and is left out
+/// of the result, whose weights sum to less than one.
+/// \param anchors      #heads
+/// \param sources      heads that lend detail, ascending
+/// \param max_sources  keep only that many of the largest weights (of equals the first), then
+///                     normalise again; ω_0 of the printed formula always stays and is not counted
+std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
+                                     const std::vector<Index>& sources, const PlanePoint& position,
+                                     Normalization normalization, std::optional<int> max_sources);
+
+/// Hand-written weights, divided by their sum; zero weights are left out.
+/// \throws InvalidInput if one is negative or not finite, or if they sum to zero.
+std::vector<SourceWeight> normalized_weights(std::vector<SourceWeight> weights);
+
+}  // namespace crowdface

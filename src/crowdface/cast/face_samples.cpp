@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/face_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/mesh/normals.h"
+#include "crowdface/smooth/chebyshev.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kTrajectorySteps = 63;
+
+/// The area of the faces around each vertex of the face, shared out among their corners.
+std::vector<double> face_areas(const Topology& topology, const Components& components,
+                               const Positions& mean, Axis front) {
+  const std::uint32_t skin = components.largest();
+  const auto on_skin = [&](Index i) {
+    return components.of_vertex[static_cast<std::size_t>(i)] == skin;
+  };
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (Index i = 0; i < mean.rows(); ++i) {
+    if (!on_skin(i)) continue;
+    low = std::min(low, front.sign * mean(i, front.index));
+    high = std::max(high, front.sign * mean(i, front.index));
+  }
+  const double middle = 0.5 * (low + high);
+  std::vector<double> areas(static_cast<std::size_t>(mean.rows()), 0.0);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const Eigen::Vector3d area = face_area_vector(topology, f, mean);
+    const auto face = topology.face(f);
+    const double share = std::sqrt(area.squaredNorm()) / static_cast<double>(face.size());
+    for (const std::uint32_t i : face) {
+      if (on_skin(i) && front.sign * mean(i, front.index) >= middle) areas[i] += share;
+    }
+  }
+  return areas;
+}
+
+}  // namespace
+
+FaceSamples choose_face_samples(const Topology& topology, const Components& components,
+                                const Positions& mean, Axis front, Index count) {
+  const std::vector<double> areas = face_areas(topology, components, mean, front);
+  double total = 0;
+  for (const double area : areas) total += area;
+  // Systematic sampling: one step along the summed area, one sample.
+  const double step = total / static_cast<double>(count);
+  FaceSamples samples;
+  double sum = 0, next = 0.5 * step;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    sum += areas[i];
+    if (areas[i] == 0 || sum < next) continue;
+    samples.push_back(static_cast<std::uint32_t>(i));
+    while (next <= sum) next += step;  // a vertex is taken once, however large its share
+  }
+  return samples;
+}
+
+std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level) {
+  std::vector<std::uint64_t> levels;
+  for (int j = 0; j <= kTrajectorySteps; ++j) {
+    const double share = static_cast<double>(j) / kTrajectorySteps;
+    const auto level =
+        static_cast<std::uint64_t>(std::round(static_cast<double>(max_level) * share * share));
+    if (levels.empty() || level != levels.back()) levels.push_back(level);
+  }
+  return levels;
+}
+
+Trajectory sample_trajectory(const SmoothingOperator& smoothing, const Positions& positions,
+                             const FaceSamples& samples, std::uint64_t max_level) {
+  std::vector<ChebyshevSeries> series;
+  for (const std::uint64_t level : trajectory_levels(max_level)) {
+    series.push_back(power_series(smoothing.kind(), level));
+    series.back()[0] -= 1;  // − x = − T_0(W) x
+  }
+  std::size_t terms = 0;
+  for (const ChebyshevSeries& one : series) terms = std::max(terms, one.size());
+  Columns sums = Columns::Zero(static_cast<Index>(series.size()),
+                               3 * static_cast<Index>(samples.size()));
+  chebyshev_recurrence(
+      smoothing, positions, static_cast<Index>(terms),
+      [&](Index k, Index begin, Index end, const double* block) {
+        const auto first = std::lower_bound(samples.begin(), samples.end(), begin);
+        const auto last = std::lower_bound(first, samples.end(), end);
+        for (std::size_t l = 0; l < series.size(); ++l) {
+          if (k >= static_cast<Index>(series[l].size())) continue;
+          const double a = series[l][static_cast<std::size_t>(k)];
+          for (auto sample = first; sample != last; ++sample) {
+            double* sum = &sums(static_cast<Index>(l), 3 * (sample - samples.begin()));
+            const double* value = block + (static_cast<Index>(*sample) - begin) * 3;
+            for (int c = 0; c < 3; ++c) sum[c] += a * value[c];
+          }
+        }
+      });
+  return sums.cast<float>();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/image.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using std::filesystem::path;
+using namespace std::string_view_literals;
+
+[[noreturn]] void refuse(const path& file, const std::string& what) {
+  throw InvalidInput(concat(file.string(), ": ", what));
+}
+
+/// The format's name in OpenImageIO, told by the file's first bytes; empty if it is not one we
+/// read.
+std::string format_of(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
+  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return "tiff";
+  if (bytes.starts_with("II+\0"sv) || bytes.starts_with("MM\0+"sv)) return "tiff";
+  if (bytes.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
+  return {};
+}
+
+std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = at; i < at + 4; ++i)
+    value = value << 8U | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+/// Whether the chunks of a PNG run unbroken to its end mark: libpng is content without the last.
+bool png_is_whole(std::string_view bytes) {
+  std::size_t at = 8;
+  while (at + 12 <= bytes.size()) {
+    const std::size_t next = at + 12 + big_endian(bytes, at);
+    if (bytes.substr(at + 4, 4) == "IEND") return next <= bytes.size();
+    at = next;
+  }
+  return false;
+}
+
+std::unique_ptr<OIIO::ImageInput> open(const path& file, const std::string& format,
+                                       OIIO::ImageSpec& spec) {
+  auto input = OIIO::ImageInput::create(format);
+  if (!input) refuse(file, concat("this build reads no ", format, ": ", OIIO::geterror()));
+  OIIO::ImageSpec wish;
+  wish.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
+  input->threads(1);
+  if (!input->open(file.string(), spec, wish)) {
+    refuse(file, concat("cannot be read as ", format, ": ", input->geterror()));
+  }
+  return input;
+}
+
+void check_size(const path& file, const OIIO::ImageSpec& spec, const ImageLimits& limits) {
+  const auto size =
+      concat(spec.width, " x ", spec.height, " pixels of ", spec.nchannels, " channels");
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
+    refuse(file, concat("expected at least one pixel and channel, found ", size));
+  }
+  if (spec.width > limits.max_side || spec.height > limits.max_side) {
+    refuse(file, concat("expected at most ", limits.max_side, " pixels a side, found ", size));
+  }
+  if (spec.nchannels > limits.max_channels) {
+    refuse(file, concat("expected at most ", limits.max_channels, " channels, found ", size));
+  }
+  if (std::int64_t{spec.width} * spec.height * spec.nchannels > limits.max_values) {
+    refuse(file, concat("expected at most ", limits.max_values, " values in all, found ", size));
+  }
+}
+
+void check_kind(const path& file, const OIIO::ImageSpec& spec) {
+  if (spec.deep || spec.depth > 1) refuse(file, "expected a flat image, found a deep one");
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height) {
+    refuse(file,
+           concat("expected all of the picture, found ", spec.width, " x ", spec.height,
+                  " pixels at ", spec.x, ", ", spec.y, " of a display window of ", spec.full_width,
+                  " x ", spec.full_height, " at ", spec.full_x, ", ", spec.full_y));
+  }
+}
+
+void read_into(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc type, void* pixels) {
+  if (!input.read_image(0, 0, 0, -1, type, pixels)) {
+    refuse(file, concat("is damaged or cut short: ", input.geterror()));
+  }
+}
+
+/// Integers as fractions of the largest: divided, not multiplied by a rounded 1/255.
+template <class T>
+void read_integers(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc type,
+                   std::vector<float>& out) {
+  std::vector<T> values(out.size());
+  read_into(input, file, type, values.data());
+  constexpr auto kLargest = static_cast<float>(std::numeric_limits<T>::max());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out[i] = static_cast<float>(values[i]) / kLargest;
+  }
+}
+
+void read_pixels(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc type,
+                 std::vector<float>& out) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+      return read_integers<std::uint8_t>(input, file, type, out);
+    case OIIO::TypeDesc::UINT16:
+      return read_integers<std::uint16_t>(input, file, type, out);
+    case OIIO::TypeDesc::HALF:
+    case OIIO::TypeDesc::FLOAT:
+    case OIIO::TypeDesc::DOUBLE:
+      return read_into(input, file, OIIO::TypeDesc::FLOAT, out.data());
+    default:
+      refuse(file, concat("expected 8 or 16 bit integers or floats, found ", type.c_str()));
+  }
+}
+
+void check_finite(const path& file, const Image& image) {
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    if (std::isfinite(image.pixels[i])) continue;
+    const auto channels = static_cast<std::size_t>(image.channels);
+    const auto width = static_cast<std::size_t>(image.width);
+    refuse(file, concat("expected finite values, found ",
+                        image.pixels[i] != image.pixels[i] ? "NaN" : "infinity", " at column ",
+                        i / channels % width + 1, ", row ", i / channels / width + 1, ", channel ",
+                        i % channels + 1));
+  }
+}
+
+}  // namespace
+
+Image read_image(const path& file, const ImageLimits& limits) {
+  std::string format;
+  {
+    const MappedFile mapped(file);
+    format = format_of(mapped.bytes());
+    if (format.empty()) {
+      refuse(file, concat("expected a PNG, TIFF or OpenEXR image, found ",
+                          mapped.bytes().empty()
+                              ? "an empty file"
+                              : "a file that begins with " + quoted(mapped.bytes().substr(0, 8))));
+    }
+    if (format == "png" && !png_is_whole(mapped.bytes())) {
+      refuse(file, "is damaged or cut short: the PNG's end is missing");
+    }
+  }
+  OIIO::ImageSpec spec;
+  const auto input = open(file, format, spec);
+  check_kind(file, spec);
+  check_size(file, spec, limits);
+  Image image{spec.width, spec.height, spec.nchannels, spec.alpha_channel, {}};
+  image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                      static_cast<std::size_t>(spec.nchannels));
+  read_pixels(*input, file, spec.format, image.pixels);
+  check_finite(file, image);
+  return image;
+}
+
+std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
+  const bool sizes = width > 0 && height > 0 && channels > 0 && channels <= 4;
+  if (!sizes || pixels.size() != static_cast<std::size_t>(width) *
+                                     static_cast<std::size_t>(height) *
+                                     static_cast<std::size_t>(channels)) {
+    throw InvalidInput(concat("a PNG of ", width, " x ", height, " pixels and ", channels,
+                              " channels cannot hold ", pixels.size(), " values"));
+  }
+  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
+  spec.alpha_channel = channels % 2 == 0 ? channels - 1 : -1;
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  auto output = OIIO::ImageOutput::create("png");
+  if (!output) throw Error(ExitCode::kBug, concat("no PNG writer: ", OIIO::geterror()));
+  output->set_ioproxy(&memory);
+  if (!output->open("memory.png", spec) ||
+      !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close()) {
+    throw Error(ExitCode::kBug, concat("PNG encoding failed: ", output->geterror()));
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace crowdface

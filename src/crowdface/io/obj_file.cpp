@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/obj_file.h"
+
+#include <tiny_obj_loader.h>
+
+#include <istream>
+#include <map>
+#include <streambuf>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// Reads a text that lies in memory, without copying it.
+class ViewBuffer : public std::streambuf {
+ public:
+  explicit ViewBuffer(std::string_view text) {
+    char* begin = const_cast<char*>(text.data());  // a get area is never written to
+    setg(begin, begin, begin + text.size());
+  }
+};
+
+/// Material files are none of the mesh reader's business.
+class NoMaterials : public tinyobj::MaterialReader {
+ public:
+  bool operator()(const std::string&, std::vector<tinyobj::material_t>*,
+                  std::map<std::string, int>*, std::string*, std::string*) override {
+    return true;
+  }
+};
+
+std::uint32_t to_index(int index) { return index < 0 ? kNoIndex : static_cast<std::uint32_t>(index); }
+
+bool all_none(const std::vector<std::uint32_t>& indices) {
+  for (const std::uint32_t index : indices) {
+    if (index != kNoIndex) return false;
+  }
+  return true;
+}
+
+void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
+  Topology& topology = result.topology;
+  for (const tinyobj::shape_t& shape : shapes) {
+    for (const unsigned char corners : shape.mesh.num_face_vertices) {
+      topology.face_offsets.push_back(topology.face_offsets.back() + corners);
+    }
+    for (const tinyobj::index_t& corner : shape.mesh.indices) {
+      topology.corner_vertices.push_back(to_index(corner.vertex_index));
+      topology.corner_uvs.push_back(to_index(corner.texcoord_index));
+      result.corner_normals.push_back(to_index(corner.normal_index));
+    }
+  }
+  if (all_none(topology.corner_uvs)) topology.corner_uvs.clear();
+  if (all_none(result.corner_normals)) result.corner_normals.clear();
+}
+
+/// The loader must have seen what the scan saw; if not, one of the two is wrong about the file.
+void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const ObjFile& result) {
+  const Topology& topology = result.topology;
+  const auto loaded = static_cast<Index>(attributes.vertices.size() / 3);
+  bool in_range = true;
+  for (const std::uint32_t vertex : topology.corner_vertices) {
+    in_range = in_range && vertex < static_cast<std::uint64_t>(scan.positions.rows());
+  }
+  for (const std::uint32_t uv : topology.corner_uvs) {
+    in_range = in_range && (uv == kNoIndex || uv < static_cast<std::uint64_t>(scan.uvs.rows()));
+  }
+  if (loaded != scan.positions.rows() || topology.face_count() != scan.face_count ||
+      topology.corner_count() != scan.corner_count || !in_range) {
+    throw InvalidInput(concat(result.path.string(), ": expected ", scan.positions.rows(),
+                              " vertices and ", scan.face_count, " faces, but the loader made ",
+                              loaded, " and ", topology.face_count(), " of it"));
+  }
+}
+
+}  // namespace
+
+ObjFile read_obj(const std::filesystem::path& path) {
+  ObjFile result;
+  result.path = path;
+  result.file = MappedFile(path);
+  ObjScan scan = scan_obj(result.file.bytes(), path.string());
+
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::string warning, error;
+  ViewBuffer buffer(result.file.bytes());
+  std::istream stream(&buffer);
+  NoMaterials no_materials;
+  constexpr bool kTriangulate = false, kDefaultColours = false;
+  const bool loaded = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
+                                       &no_materials, kTriangulate, kDefaultColours);
+  if (!loaded) throw InvalidInput(concat(path.string(), ": cannot be loaded: ", error));
+
+  take_faces(shapes, result);
+  result.topology.vertex_count = scan.positions.rows();
+  compare(scan, attributes, result);
+  result.positions = std::move(scan.positions);  // correctly rounded, which the loader's are not
+  result.uvs = std::move(scan.uvs);
+  result.vertex_spans = std::move(scan.vertex_spans);
+  result.normal_spans = std::move(scan.normal_spans);
+  result.material_libraries = std::move(scan.material_libraries);
+  result.materials = std::move(scan.materials);
+  return result;
+}
+
+std::vector<std::string> face_materials(const ObjFile& file) {
+  std::vector<std::string> names(static_cast<std::size_t>(file.topology.face_count()));
+  for (std::size_t m = 0; m < file.materials.size(); ++m) {
+    const auto begin = static_cast<std::size_t>(file.materials[m].first_face);
+    const auto end = m + 1 < file.materials.size()
+                         ? static_cast<std::size_t>(file.materials[m + 1].first_face)
+                         : names.size();
+    for (std::size_t f = begin; f < end; ++f) names[f] = file.materials[m].name;
+  }
+  return names;
+}
+
+}  // namespace crowdface

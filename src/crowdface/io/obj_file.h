@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crowdface/core/file.h"
+#include "crowdface/io/obj_scan.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// An OBJ file as read: its mesh, and its text with the places where the numbers stand, so that it
+/// can be written again with other positions and nothing else changed. The text stays mapped.
+struct ObjFile {
+  std::filesystem::path path;
+  MappedFile file;
+  Topology topology;                          ///< quads and n-gons kept, vertex order kept
+  Positions positions;                        ///< #V by 3, in file units
+  TextureCoordinates uvs;                     ///< #T by 2
+  std::vector<std::uint32_t> corner_normals;  ///< #C rows of `vn` or kNoIndex; empty if no `vn`
+  std::vector<TextSpan> vertex_spans;         ///< #V
+  std::vector<TextSpan> normal_spans;         ///< #N
+  std::vector<std::string> material_libraries;
+  std::vector<MaterialRange> materials;
+};
+
+/// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj).
+/// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
+ObjFile read_obj(const std::filesystem::path& path);
+
+/// The material of every face, #F; empty text where none is named.
+std::vector<std::string> face_materials(const ObjFile& file);
+
+}  // namespace crowdface

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// Writes the target's own file with other positions: every byte but the x y z of `v` lines (and of
+/// `vn` lines, if there are any) is the target's. Numbers are the shortest that read back as the
+/// same single-precision value. A normal is recomputed from the faces whose corners use it; one that
+/// no face uses stays as it is.
+/// \param topology   the faces, which all heads share; only read if the file has normals.
+/// \param positions  #V by 3, in the file's unit.
+/// \return           the digest of the bytes written.
+/// \throws InvalidInput if positions are not #V by 3 or not finite; CannotCreate, IoError.
+Digest write_obj_like(const ObjFile& target, const Topology& topology, const Positions& positions,
+                      const std::filesystem::path& path);
+
+/// Writes a mesh of our own making: positions, texture coordinates, faces.
+/// \param comment  one line for the file's head, may be empty.
+void write_obj(const Mesh& mesh, const std::string& comment, const std::filesystem::path& path);
+
+}  // namespace crowdface

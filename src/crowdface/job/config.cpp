@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/config.h"
+
+namespace crowdface {
+
+std::vector<std::string> Config::region_names() const {
+  return regions.names.empty() ? std::vector<std::string>{"all"} : regions.names;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/crowd_directory.h"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <vector>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);  // a file that is not there is no error; a folder goes only if empty
+  if (error && error != std::errc::directory_not_empty) {
+    throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
+  }
+}
+
+/// The ids an old plan names; lines that cannot be read name none.
+std::vector<std::string> ids_of(const std::string& plan) {
+  std::vector<std::string> ids;
+  for (std::size_t begin = 0; begin < plan.size();) {
+    const std::size_t end = std::min(plan.find('\n', begin), plan.size());
+    const auto line = nlohmann::json::parse(plan.substr(begin, end - begin), nullptr, false);
+    if (line.is_object() && line.contains("id") && line["id"].is_string()) {
+      const auto id = line["id"].get<std::string>();
+      if (id.find('/') == id.npos) ids.push_back(id);
+    }
+    begin = end + 1;
+  }
+  return ids;
+}
+
+bool is_sheet(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with("sheet_") && name.ends_with(".png");
+}
+
+/// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
+/// stay: they are the input's own, and written anew if they are needed.)
+void remove_crowd(const CrowdDirectory& directory) {
+  std::error_code ignored;
+  if (fs::exists(directory.plan(), ignored)) {
+    for (const std::string& id : ids_of(read_file(directory.plan()))) {
+      remove_file(directory.mesh(id));
+      remove_file(directory.render(id));
+    }
+  }
+  std::vector<fs::path> sheets;
+  for (const auto& entry : fs::directory_iterator(directory.sheets(), ignored)) {
+    if (is_sheet(entry.path())) sheets.push_back(entry.path());
+  }
+  for (const fs::path& sheet : sheets) remove_file(sheet);
+  for (const fs::path& path : {directory.sheets(), directory.renders(), directory.meshes(),
+                               directory.report(), directory.timings(), directory.table(),
+                               directory.plan(), directory.log(), directory.config()}) {
+    remove_file(path);
+  }
+}
+
+/// The first line in which two texts differ, from 1.
+std::size_t first_different_line(const std::string& a, const std::string& b) {
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i) {
+    if (a[i] == '\n') ++line;
+  }
+  return line;
+}
+
+}  // namespace
+
+fs::path CrowdDirectory::sheet(std::size_t page) const {
+  std::string number = concat(page);
+  if (number.size() < 3) number.insert(0, 3 - number.size(), '0');
+  return sheets() / concat("sheet_", number, ".png");
+}
+
+void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                          Replace replace) {
+  make_directories(directory.root);
+  std::error_code ignored;
+  if (fs::exists(directory.config(), ignored)) {
+    const std::string old = read_file(directory.config());
+    if (old != effective_config) {
+      if (replace == Replace::kRefuse) {
+        throw UsageError(concat(directory.root.string(),
+                                ": holds another config's crowd (its config.yaml differs from this "
+                                "run's at line ",
+                                first_different_line(old, effective_config),
+                                "); choose another folder with --out, or replace it with --force"));
+      }
+      remove_crowd(directory);
+    }
+  }
+  // Written at once: a folder that cannot be written to is refused before the heavy work.
+  write_file(directory.config(), effective_config);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace crowdface {
+
+/// Where things lie in a crowd's folder (docs/crowd-directory.md).
+struct CrowdDirectory {
+  std::filesystem::path root;
+
+  std::filesystem::path config() const { return root / "config.yaml"; }
+  std::filesystem::path plan() const { return root / "plan.jsonl"; }
+  std::filesystem::path table() const { return root / "crowd.csv"; }
+  std::filesystem::path report() const { return root / "report.json"; }
+  std::filesystem::path timings() const { return root / "timings.json"; }
+  std::filesystem::path log() const { return root / "crowdface.log"; }
+  std::filesystem::path meshes() const { return root / "meshes"; }
+  std::filesystem::path renders() const { return root / "renders"; }
+  std::filesystem::path sheets() const { return root / "sheets"; }
+  std::filesystem::path mesh(const std::string& id) const { return meshes() / (id + ".obj"); }
+  std::filesystem::path render(const std::string& id) const { return renders() / (id + ".png"); }
+  /// Sheet number `page`, from 1.
+  std::filesystem::path sheet(std::size_t page) const;
+};
+
+enum class Replace { kRefuse, kForce };
+
+/// Makes the folder ready for this config's crowd: creates it, refuses one that holds another
+/// config's crowd, or (kForce) removes that crowd's files first, and no others.
+/// \param effective_config  the text that will stand in config.yaml.
+/// \throws UsageError if the folder holds another crowd; CannotCreate, IoError.
+void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                          Replace replace);
+
+}  // namespace crowdface

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/generate.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/job/config_writer.h"
+#include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/pipeline.h"
+#include "crowdface/job/report.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs one stage and notes how long it took.
+template <class Work>
+auto timed(StageSeconds& stages, const char* stage, const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto note = [&] {
+    stages.emplace_back(
+        stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  };
+  if constexpr (std::is_void_v<decltype(work())>) {
+    work();
+    note();
+  } else {
+    auto result = work();
+    note();
+    return result;
+  }
+}
+
+/// The log of a crowd stands in its folder, for as long as the run lasts.
+class CrowdLog {
+ public:
+  explicit CrowdLog(const fs::path& path) { add_log_file(path); }
+  ~CrowdLog() { close_log_file(); }
+  CrowdLog(const CrowdLog&) = delete;
+  CrowdLog& operator=(const CrowdLog&) = delete;
+};
+
+void open_directory(const Job& job, const CrowdDirectory& directory, Replace replace) {
+  open_crowd_directory(directory, effective_config(job.config, directory.root), replace);
+}
+
+void write_plan(const Job& job, const CrowdDirectory& directory, const std::vector<Recipe>& crowd) {
+  write_file(directory.plan(), format_plan(job, crowd));
+  write_file(directory.table(), format_csv(crowd, job.names));
+}
+
+/// Copies material files and textures of all heads that are targets. \return warnings.
+std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& directory,
+                                        const std::vector<Recipe>& crowd) {
+  std::vector<bool> is_target(job.inputs.files.size());
+  for (const Recipe& recipe : crowd) is_target[static_cast<std::size_t>(recipe.target)] = true;
+  std::vector<std::string> warnings;
+  std::vector<fs::path> copied;
+  for (std::size_t h = 0; h < job.inputs.files.size(); ++h) {
+    if (!is_target[h]) continue;
+    const ObjFile& file = job.inputs.files[h];
+    MaterialFiles found = find_material_files(file.path, file.material_libraries);
+    warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+    for (const MaterialFile& material : found.files) {
+      if (std::find(copied.begin(), copied.end(), material.relative) != copied.end()) continue;
+      copied.push_back(material.relative);
+      const fs::path to = directory.meshes() / material.relative;
+      make_directories(to.parent_path());
+      write_file(to, MappedFile(material.from).bytes());
+    }
+  }
+  for (const std::string& warning : warnings) log_warning(warning);
+  return warnings;
+}
+
+/// Builds, writes and renders every face; several at once.
+std::vector<FaceFiles> build_faces(const Job& job, const Prepared& prepared,
+                                   const CrowdDirectory& directory, const CrowdRenders* renders,
+                                   const std::vector<Recipe>& crowd) {
+  if (job.config.output.obj) make_directories(directory.meshes());
+  if (renders != nullptr) make_directories(directory.renders());
+  std::vector<FaceFiles> files(crowd.size());
+  Progress progress("faces", crowd.size());
+  parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
+    throw_if_interrupted();
+    const Recipe& recipe = crowd[static_cast<std::size_t>(i)];
+    const Positions positions = build_face(job, prepared, recipe);
+    if (job.config.output.obj) {
+      const ObjFile& target = job.inputs.files[static_cast<std::size_t>(recipe.target)];
+      const Digest digest = write_obj_like(target, job.inputs.faces.topology, positions,
+                                           directory.mesh(recipe.id));
+      files[static_cast<std::size_t>(i)].mesh_digest = digest.hex();
+    }
+    if (renders != nullptr) write_file(directory.render(recipe.id), renders->render_png(positions));
+    progress.step();
+  });
+  return files;
+}
+
+std::vector<std::string> ids_of(const std::vector<Recipe>& crowd) {
+  std::vector<std::string> ids;
+  for (const Recipe& recipe : crowd) ids.push_back(recipe.id);
+  return ids;
+}
+
+std::string sheet_title(const Config& config, std::size_t faces) {
+  return concat(config.crowd.name, " · ", faces, faces == 1 ? " face" : " faces", " · seed ",
+                config.crowd.seed);
+}
+
+void tell_dry_run(const Job& job) {
+  const Config& config = job.config;
+  const std::uint64_t faces = config.crowd.count + config.recipes.size();
+  std::uint64_t bytes = 0;
+  for (const ObjFile& file : job.inputs.files) bytes += file.file.bytes().size();
+  bytes = bytes / job.inputs.files.size() * (config.output.obj ? faces : 0);
+  log_info(concat("dry run: ", faces, " faces of ", job.inputs.faces.topology.vertex_count,
+                  " vertices, about ", format_fixed(static_cast<double>(bytes) / 1e6, 1),
+                  " MB of meshes, ", config.output.contact_sheet ? faces : 0,
+                  " renders into ", config.output.directory.string(), "; nothing was written"));
+}
+
+}  // namespace
+
+void generate(const fs::path& config_file, const ConfigOverrides& overrides,
+              const GenerateOptions& options) {
+  StageSeconds stages;
+  const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
+  if (options.dry_run) return tell_dry_run(job);
+  const CrowdDirectory directory{job.config.output.directory};
+  open_directory(job, directory, options.replace);
+  const CrowdLog log(directory.log());
+  const Prepared prepared = timed(stages, "prepare", [&] {
+    return prepare(job.config, job.inputs, job.smoothing, options.cache);
+  });
+  const Cast crowd_cast = timed(stages, "cast", [&] { return cast(job, prepared); });
+  const std::vector<Recipe>& crowd = crowd_cast.crowd;
+  write_plan(job, directory, crowd);
+
+  std::vector<std::string> warnings = job.inputs.warnings;
+  if (job.config.output.obj) {
+    for (std::string& text : copy_materials(job, directory, crowd)) {
+      warnings.push_back(std::move(text));
+    }
+  }
+  const auto& sheet = job.config.output.contact_sheet;
+  std::unique_ptr<CrowdRenders> renders;
+  if (sheet) renders = std::make_unique<CrowdRenders>(job.config, *sheet, job.inputs);
+  const std::vector<FaceFiles> files = timed(stages, "build", [&] {
+    return build_faces(job, prepared, directory, renders.get(), crowd);
+  });
+  std::size_t pages = 0;
+  if (sheet && !crowd.empty()) {
+    pages = timed(stages, "sheets", [&] {
+      return write_sheets(directory, *sheet, sheet_title(job.config, crowd.size()), ids_of(crowd),
+                          [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
+    });
+  }
+  write_file(directory.report(), format_report(job, crowd_cast, files, pages, warnings));
+  write_file(directory.timings(), format_timings(stages, crowd.size(), prepared.from_cache));
+  log_info(concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ",
+                  directory.root.string(),
+                  pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : ""));
+}
+
+void plan(const fs::path& config_file, const ConfigOverrides& overrides,
+          const GenerateOptions& options) {
+  const Job job = load_job(config_file, overrides);
+  if (options.dry_run) return tell_dry_run(job);
+  const CrowdDirectory directory{job.config.output.directory};
+  open_directory(job, directory, options.replace);
+  const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, options.cache);
+  const Cast crowd_cast = cast(job, prepared);
+  write_plan(job, directory, crowd_cast.crowd);
+  log_info(concat(crowd_cast.crowd.size(), " recipes in ", directory.plan().string()));
+}
+
+void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set) {
+  const CrowdDirectory directory{crowd_directory};
+  ConfigOverrides overrides;
+  overrides.set = set;
+  const Job job = load_job(directory.config(), overrides);
+  if (!job.config.output.contact_sheet) {
+    throw UsageError(concat(directory.config().string(),
+                            ": this crowd has no contact sheet; ask for one with --set "
+                            "output.contact_sheet='{columns: 6}'"));
+  }
+  std::vector<std::string> ids;
+  for (const PlanLine& line : read_plan(directory.plan(), job.names)) ids.push_back(line.recipe.id);
+  const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
+  const CrowdRenders renders(job.config, sheet, job.inputs);
+  const std::size_t pages =
+      write_sheets(directory, sheet, sheet_title(job.config, ids.size()), ids,
+                   [&](std::size_t i) {
+                     return renders.render(read_obj(directory.mesh(ids[i])).positions);
+                   });
+  log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "crowdface/job/config_reader.h"
+#include "crowdface/job/crowd_directory.h"
+
+namespace crowdface {
+
+struct GenerateOptions {
+  std::filesystem::path cache;          ///< folder of prepared heads
+  Replace replace = Replace::kRefuse;   ///< what to do about another config's crowd in the folder
+  bool dry_run = false;                 ///< say what would be written, and write nothing
+};
+
+/// The whole job: read, prepare, cast, blend, write, render, report. Nothing is written before all
+/// inputs are checked. \throws Error.
+void generate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
+              const GenerateOptions& options);
+
+/// Casting only: writes config.yaml, plan.jsonl and crowd.csv into the crowd's folder.
+void plan(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
+          const GenerateOptions& options);
+
+/// The contact sheets of a finished crowd again, from its meshes.
+/// \param set  changes to the crowd's own config, such as "output.contact_sheet.columns=8".
+void remake_sheets(const std::filesystem::path& crowd_directory,
+                   const std::vector<std::string>& set);
+
+}  // namespace crowdface

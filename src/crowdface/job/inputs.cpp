@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/job/alignment_check.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+/// Raised whenever a change of the code alters the bytes of a mesh.
+constexpr int kBlendVersion = 1;
+constexpr double kUvTolerance = 1e-4;
+
+std::vector<ObjFile> read_heads(const Config& config, Problems& problems) {
+  const std::size_t count = config.faces.files.size();
+  std::vector<ObjFile> files(count);
+  std::vector<std::optional<Error>> errors(count);
+  Progress progress("reading heads", count);
+  parallel_for_each(static_cast<Index>(count), [&](Index h) {
+    throw_if_interrupted();
+    const auto i = static_cast<std::size_t>(h);
+    try {
+      files[i] = read_obj(config.faces.files[i]);
+    } catch (const Error& error) {
+      errors[i] = error;
+    }
+    progress.step();
+  });
+  for (const auto& error : errors) {
+    if (error) problems.add(*error);
+  }
+  return files;
+}
+
+/// The first texture coordinate that differs from the first head's; empty if none does.
+std::string uv_difference(const TextureCoordinates& expected, const TextureCoordinates& found) {
+  if (expected.rows() != found.rows()) {
+    return concat("expected ", expected.rows(), " texture coordinates, found ", found.rows());
+  }
+  for (Index i = 0; i < expected.rows(); ++i) {
+    if ((expected.row(i) - found.row(i)).cwiseAbs().maxCoeff() > kUvTolerance) {
+      return concat("texture coordinate ", i + 1, ": expected ", expected(i, 0), " ",
+                    expected(i, 1), ", found ", found(i, 0), " ", found(i, 1));
+    }
+  }
+  return {};
+}
+
+void compare_with_first(const std::vector<ObjFile>& files, Problems& problems) {
+  for (const ObjFile& file : files) {
+    std::string difference = first_difference(files[0].topology, file.topology);
+    if (difference.empty()) difference = uv_difference(files[0].uvs, file.uvs);
+    if (difference.empty()) continue;
+    problems.add(ExitCode::kBadData, concat(file.path.string(), ": not the same mesh as ",
+                                            files[0].path.string(), ": ", difference));
+  }
+}
+
+/// Moves the meshes out of the files; the topology is kept once.
+FaceSet take_faces(const Config& config, std::vector<ObjFile>& files) {
+  FaceSet faces;
+  faces.topology = std::move(files[0].topology);
+  faces.uvs = std::move(files[0].uvs);
+  for (std::size_t h = 0; h < files.size(); ++h) {
+    faces.heads.push_back({config.faces.names[h], std::move(files[h].positions)});
+    files[h].topology = Topology{};
+    files[h].uvs.resize(0, 2);
+  }
+  return faces;
+}
+
+double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
+  const std::uint32_t skin = inputs.components.largest();
+  double sum = 0;
+  for (const Head& head : inputs.faces.heads) {
+    sum += rms_edge_length(inputs.adjacency, inputs.components, skin, head.positions);
+  }
+  return sum / static_cast<double>(inputs.faces.heads.size()) * mm_per(config.faces.units);
+}
+
+std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
+  if (config.smoothing.max_iterations) return *config.smoothing.max_iterations;
+  const std::uint64_t level = iterations_of_size(config.smoothing.operator_kind,
+                                                 config.smoothing.max_size_mm, edge_length_mm);
+  return std::max<std::uint64_t>(level, 1);
+}
+
+RegionWeights load_regions(const Config& config, const FaceSet& faces) {
+  const auto names = config.region_names();
+  if (config.regions.names.empty()) return whole_head(faces.topology);
+  return region_weights(faces.topology, faces.uvs, load_masks(config.regions.mask),
+                        static_cast<Index>(names.size()));
+}
+
+template <class T>
+Digest digest_of(const T* data, Index size) {
+  return Hasher().add_array(std::span<const T>(data, static_cast<std::size_t>(size))).digest();
+}
+
+void compute_digests(Inputs& inputs) {
+  const Topology& topology = inputs.faces.topology;
+  inputs.topology_digest = Hasher()
+                               .add(topology.vertex_count)
+                               .add_array(std::span(topology.corner_vertices))
+                               .add_array(std::span(topology.face_offsets))
+                               .digest();
+  inputs.head_digests.resize(inputs.faces.heads.size());
+  parallel_for_each(static_cast<Index>(inputs.faces.heads.size()), [&](Index h) {
+    const Positions& positions = inputs.faces.heads[static_cast<std::size_t>(h)].positions;
+    inputs.head_digests[static_cast<std::size_t>(h)] =
+        digest_of(positions.data(), positions.size());
+  });
+  inputs.mask_digest = digest_of(inputs.regions.alpha.data(), inputs.regions.alpha.size());
+}
+
+void warn(Inputs& inputs, std::string text) {
+  log_warning(text);
+  inputs.warnings.push_back(std::move(text));
+}
+
+}  // namespace
+
+std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
+  Inputs inputs;
+  inputs.files = read_heads(config, problems);
+  if (!problems.empty()) return std::nullopt;
+  compare_with_first(inputs.files, problems);
+  if (!problems.empty()) return std::nullopt;
+
+  inputs.materials = face_materials(inputs.files[0]);
+  inputs.faces = take_faces(config, inputs.files);
+  inputs.adjacency = build_adjacency(inputs.faces.topology);
+  inputs.components = find_components(inputs.adjacency);
+  for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
+    warn(inputs, std::move(text));
+  }
+  inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
+  try {
+    inputs.regions = load_regions(config, inputs.faces);
+    inputs.max_level = max_level_of(config, inputs.edge_length_mm);
+  } catch (const Error& error) {
+    problems.add(error);
+    return std::nullopt;
+  }
+  if (inputs.regions.uncovered_vertices > 0) {
+    warn(inputs, concat(inputs.regions.uncovered_vertices,
+                        " vertices are covered by no mask and go to the last region, ",
+                        config.region_names().back()));
+  }
+  compute_digests(inputs);
+  return inputs;
+}
+
+Digest settings_digest(const Config& config, const Inputs& inputs) {
+  Hasher hasher;
+  hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
+  for (std::size_t h = 0; h < inputs.head_digests.size(); ++h) {
+    hasher.add(config.faces.names[h]).add(inputs.head_digests[h]);
+  }
+  for (const std::string& region : config.region_names()) hasher.add(region);
+  hasher.add(static_cast<int>(config.smoothing.boundary))
+      .add(static_cast<int>(config.smoothing.operator_kind))
+      .add(static_cast<int>(config.smoothing.levels));
+  // Only the fitted levels depend on L_max; exact ones do not.
+  if (config.smoothing.levels == Levels::kCubic) hasher.add(inputs.max_level);
+  return hasher.digest();
+}
+
+}  // namespace crowdface

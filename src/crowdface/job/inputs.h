@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/job/config.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/region/region_weights.h"
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// Everything a job reads, checked: heads, their topology, masks, and what follows from them.
+struct Inputs {
+  FaceSet faces;
+  std::vector<ObjFile> files;          ///< #heads; topology and positions have moved to `faces`
+  std::vector<std::string> materials;  ///< #F, the first head's material of each face
+  Adjacency adjacency;
+  Components components;
+  RegionWeights regions;
+  double edge_length_mm = 0;         ///< rms edge length of the skin, averaged over the heads
+  std::uint64_t max_level = 0;       ///< L_max
+  std::vector<Digest> head_digests;  ///< #heads, of the positions used
+  Digest topology_digest;
+  Digest mask_digest;                 ///< of α
+  std::vector<std::string> warnings;  ///< in a fixed order; also logged
+};
+
+/// Reads heads (in parallel) and masks and checks them. Every problem is added, a file at a time;
+/// warnings are logged and kept.
+/// \return nothing if there is any problem.
+std::optional<Inputs> load_inputs(const Config& config, Problems& problems);
+
+/// The hash of what a mesh depends on beside its recipe: topology, heads, masks, and the smoothing
+/// settings. Each recipe of a plan carries it.
+Digest settings_digest(const Config& config, const Inputs& inputs);
+
+}  // namespace crowdface

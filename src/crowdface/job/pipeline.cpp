@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/pipeline.h"
+
+#include "crowdface/blend/blend.h"
+#include "crowdface/core/text.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+LevelScale level_scale(const Config& config, const Inputs& inputs) {
+  return {config.smoothing.operator_kind, inputs.max_level, inputs.edge_length_mm};
+}
+
+/// A smoothness must not ask for more than L_max, which is known only once the heads are read.
+void check_smoothness(const SmoothnessDistribution& distribution, const std::string& where,
+                      const Config& config, const Inputs& inputs, Problems& problems) {
+  const LevelScale scale = level_scale(config, inputs);
+  const double high = distribution.range.high;
+  std::string asked;
+  double level = 0;
+  if (distribution.unit == SmoothnessDistribution::Unit::kSize && high > 0) {
+    level = static_cast<double>(iterations_of_size(scale.kind, high, scale.edge_length_mm));
+    asked = concat("a size of ", high, " mm, which is ", level, " iterations");
+  } else if (distribution.unit == SmoothnessDistribution::Unit::kIterations) {
+    level = high;
+    asked = concat(high, " iterations");
+  }
+  if (level > static_cast<double>(inputs.max_level)) {
+    problems.add(ExitCode::kUsage,
+                 concat(config.file.string(), ": ", where, ": expected at most ", inputs.max_level,
+                        " iterations (smoothing.max_size or max_iterations), found ", asked));
+  }
+}
+
+void check_levels(const Config& config, const Inputs& inputs, Problems& problems) {
+  const auto names = config.region_names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    check_smoothness(config.sampling.regions[k].smoothness,
+                     concat("sampling.smoothness (", names[k], ')'), config, inputs, problems);
+  }
+  for (const HandRecipe& recipe : config.recipes) {
+    for (const HandRecipe::Region& region : recipe.regions) {
+      if (!region.smoothness) continue;
+      check_smoothness(*region.smoothness, concat("recipe ", recipe.id), config, inputs, problems);
+    }
+  }
+}
+
+std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& head_distances) {
+  const auto heads = static_cast<Index>(config.faces.names.size());
+  std::vector<PlanePoint> anchors(static_cast<std::size_t>(heads), PlanePoint::Zero());
+  switch (config.plane.layout) {
+    case Layout::kCircle:
+      anchors = circle_layout(heads);
+      break;
+    case Layout::kGrid:
+      anchors = grid_layout(heads);
+      break;
+    case Layout::kSimilarity:
+      anchors = similarity_layout(head_distances);
+      break;
+    case Layout::kManual:
+      break;  // every head has an anchor of its own below
+  }
+  for (const auto& [head, anchor] : config.plane.anchors) {
+    anchors[static_cast<std::size_t>(head)] = anchor;
+  }
+  return anchors;
+}
+
+}  // namespace
+
+std::optional<Job> load_job(const std::filesystem::path& config_file,
+                            const ConfigOverrides& overrides, Problems& problems) {
+  std::optional<Config> config = read_config(config_file, overrides, problems);
+  if (!config) return std::nullopt;
+  std::optional<Inputs> inputs = load_inputs(*config, problems);
+  if (!inputs) return std::nullopt;
+  check_levels(*config, *inputs, problems);
+  if (!problems.empty()) return std::nullopt;
+  const SmoothingOperator smoothing(inputs->adjacency, config->smoothing.boundary,
+                                    config->smoothing.operator_kind);
+  const PlanNames names = {config->faces.names, config->region_names()};
+  const Digest settings = settings_digest(*config, *inputs);
+  return Job{std::move(*config), std::move(*inputs), smoothing, names, settings};
+}
+
+Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides) {
+  Problems problems;
+  std::optional<Job> job = load_job(config_file, overrides, problems);
+  problems.throw_if_any();
+  return std::move(*job);
+}
+
+Cast cast(const Job& job, const Prepared& prepared) {
+  const Config& config = job.config;
+  const FaceSpace space(job.inputs.faces, job.inputs.regions, prepared.samples,
+                        prepared.trajectories, job.inputs.max_level, mm_per(config.faces.units));
+  Cast result;
+  result.head_distances = space.head_distances();
+  result.anchors = lay_out(config, result.head_distances);
+  result.crowd = cast_crowd({config.crowd.name, config.crowd.count, config.crowd.seed,
+                             result.anchors, job.names.regions, config.sampling, config.recipes,
+                             config.blending.normalization, level_scale(config, job.inputs)});
+  space.find_nearest(result.crowd);
+  return result;
+}
+
+Positions build_face(const Job& job, const Prepared& prepared, const Recipe& recipe) {
+  return job.config.smoothing.levels == Levels::kCubic
+             ? blend_cubic(job.inputs.faces, prepared.fits, job.inputs.regions, recipe)
+             : blend_exact(job.inputs.faces, job.smoothing, job.inputs.regions, recipe);
+}
+
+std::string format_plan(const Job& job, const std::vector<Recipe>& crowd) {
+  std::string plan;
+  for (const Recipe& recipe : crowd) {
+    plan += format_recipe(recipe, job.names, job.settings);
+    plan += '\n';
+  }
+  return plan;
+}
+
+}  // namespace crowdface

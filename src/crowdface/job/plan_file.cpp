@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/plan_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string& name_at(const std::vector<std::string>& names, Index i) {
+  return names[static_cast<std::size_t>(i)];
+}
+
+/// Distances are for reading: four decimals, a tenth of a micrometre.
+double rounded_mm(double mm) { return std::round(mm * 1e4) / 1e4; }
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
+  Json json;
+  json["position"] = region.position ? Json({region.position->x(), region.position->y()}) : Json();
+  json["weights"] = Json::object();
+  for (const SourceWeight& source : region.weights) {
+    json["weights"][name_at(names.heads, source.head)] = source.weight;
+  }
+  json["smoothness"] = region.smoothness;
+  json["iterations"] = region.iterations;
+  json["extrapolation"] = region.extrapolation;
+  return json;
+}
+
+/// Reads the fields of one line and says where they are wrong.
+class LineReader {
+ public:
+  LineReader(const PlanNames& names, const std::string& place) : names_(names), place_(place) {}
+
+  PlanLine read(std::string_view line) const {
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object()) fail("line", "a JSON object", "something else");
+    PlanLine result;
+    Recipe& recipe = result.recipe;
+    recipe.id = text(json, "id");
+    if (const Json& index = member(json, "index"); !index.is_null()) {
+      recipe.index = whole(index, "index");
+    }
+    if (const Json& family = member(json, "family"); !family.is_null()) {
+      recipe.family = text(json, "family");
+    }
+    recipe.target = head(text(json, "target"), "target");
+    recipe.attempt = static_cast<std::uint32_t>(whole(member(json, "attempt"), "attempt"));
+    const Json& regions = member(json, "regions");
+    if (!regions.is_object() || regions.size() != names_.regions.size()) {
+      fail("regions", concat("an object of ", names_.regions.size(), " regions"), regions.dump());
+    }
+    for (const std::string& name : names_.regions) {
+      recipe.regions.push_back(region(member(regions, name), name));
+    }
+    result.settings = text(json, "settings");
+    return result;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view field, std::string_view expected,
+                         std::string_view found) const {
+    throw InvalidInput(concat(place_, ": ", field, ": expected ", expected, ", found ",
+                              found.substr(0, 80)));
+  }
+
+  const Json& member(const Json& json, const std::string& key) const {
+    const auto found = json.find(key);
+    if (found == json.end()) fail(key, "a value", "none");
+    return *found;
+  }
+
+  std::string text(const Json& json, const std::string& key) const {
+    const Json& value = member(json, key);
+    if (!value.is_string()) fail(key, "text", value.dump());
+    return value.get<std::string>();
+  }
+
+  double number(const Json& value, std::string_view key) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      fail(key, "a number", value.dump());
+    }
+    return value.get<double>();
+  }
+
+  std::uint64_t whole(const Json& value, std::string_view key) const {
+    if (!value.is_number_unsigned()) fail(key, "a whole number of zero or more", value.dump());
+    return value.get<std::uint64_t>();
+  }
+
+  Index head(const std::string& name, std::string_view key) const {
+    const auto found = std::find(names_.heads.begin(), names_.heads.end(), name);
+    if (found == names_.heads.end()) fail(key, "the name of a head", quoted(name));
+    return found - names_.heads.begin();
+  }
+
+  RegionRecipe region(const Json& json, const std::string& name) const {
+    if (!json.is_object()) fail(name, "an object", json.dump());
+    RegionRecipe result;
+    if (const Json& position = member(json, "position"); !position.is_null()) {
+      if (!position.is_array() || position.size() != 2) fail("position", "[x, y]", position.dump());
+      result.position = PlanePoint(number(position[0], "position"), number(position[1], "position"));
+    }
+    const Json& weights = member(json, "weights");
+    if (!weights.is_object()) fail("weights", "an object", weights.dump());
+    for (const auto& [key, value] : weights.items()) {
+      result.weights.push_back({head(key, "weights"), number(value, "weights")});
+    }
+    result.smoothness = number(member(json, "smoothness"), "smoothness");
+    result.iterations = whole(member(json, "iterations"), "iterations");
+    constexpr std::uint64_t kMostIterations = 1'000'000'000;
+    if (result.iterations > kMostIterations) {
+      fail("iterations", "at most 10^9", concat(result.iterations));
+    }
+    result.extrapolation = number(member(json, "extrapolation"), "extrapolation");
+    return result;
+  }
+
+  const PlanNames& names_;
+  const std::string& place_;
+};
+
+/// A field of a table: between quotes if it needs them.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string csv_weights(const RegionRecipe& region, const PlanNames& names) {
+  std::vector<std::string> parts;
+  for (const SourceWeight& source : region.weights) {
+    parts.push_back(concat(name_at(names.heads, source.head), ':', source.weight));
+  }
+  return join(parts, ";");
+}
+
+}  // namespace
+
+std::string format_recipe(const Recipe& recipe, const PlanNames& names, const Digest& settings) {
+  Json json;
+  json["id"] = recipe.id;
+  json["index"] = or_null(recipe.index);
+  json["family"] = or_null(recipe.family);
+  json["target"] = name_at(names.heads, recipe.target);
+  json["attempt"] = recipe.attempt;
+  json["regions"] = Json::object();
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    json["regions"][names.regions[k]] = region_to_json(recipe.regions[k], names);
+  }
+  if (recipe.nearest) {
+    const Nearest& nearest = *recipe.nearest;
+    json["nearest"] = {{"face", name_at(names.heads, nearest.head)},
+                       {"face_mm", rounded_mm(nearest.head_mm)},
+                       {"crowd", or_null(nearest.crowd)},
+                       {"crowd_mm", nearest.crowd ? Json(rounded_mm(nearest.crowd_mm)) : Json()}};
+  }
+  json["settings"] = settings.hex();
+  return json.dump();
+}
+
+PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::string& place) {
+  return LineReader(names, place).read(line);
+}
+
+std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names) {
+  const std::string text = read_file(path);
+  std::vector<PlanLine> plan;
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    ++number;
+    if (!line.empty()) {
+      plan.push_back(parse_recipe(line, names, concat(path.string(), ":", number)));
+    }
+    begin = end + 1;
+  }
+  return plan;
+}
+
+std::string format_csv(const std::vector<Recipe>& crowd, const PlanNames& names) {
+  std::vector<std::string> header = {"id", "index", "family", "target"};
+  for (const std::string& region : names.regions) {
+    for (const char* column :
+         {"position_x", "position_y", "weights", "smoothness", "iterations", "extrapolation"}) {
+      header.push_back(csv_field(concat(region, '_', column)));
+    }
+  }
+  for (const char* column : {"nearest_face", "nearest_face_mm", "nearest_crowd", "nearest_crowd_mm"}) {
+    header.emplace_back(column);
+  }
+  std::string table = join(header, ",") + "\r\n";
+  for (const Recipe& recipe : crowd) {
+    std::vector<std::string> row = {csv_field(recipe.id), recipe.index ? concat(*recipe.index) : "",
+                                    csv_field(recipe.family.value_or("")),
+                                    csv_field(name_at(names.heads, recipe.target))};
+    for (const RegionRecipe& region : recipe.regions) {
+      row.push_back(region.position ? format_number(region.position->x()) : "");
+      row.push_back(region.position ? format_number(region.position->y()) : "");
+      row.push_back(csv_field(csv_weights(region, names)));
+      row.push_back(format_number(region.smoothness));
+      row.push_back(concat(region.iterations));
+      row.push_back(format_number(region.extrapolation));
+    }
+    const bool near = recipe.nearest.has_value();
+    const bool near_crowd = near && recipe.nearest->crowd;
+    row.push_back(near ? csv_field(name_at(names.heads, recipe.nearest->head)) : "");
+    row.push_back(near ? format_number(rounded_mm(recipe.nearest->head_mm)) : "");
+    row.push_back(near_crowd ? csv_field(*recipe.nearest->crowd) : "");
+    row.push_back(near_crowd ? format_number(rounded_mm(recipe.nearest->crowd_mm)) : "");
+    table += join(row, ",") + "\r\n";
+  }
+  return table;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/version.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+
+/// Smallest, median and largest; null where there is nothing.
+Json distribution(std::vector<double> values) {
+  if (values.empty()) return nullptr;
+  std::sort(values.begin(), values.end());
+  return {{"min", rounded(values.front())},
+          {"median", rounded(values[values.size() / 2])},
+          {"max", rounded(values.back())}};
+}
+
+Json heads_to_json(const Job& job, const Cast& cast) {
+  Json heads = Json::array();
+  for (std::size_t h = 0; h < job.names.heads.size(); ++h) {
+    heads.push_back({{"name", job.names.heads[h]},
+                     {"file", job.config.faces.files[h].filename().string()},
+                     {"positions", job.inputs.head_digests[h].hex()},
+                     {"anchor", {cast.anchors[h].x(), cast.anchors[h].y()}}});
+  }
+  return heads;
+}
+
+Json topology_to_json(const Inputs& inputs) {
+  const auto& boundary = inputs.adjacency.boundary;
+  return {{"vertices", inputs.faces.topology.vertex_count},
+          {"faces", inputs.faces.topology.face_count()},
+          {"components", inputs.components.count()},
+          {"boundary_vertices", std::count(boundary.begin(), boundary.end(), true)},
+          {"digest", inputs.topology_digest.hex()}};
+}
+
+Json smoothing_to_json(const Job& job) {
+  const Inputs& inputs = job.inputs;
+  return {{"max_iterations", inputs.max_level},
+          {"max_size_mm", rounded(size_of_iterations(job.smoothing.kind(), inputs.max_level,
+                                                     inputs.edge_length_mm))},
+          {"edge_length_mm", inputs.edge_length_mm}};
+}
+
+Json distances_to_json(const Cast& cast) {
+  std::vector<double> heads, to_head, to_crowd;
+  for (Index a = 0; a < cast.head_distances.rows(); ++a) {
+    for (Index b = 0; b < a; ++b) heads.push_back(cast.head_distances(a, b));
+  }
+  for (const Recipe& recipe : cast.crowd) {
+    if (!recipe.nearest) continue;
+    to_head.push_back(recipe.nearest->head_mm);
+    if (recipe.nearest->crowd) to_crowd.push_back(recipe.nearest->crowd_mm);
+  }
+  return {{"between_heads_mm", distribution(std::move(heads))},
+          {"to_nearest_head_mm", distribution(std::move(to_head))},
+          {"to_nearest_earlier_face_mm", distribution(std::move(to_crowd))}};
+}
+
+Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
+  Json faces = Json::array();
+  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
+    Json face = {{"id", cast.crowd[i].id}};
+    if (!files[i].mesh_digest.empty()) face["mesh"] = files[i].mesh_digest;
+    faces.push_back(std::move(face));
+  }
+  return faces;
+}
+
+}  // namespace
+
+std::string format_report(const Job& job, const Cast& cast, const std::vector<FaceFiles>& files,
+                          std::size_t sheets, const std::vector<std::string>& warnings) {
+  Json report;
+  report["crowdface"] = kVersion;
+  report["crowd"] = job.config.crowd.name;
+  report["asked"] = {{"count", job.config.crowd.count},
+                     {"recipes", job.config.recipes.size()},
+                     {"seed", job.config.crowd.seed}};
+  report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
+  report["settings"] = job.settings.hex();
+  report["topology"] = topology_to_json(job.inputs);
+  report["smoothing"] = smoothing_to_json(job);
+  report["heads"] = heads_to_json(job, cast);
+  report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
+                     {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
+  report["distances"] = distances_to_json(cast);
+  report["warnings"] = warnings;
+  report["faces"] = faces_to_json(cast, files);
+  return report.dump(2) + "\n";
+}
+
+std::string format_timings(const StageSeconds& stages, std::size_t faces,
+                           std::size_t heads_from_cache) {
+  Json timings;
+  timings["crowdface"] = kVersion;
+  timings["threads"] = thread_count();
+  timings["hardware_threads"] = std::thread::hardware_concurrency();
+  timings["faces"] = faces;
+  timings["heads_from_cache"] = heads_from_cache;
+  double total = 0;
+  for (const auto& [stage, seconds] : stages) {
+    timings["seconds"][stage] = rounded(seconds);
+    total += seconds;
+  }
+  timings["seconds"]["total"] = rounded(total);
+  return timings.dump(2) + "\n";
+}
+
+}  // namespace crowdface

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crowdface/job/pipeline.h"
+
+namespace crowdface {
+
+/// What one face's files are.
+struct FaceFiles {
+  std::string mesh_digest;  ///< of the OBJ's bytes; empty if none was written
+};
+
+/// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no time
+/// and no machine: the same inputs give the same bytes.
+std::string format_report(const Job& job, const Cast& cast, const std::vector<FaceFiles>& files,
+                          std::size_t sheets, const std::vector<std::string>& warnings);
+
+/// How long each stage took, in the order it ran.
+using StageSeconds = std::vector<std::pair<std::string, double>>;
+
+/// timings.json: times and machine, which may differ from run to run.
+std::string format_timings(const StageSeconds& stages, std::size_t faces,
+                           std::size_t heads_from_cache);
+
+}  // namespace crowdface

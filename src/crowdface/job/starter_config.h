@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crowdface/core/units.h"
+
+namespace crowdface {
+
+/// What `crowdface init` knows about a folder of heads.
+struct StarterFacts {
+  std::filesystem::path heads;     ///< the folder, relative to where the config will be written
+  std::vector<std::string> names;  ///< of the heads
+  LengthUnit units = LengthUnit::kCentimetre;  ///< a guess, from the height
+  double head_height = 0;                      ///< of the first head, in its own units
+  Axis up = {1, 1};
+  Axis front = {2, 1};
+  std::string crowd_name = "crowd";
+};
+
+/// The text of a first config for these heads: short, every line explained, ready to run.
+std::string starter_config(const StarterFacts& facts);
+
+}  // namespace crowdface

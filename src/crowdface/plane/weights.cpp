@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/plane/weights.h"
+
+#include <algorithm>
+
+#include "crowdface/core/error.h"
+
+namespace crowdface {
+
+std::vector<double> inverse_square_weights(const std::vector<PlanePoint>& anchors,
+                                           const PlanePoint& position) {
+  if (anchors.empty()) throw InvalidInput("weights need at least one anchor, got none");
+  std::vector<double> weights(anchors.size());
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    const double dx = position.x() - anchors[i].x();
+    const double dy = position.y() - anchors[i].y();
+    weights[i] = dx * dx + dy * dy;  // ‖m − t_i‖²
+  }
+  const double nearest = *std::min_element(weights.begin(), weights.end());
+  double sum = 0;
+  for (double& weight : weights) {
+    // Eq. 4 relative to the nearest anchor's weight, so that no quotient can overflow.
+    weight = nearest > 0 ? nearest / weight : (weight == 0 ? 1.0 : 0.0);
+    sum += weight;
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+}  // namespace crowdface

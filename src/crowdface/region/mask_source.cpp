@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/region/mask_source.h"
+
+#include <string_view>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::string_view kTile = "<UDIM>";
+
+void check_not_negative(const std::string& file, const Image& image) {
+  const auto channels = mask_channels(image);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (const int channel : channels) {
+        const float value = image.at(x, y, channel);
+        if (value >= 0) continue;
+        throw InvalidInput(concat(file, ": expected mask values of zero or more, found ",
+                                  double{value}, " at column ", x + 1, ", row ", y + 1,
+                                  ", channel ", channel + 1));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+MaskSource::MaskSource(std::string path) : path_(std::move(path)) {}
+MaskSource::MaskSource(std::string name, Image image)
+    : path_(std::move(name)), image_(std::move(image)) {}
+
+bool MaskSource::tiled() const {
+  return !image_ && path_.find(kTile) != std::string::npos;
+}
+
+std::string MaskSource::file_of(int tile) const {
+  std::string file = path_;
+  if (!tiled()) return file;
+  for (auto at = file.find(kTile); at != std::string::npos; at = file.find(kTile)) {
+    file.replace(at, kTile.size(), concat(tile));
+  }
+  return file;
+}
+
+Image MaskSource::read(int tile) const {
+  const std::string file = file_of(tile);
+  Image image = image_ ? *image_ : read_image(file);
+  check_not_negative(file, image);
+  return image;
+}
+
+std::vector<MaskSource> load_masks(const std::vector<std::string>& paths) {
+  std::vector<MaskSource> masks;
+  for (const std::string& path : paths) masks.emplace_back(path);
+  return masks;
+}
+
+std::vector<int> mask_channels(const Image& image) {
+  std::vector<int> channels;
+  for (int c = 0; c < image.channels; ++c) {
+    if (c != image.alpha_channel) channels.push_back(c);
+  }
+  return channels;
+}
+
+}  // namespace crowdface

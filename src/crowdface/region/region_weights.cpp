@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/region/region_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/core/text.h"
+#include "crowdface/region/uv_samples.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kFirstTile = 1001;
+constexpr Index kBlock = 4096;
+
+struct LoadedTile {
+  Image image;
+  std::vector<int> channels;  ///< those that hold masks
+};
+
+/// A mask with the tiles it needs in memory.
+struct LoadedMask {
+  bool tiled = false;
+  std::map<int, LoadedTile> tiles;  ///< a single picture stands as tile 1001
+
+  std::size_t channels() const { return tiles.empty() ? 0 : tiles.begin()->second.channels.size(); }
+  double at(const UvSample& sample, std::size_t channel) const {
+    const LoadedTile& tile = tiles.at(tiled ? sample.tile : kFirstTile);
+    const int place = tiled ? sample.tile - kFirstTile : 0;
+    return sample_bilinear(tile.image, sample.u - place % 10, sample.v - place / 10,
+                           tile.channels[channel]);
+  }
+};
+
+LoadedMask load(const MaskSource& source, const std::set<int>& used, Problems& problems) {
+  LoadedMask mask;
+  mask.tiled = source.tiled();
+  for (const int tile : mask.tiled ? used : std::set<int>{kFirstTile}) {
+    try {
+      Image image = source.read(tile);
+      std::vector<int> channels = mask_channels(image);
+      mask.tiles.emplace(tile, LoadedTile{std::move(image), std::move(channels)});
+    } catch (const MissingInput& error) {
+      if (!mask.tiled) {
+        problems.add(error);
+      } else {
+        problems.add(ExitCode::kMissingInput, concat("mask ", source.path(), ": tile ", tile,
+                                                     " is used by texture coordinates, but ",
+                                                     source.file_of(tile), " cannot be found"));
+      }
+    } catch (const InvalidInput& error) {
+      problems.add(error);
+    }
+  }
+  for (const auto& [number, tile] : mask.tiles) {
+    if (tile.channels.size() == mask.channels()) continue;
+    problems.add(ExitCode::kBadData, concat("mask ", source.path(), ": expected ", mask.channels(),
+                                            " channels as in tile ", mask.tiles.begin()->first,
+                                            ", found ", tile.channels.size(), " in tile ", number));
+  }
+  return mask;
+}
+
+void check_channels(const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
+                    Index regions) {
+  std::vector<std::string> found;
+  Index channels = 0;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    found.push_back(concat(sources[i].path(), " (", masks[i].channels(), ")"));
+    if (channels >= regions) {
+      throw InvalidInput(concat("the masks before ", sources[i].path(), " have ", channels,
+                                " channels, enough for all ", regions,
+                                " regions: this image is left over"));
+    }
+    channels += static_cast<Index>(masks[i].channels());
+  }
+  if (channels < regions) {
+    throw InvalidInput(concat("expected a mask channel for each of ", regions, " regions, found ",
+                              channels, " in ", masks.empty() ? "no image" : join(found)));
+  }
+}
+
+/// The mean of every region's mask over the places of one vertex, scaled to sum to one. False, and
+/// nothing written, where no mask covers it.
+bool normalised_mean(const std::vector<LoadedMask>& masks, std::span<const UvSample> samples,
+                     Eigen::Ref<Eigen::RowVectorXd> row) {
+  Index k = 0;
+  double sum = 0;
+  Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(row.size());
+  for (const LoadedMask& mask : masks) {
+    for (std::size_t c = 0; c < mask.channels() && k < row.size(); ++c, ++k) {
+      for (const UvSample& sample : samples) values[k] += mask.at(sample, c);
+      values[k] /= static_cast<double>(samples.size());
+      sum += values[k];
+    }
+  }
+  if (!(sum > 0)) return false;
+  for (k = 0; k < row.size(); ++k) row[k] = values[k] / sum;  // Σ_k α_k = 1, as Eq. 7 needs
+  return true;
+}
+
+}  // namespace
+
+double sample_bilinear(const Image& image, double u, double v, int channel) {
+  const double x = std::clamp(u * image.width - 0.5, 0.0, image.width - 1.0);
+  const double y = std::clamp((1 - v) * image.height - 0.5, 0.0, image.height - 1.0);
+  const int left = static_cast<int>(x);
+  const int top = static_cast<int>(y);
+  const int right = std::min(left + 1, image.width - 1);
+  const int bottom = std::min(top + 1, image.height - 1);
+  const double s = x - left;
+  const double t = y - top;
+  const double above = (1 - s) * image.at(left, top, channel) + s * image.at(right, top, channel);
+  const double below =
+      (1 - s) * image.at(left, bottom, channel) + s * image.at(right, bottom, channel);
+  return (1 - t) * above + t * below;
+}
+
+RegionWeights whole_head(const Topology& topology) {
+  return {RegionWeights::Alpha::Ones(topology.vertex_count, 1), 0};
+}
+
+RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
+                             const std::vector<MaskSource>& masks, Index regions) {
+  if (regions < 1) throw InvalidInput(concat("expected at least one region, found ", regions));
+  if (masks.empty() && regions == 1) return whole_head(topology);
+  const bool tiled = std::any_of(masks.begin(), masks.end(), [](auto& m) { return m.tiled(); });
+  const UvSamples samples = gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne);
+  const std::set<int> used = tiles_of(samples);
+  std::vector<LoadedMask> loaded;
+  Problems problems;
+  for (const MaskSource& mask : masks) loaded.push_back(load(mask, used, problems));
+  problems.throw_if_any();
+  check_channels(masks, loaded, regions);
+
+  RegionWeights weights{RegionWeights::Alpha::Zero(topology.vertex_count, regions), 0};
+  std::vector<std::uint8_t> uncovered(static_cast<std::size_t>(topology.vertex_count), 0);
+  parallel_blocks(topology.vertex_count, kBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const auto places = samples.of(i);
+      if (!places.empty() && normalised_mean(loaded, places, weights.alpha.row(i))) continue;
+      weights.alpha(i, regions - 1) = 1;
+      uncovered[static_cast<std::size_t>(i)] = places.empty() ? 0 : 1;
+    }
+  });
+  weights.uncovered_vertices = std::count(uncovered.begin(), uncovered.end(), 1);
+  return weights;
+}
+
+}  // namespace crowdface

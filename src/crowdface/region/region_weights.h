@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/mesh/topology.h"
+#include "crowdface/region/mask_source.h"
+
+namespace crowdface {
+
+/// The masks α_k of Eq. 7: how much of each region every vertex belongs to.
+struct RegionWeights {
+  using Alpha = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Alpha alpha;                   ///< #V by #R, not negative, rows sum to one
+  Index uncovered_vertices = 0;  ///< of faces, but covered by no mask: in the last region
+};
+
+/// One region that is the whole head.
+RegionWeights whole_head(const Topology& topology);
+
+/// Looks the masks up at every vertex's texture coordinates.
+///
+/// Channels make regions in the order of the images, alpha left out; channels beyond the last
+/// region are ignored. A place is sampled bilinearly between texel centres and clamped at the
+/// image's edge, the first row at v = 1. A set of UDIM tiles takes the place from the tile that it
+/// lies in; on a border the middle of the corner's polygon decides. A single picture covers u and v
+/// in [0, 1], beyond which its edge goes on. A vertex gets the mean over its distinct places,
+/// scaled to sum to one; where that is zero, and for vertices in no face, the last region.
+///
+/// \param masks    may be empty if there is one region.
+/// \throws MissingInput if an image or a tile that some texture coordinate lies in is missing, all
+///         of them named; InvalidInput if an image cannot be used, channels do not suffice, a whole
+///         image is left over, tiles differ in channels, or texture coordinates lack.
+RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
+                             const std::vector<MaskSource>& masks, Index regions);
+
+/// One channel of an image at (u, v) in the unit square, as above.
+double sample_bilinear(const Image& image, double u, double v, int channel);
+
+}  // namespace crowdface

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// A place in a texture: where a mask is looked up for a vertex.
+struct UvSample {
+  int tile = 0;  ///< UDIM number
+  double u = 0;  ///< as in the file, not relative to the tile
+  double v = 0;
+  auto operator<=>(const UvSample&) const = default;
+};
+
+/// The distinct places of every vertex: those of its corners, each value once (a value on the
+/// border of two tiles once for each of the tiles its faces lie in).
+struct UvSamples {
+  std::vector<std::uint32_t> offsets;  ///< #V + 1
+  std::vector<UvSample> samples;       ///< those of vertex i: [offsets[i], offsets[i + 1])
+
+  std::span<const UvSample> of(Index vertex) const {
+    const auto begin = offsets[static_cast<std::size_t>(vertex)];
+    const auto end = offsets[static_cast<std::size_t>(vertex) + 1];
+    return {samples.data() + begin, end - begin};
+  }
+};
+
+/// The column (for u) or row (for v) of the tile that a coordinate of a corner lies in: its whole
+/// part, and where the coordinate is a whole number and so lies on a border, that of the mean of
+/// its polygon's coordinates.
+double tile_step(double coordinate, double polygon_mean);
+
+/// The UDIM tile 1001 + column + 10 · row. \throws InvalidInput unless 0 ≤ column < 10 and
+/// 0 ≤ row < 900.
+int tile_number(double column, double row);
+
+/// A vertex in no face has no place.
+/// \throws InvalidInput if a vertex that faces use has no texture coordinate at any of its corners,
+/// a
+///         coordinate is not finite, or it lies outside all UDIM tiles (if `tiled`).
+enum class Tiles { kOne, kUdim };  ///< with kOne, every sample's tile is 1001
+UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles);
+
+/// The tiles that some sample lies in.
+std::set<int> tiles_of(const UvSamples& samples);
+
+}  // namespace crowdface

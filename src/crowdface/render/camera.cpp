@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+Eigen::Vector3d unit_vector(Axis axis) {
+  return axis.sign * Eigen::Vector3d::Unit(axis.index);
+}
+
+double turn_degrees(View view) {
+  switch (view) {
+    case View::kFront:
+      return 0;
+    case View::kThreeQuarter:
+      return 35;
+    case View::kProfile:
+      return 90;
+  }
+  return 0;
+}
+
+Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
+  if (frame.up.index == frame.front.index) {
+    throw InvalidInput(concat("up and front must be different axes, found up ", name_of(frame.up),
+                              " and front ", name_of(frame.front)));
+  }
+  const double radians = std::numbers::pi / 180;
+  Camera camera;
+  camera.half_tangent = std::tan(options.field_of_view_degrees / 2 * radians);
+  camera.up = unit_vector(frame.up);
+  const Eigen::Vector3d front = unit_vector(frame.front);
+  const Eigen::Vector3d side = camera.up.cross(front);
+  const double turn = turn_degrees(view) * radians;
+  camera.back = std::cos(turn) * front + std::sin(turn) * side;
+  camera.right = camera.up.cross(camera.back);
+  return camera;
+}
+
+/// The furthest planes of a wedge that opens along one image axis: a point at offset x and depth z
+/// (towards the camera) is inside a wedge of slope s, centre c and distance d exactly if
+/// d ≥ z + |x − c|/s.
+struct Wedge {
+  double slope;
+  double positive = -std::numeric_limits<double>::infinity();  ///< max of z + x/s
+  double negative = -std::numeric_limits<double>::infinity();  ///< max of z − x/s
+
+  void add(double x, double z) {
+    positive = std::max(positive, z + x / slope);
+    negative = std::max(negative, z - x / slope);
+  }
+  double distance() const { return (positive + negative) / 2; }
+  double centre() const { return slope * (positive - negative) / 2; }
+};
+
+/// The height below which vertices need not be seen.
+double lowest_shown(std::span<const Positions* const> heads, const Eigen::Vector3d& up,
+                    double cut_below) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Positions* head : heads) {
+    for (Index i = 0; i < head->rows(); ++i) {
+      const double height = head->row(i).dot(up);
+      if (!head->row(i).allFinite()) {
+        throw InvalidInput(concat("a camera needs finite positions, vertex ", i + 1, " is not"));
+      }
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+  return low + cut_below * (high - low);
+}
+
+}  // namespace
+
+Eigen::Vector2d Camera::project(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d relative = point - position();
+  const double scale = 0.5 / (half_tangent * -relative.dot(back));
+  return {0.5 + scale * relative.dot(right), 0.5 - scale * relative.dot(up)};
+}
+
+Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
+                  const FramingOptions& options) {
+  Camera camera = aim(frame, view, options);
+  const double slope = camera.half_tangent * (1 - 2 * options.margin);
+  Wedge across{slope};
+  Wedge along{slope};
+  const double lowest = lowest_shown(heads, camera.up, options.cut_below);
+  double nearest = -std::numeric_limits<double>::infinity();
+  double furthest = std::numeric_limits<double>::infinity();
+  for (const Positions* head : heads) {
+    for (Index i = 0; i < head->rows(); ++i) {
+      const Eigen::Vector3d point = head->row(i);
+      const double z = point.dot(camera.back);
+      nearest = std::max(nearest, z);
+      furthest = std::min(furthest, z);
+      if (point.dot(camera.up) < lowest) continue;
+      across.add(point.dot(camera.right), z);
+      along.add(point.dot(camera.up), z);
+    }
+  }
+  if (nearest < furthest) throw InvalidInput("a camera needs at least one vertex to look at");
+  // The target lies half-way through the heads, so that half_extent() is about a head's size.
+  const double middle = (nearest + furthest) / 2;
+  camera.target =
+      across.centre() * camera.right + along.centre() * camera.up + middle * camera.back;
+  camera.distance = std::max(across.distance(), along.distance()) - middle;
+  if (camera.distance <= nearest - middle)
+    camera.distance = nearest - middle + 1;  // a single point
+  return camera;
+}
+
+std::vector<Camera> fit_cameras(std::span<const Positions* const> heads, const HeadFrame& frame,
+                                std::span<const View> views, const FramingOptions& options) {
+  std::vector<Camera> cameras;
+  double distance = 0;
+  for (const View view : views) {
+    cameras.push_back(fit_camera(heads, frame, view, options));
+    distance = std::max(distance, cameras.back().distance);
+  }
+  for (Camera& camera : cameras) camera.distance = distance;
+  return cameras;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crowdface/render/rgb8_image.h"
+
+namespace crowdface {
+
+struct SheetCell {
+  Rgb8Image image;    ///< all of a sheet's are of one size
+  std::string label;  ///< stands under the image, made to fit
+};
+
+struct SheetOptions {
+  int columns = 6;
+  int rows = 0;            ///< 0: as many as the cells need; more than those leave blanks
+  std::string title = {};  ///< on the left above the cells
+  std::string note = {};   ///< on the right above the cells, such as "sheet 2 of 5"
+};
+
+/// Where things lie on a sheet, in pixels.
+struct SheetLayout {
+  int columns, rows;
+  int cell_width, cell_height;
+  int label_height, header_height;
+  int margin, gap;
+
+  int width() const { return 2 * margin + columns * cell_width + (columns - 1) * gap; }
+  int height() const {
+    return header_height + rows * (cell_height + label_height) + (rows - 1) * gap + margin;
+  }
+  int left(int cell) const { return margin + cell % columns * (cell_width + gap); }
+  int top(int cell) const {
+    return header_height + cell / columns * (cell_height + label_height + gap);
+  }
+};
+
+/// \throws InvalidInput if there is no cell, cells differ in size, there are more of them than
+/// columns · rows, or the sheet would be larger than 65,500 pixels a side.
+SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
+
+/// Pictures in a grid, row by row, a label under each and a header above them all.
+/// \throws InvalidInput as layout_sheet, MissingInput without the font.
+Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
+
+/// Pictures of one height side by side: several views of one face in one cell.
+/// \throws InvalidInput if there is none or heights differ.
+Rgb8Image side_by_side(std::span<const Rgb8Image> images);
+
+}  // namespace crowdface

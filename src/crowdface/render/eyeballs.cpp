@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/eyeballs.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/render/perpendicular.h"
+
+namespace crowdface {
+namespace {
+
+// Radii as shares of the eyeball's: about a human eye's, in dim light.
+constexpr float kPupil = 0.17F;
+constexpr float kIris = 0.42F;
+constexpr float kSoftness = 0.025F;
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
+  while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+  return vertex;
+}
+
+/// 0 well inside `edge`, 1 well outside.
+float beyond(float edge, float x) {
+  const float t = std::clamp((x - edge + kSoftness) / (2 * kSoftness), 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace
+
+Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds) {
+  Eyeballs eyeballs;
+  if (std::find(kinds.begin(), kinds.end(), SurfaceKind::kEye) == kinds.end()) return eyeballs;
+  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
+  std::vector<std::uint32_t> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0U);
+  std::vector<bool> in_eye(vertices, false);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    if (kinds[static_cast<std::size_t>(f)] != SurfaceKind::kEye) continue;
+    for (const std::uint32_t vertex : topology.face(f)) {
+      in_eye[vertex] = true;
+      parent[root_of(parent, vertex)] = root_of(parent, topology.face(f)[0]);
+    }
+  }
+  eyeballs.of_vertex.assign(vertices, Eyeballs::kNone);
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    if (in_eye[i] && parent[i] == i) eyeballs.of_vertex[i] = eyeballs.count++;
+  }
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    if (in_eye[i]) eyeballs.of_vertex[i] = eyeballs.of_vertex[root_of(parent, i)];
+  }
+  return eyeballs;
+}
+
+std::vector<PlacedEye> place_eyes(const Eyeballs& eyeballs, const std::vector<float>& points,
+                                  const Eigen::Vector3f& gaze) {
+  using Box = Eigen::AlignedBox3f;
+  const auto [across, along] = perpendicular(gaze);
+  std::vector<Box> boxes(eyeballs.count);  // axes: across, along, gaze
+  for (std::size_t i = 0; i < eyeballs.of_vertex.size(); ++i) {
+    if (eyeballs.of_vertex[i] == Eyeballs::kNone) continue;
+    const Eigen::Map<const Eigen::Vector3f> point(points.data() + 3 * i);
+    boxes[eyeballs.of_vertex[i]].extend(
+        Eigen::Vector3f(point.dot(across), point.dot(along), point.dot(gaze)));
+  }
+  std::vector<PlacedEye> eyes;
+  for (const Box& box : boxes) {
+    const Eigen::Vector3f middle = box.center();
+    const Eigen::Vector3f half = box.sizes() / 2;
+    eyes.push_back({middle.x() * across + middle.y() * along + middle.z() * gaze,
+                    std::max(half.x(), half.y())});
+  }
+  return eyes;
+}
+
+Light eye_albedo(const PlacedEye& eye, const Eigen::Vector3f& gaze, const Eigen::Vector3f& point) {
+  const Light white = albedo_of(SurfaceKind::kEye);
+  const Eigen::Vector3f from_centre = point - eye.centre;
+  const float ahead = from_centre.dot(gaze);
+  if (ahead <= 0 || eye.radius <= 0) return white;
+  const float radius = (from_centre - ahead * gaze).norm() / eye.radius;
+  // The iris is lightest around the pupil and darkest at its rim.
+  const float rim = std::clamp((radius - kPupil) / (kIris - kPupil), 0.0F, 1.0F);
+  const Light iris = albedo_of(SurfaceKind::kIris) * (1.6F - 1.25F * rim * rim);
+  const Light pupil = Light::Constant(0.008F);
+  const Light inner = pupil + (iris - pupil) * beyond(kPupil, radius);
+  return inner + (white - inner) * beyond(kIris, radius);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/face_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/render/eyeballs.h"
+#include "crowdface/render/perpendicular.h"
+#include "crowdface/render/ray_scene.h"
+#include "crowdface/render/sampling_pattern.h"
+#include "crowdface/render/shading.h"
+
+namespace crowdface {
+
+struct FaceRenderer::Prepared {
+  Topology topology;
+  RenderOptions options;
+  SamplingPattern pattern;
+  std::vector<Quad> quads;
+  std::vector<SurfaceKind> quad_kinds;
+  Eyeballs eyeballs;
+  RayDevice device;
+
+  Prepared(const Topology& mesh, const RenderOptions& choice)
+      : topology(mesh), options(choice), pattern(choice.samples_per_side, choice.occlusion_rays) {}
+};
+
+namespace {
+
+using Vector = Eigen::Vector3f;
+
+// Lengths are in half the side of the image, so that these hold for any unit.
+constexpr float kSkyReach = 0.55F;    // how far ambient occlusion looks
+constexpr float kClearance = 2e-4F;   // rays start this far above the surface
+constexpr float kThickness = 0.012F;  // how deep light soaks in: softens where shadows begin
+constexpr int kTile = 16;
+
+/// A head as the camera sees it: x right, y up, z towards the camera, target at the origin, half
+/// the image's side as unit.
+struct Stage {
+  RayScene scene;
+  std::vector<Vector> normals;  ///< #V
+  const VertexColours* colours;
+  const std::vector<Quad>& quads;
+  const std::vector<SurfaceKind>& kinds;
+  const Eyeballs& eyeballs;
+  std::vector<PlacedEye> eyes;
+  Vector gaze;
+  Vector viewer;
+};
+
+Vector to_camera(const Camera& camera, Axis axis) {
+  const Eigen::Vector3d d = axis.sign * Eigen::Vector3d::Unit(axis.index);
+  return Eigen::Vector3d(d.dot(camera.right), d.dot(camera.up), d.dot(camera.back)).cast<float>();
+}
+
+std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
+  Eigen::Matrix3d axes;
+  axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
+  axes /= camera.half_extent();
+  std::vector<float> points(static_cast<std::size_t>(positions.rows()) * 3);
+  points.reserve(points.size() + 1);
+  for (Index i = 0; i < positions.rows(); ++i) {
+    const Vector point = (axes * (positions.row(i).transpose() - camera.target)).cast<float>();
+    if (!point.allFinite()) {
+      throw InvalidInput(concat("a render needs finite positions, vertex ", i + 1, " is not"));
+    }
+    std::copy_n(point.data(), 3, points.begin() + 3 * i);
+  }
+  return points;
+}
+
+/// +1, or −1 if the surface as a whole is wound inside out: faces look away from its middle.
+float winding(const Topology& topology, const Positions& positions) {
+  const Eigen::RowVector3d middle = positions.colwise().mean();
+  double outward = 0;
+  double total = 0;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    if (topology.face(f).size() < 3) continue;
+    const Eigen::RowVector3d area = face_area_vector(topology, f, positions);
+    const Eigen::RowVector3d reach = positions.row(topology.face(f)[0]) - middle;
+    outward += area.dot(reach);
+    total += area.norm() * reach.norm();
+  }
+  return outward < -0.05 * total ? -1.0F : 1.0F;
+}
+
+std::vector<Vector> camera_normals(const Topology& topology, const Positions& positions,
+                                   const Camera& camera) {
+  const float sign = winding(topology, positions);
+  const Positions normals = vertex_normals(topology, positions);
+  std::vector<Vector> out(static_cast<std::size_t>(normals.rows()));
+  for (Index i = 0; i < normals.rows(); ++i) {
+    const Eigen::Vector3d n = normals.row(i);
+    const Eigen::Vector3d turned(n.dot(camera.right), n.dot(camera.up), n.dot(camera.back));
+    out[static_cast<std::size_t>(i)] = sign * turned.cast<float>();
+  }
+  return out;
+}
+
+/// Shares of a primitive's four vertices in a point on it.
+Eigen::Vector4f shares(const Quad& quad, float u, float v) {
+  if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
+  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+}
+
+Light own_albedo(const Stage& stage, std::uint32_t primitive, const Vector& point) {
+  const SurfaceKind kind = stage.kinds[primitive];
+  if (kind != SurfaceKind::kEye) return albedo_of(kind);
+  const std::uint32_t eye = stage.eyeballs.of_vertex[stage.quads[primitive][0]];
+  return eye_albedo(stage.eyes[eye], stage.gaze, point);
+}
+
+/// A point of the surface that a camera ray has met.
+struct Meeting {
+  Vector point;
+  Vector start;  ///< where rays to the lights begin
+  ShadePoint surface;
+};
+
+Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
+  const Quad& quad = stage.quads[hit.primitive];
+  const Eigen::Vector4f weights = shares(quad, hit.u, hit.v);
+  Meeting meeting;
+  meeting.point = stage.viewer + hit.distance * direction;
+  meeting.surface.kind = stage.kinds[hit.primitive];
+  Vector normal = Vector::Zero();
+  Vector colour = Vector::Zero();
+  for (int c = 0; c < 4; ++c) {
+    const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
+    normal += weights[c] * stage.normals[vertex];
+    if (stage.colours != nullptr) colour += weights[c] * stage.colours->row(vertex).transpose();
+  }
+  meeting.surface.albedo = stage.colours != nullptr
+                               ? from_srgb(colour.array())
+                               : own_albedo(stage, hit.primitive, meeting.point);
+  // The side that is seen is told by the vertices' normals, which winding() has turned outwards.
+  const Vector geometric = hit.normal.dot(normal) < 0 ? Vector(-hit.normal) : hit.normal;
+  meeting.surface.inside = geometric.dot(direction) > 0;
+  const float side = meeting.surface.inside ? -1.0F : 1.0F;
+  meeting.surface.normal = side * normal.normalized();
+  meeting.surface.to_eye = -direction.normalized();
+  // Rays start above the facets, on the smooth surface that the normals speak of, lest facets show
+  // where light grazes them (Hanika 2021, "Hacking the shadow terminator").
+  Vector lift = Vector::Zero();
+  for (int c = 0; c < 4; ++c) {
+    const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
+    const Vector n = side * stage.normals[vertex];
+    lift -= weights[c] * std::min(0.0F, (meeting.point - stage.scene.point(vertex)).dot(n)) * n;
+  }
+  meeting.start = meeting.point + lift + kClearance * side * geometric.normalized();
+  return meeting;
+}
+
+/// A direction given as a point of the disc around `axis`, turned by the pixel's angle.
+struct Turned {
+  Vector s, t;
+  Turned(const Vector& axis, const Eigen::Vector2f& turn) {
+    const auto [a, b] = perpendicular(axis);
+    s = turn.x() * a + turn.y() * b;
+    t = turn.x() * b - turn.y() * a;
+  }
+  Vector operator()(const Eigen::Vector2f& disc) const { return disc.x() * s + disc.y() * t; }
+};
+
+/// Share of the sky seen from a point, weighted by the cosine.
+float sky_share(const RayScene& scene, const Meeting& meeting,
+                std::span<const Eigen::Vector2f> discs, const Eigen::Vector2f& turn) {
+  if (discs.empty()) return 1;
+  const Turned turned(meeting.surface.normal, turn);
+  float open = 0;
+  for (const Eigen::Vector2f& disc : discs) {
+    const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
+    const Vector direction = turned(disc) + height * meeting.surface.normal;
+    if (!scene.occluded({meeting.start, direction, 0, kSkyReach})) open += 1;
+  }
+  return open / static_cast<float>(discs.size());
+}
+
+bool key_reaches(const RayScene& scene, const Meeting& meeting, const Eigen::Vector2f& disc,
+                 const Eigen::Vector2f& turn) {
+  const Vector key = key_direction();
+  const Vector direction = (key + kKeyRadius * Turned(key, turn)(disc)).normalized();
+  const Vector start = meeting.start + kThickness * meeting.surface.normal;
+  return !scene.occluded({start, direction, 0, 1e30F});
+}
+
+/// Light along one ray through the image at `place`, a fraction of its side.
+Light trace(const Stage& stage, const SamplingPattern& pattern, std::size_t sample,
+            const Eigen::Vector2f& place, const Eigen::Vector2f& turn) {
+  const Vector direction = Vector(2 * place.x() - 1, 1 - 2 * place.y(), 0) - stage.viewer;
+  const auto hit = stage.scene.nearest_hit({stage.viewer, direction});
+  if (!hit) return background(place.y());
+  Meeting meeting = meet(stage, *hit, direction);
+  const std::size_t rays = pattern.sky.size() / pattern.places.size();
+  const std::span discs(pattern.sky.data() + sample * rays, rays);
+  meeting.surface.sky = sky_share(stage.scene, meeting, discs, turn);
+  const bool lit = key_reaches(stage.scene, meeting, pattern.lamp[sample], turn);
+  meeting.surface.key = lit ? 1.0F : 0.0F;
+  return shade(meeting.surface);
+}
+
+void render_tile(const Stage& stage, const SamplingPattern& pattern, int left, int top,
+                 Rgb8Image& image) {
+  const std::size_t samples = pattern.places.size();
+  for (int y = top; y < std::min(top + kTile, image.height); ++y) {
+    for (int x = left; x < std::min(left + kTile, image.width); ++x) {
+      const Eigen::Vector2f corner(static_cast<float>(x), static_cast<float>(y));
+      const Eigen::Vector2f turn = pixel_turn(x, y);
+      Light sum = Light::Zero();
+      for (std::size_t s = 0; s < samples; ++s) {
+        const Eigen::Vector2f place =
+            (corner + pattern.places[s]) / static_cast<float>(image.width);
+        sum += trace(stage, pattern, s, place, turn);
+      }
+      const auto pixel = to_srgb8(sum / static_cast<float>(samples));
+      std::copy(pixel.begin(), pixel.end(), image.at(x, y));
+    }
+  }
+}
+
+void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
+  if (face.size() == 4) return quads.push_back({face[0], face[1], face[2], face[3]});
+  for (std::size_t c = 1; c + 1 < face.size(); ++c) {
+    quads.push_back({face[0], face[c], face[c + 1], face[c + 1]});
+  }
+}
+
+void check(const Topology& topology, const RenderOptions& options,
+           const std::vector<SurfaceKind>& kinds) {
+  if (options.size_px < 1 || options.size_px > 16384) {
+    throw InvalidInput(concat("a render is 1 to 16384 pixels wide, found ", options.size_px));
+  }
+  if (options.samples_per_side < 1 || options.samples_per_side > 16 || options.occlusion_rays < 0 ||
+      options.occlusion_rays > 256) {
+    throw InvalidInput(concat("a render takes 1 to 16 samples a side and 0 to 256 occlusion rays, ",
+                              "found ", options.samples_per_side, " and ", options.occlusion_rays));
+  }
+  if (!kinds.empty() && static_cast<Index>(kinds.size()) != topology.face_count()) {
+    throw InvalidInput(concat("expected a surface kind for each of ", topology.face_count(),
+                              " faces, found ", kinds.size()));
+  }
+}
+
+}  // namespace
+
+FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& options,
+                           const std::vector<SurfaceKind>& kinds) {
+  check(topology, options, kinds);
+  prepared_ = std::make_unique<Prepared>(topology, options);
+  prepared_->eyeballs = find_eyeballs(topology, kinds);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto kind = kinds.empty() ? SurfaceKind::kSkin : kinds[static_cast<std::size_t>(f)];
+    if (kind == SurfaceKind::kHidden) continue;
+    add_fan(topology.face(f), prepared_->quads);
+    prepared_->quad_kinds.resize(prepared_->quads.size(), kind);
+  }
+}
+FaceRenderer::~FaceRenderer() = default;
+FaceRenderer::FaceRenderer(FaceRenderer&&) noexcept = default;
+FaceRenderer& FaceRenderer::operator=(FaceRenderer&&) noexcept = default;
+
+const RenderOptions& FaceRenderer::options() const {
+  return prepared_->options;
+}
+
+Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
+                               const VertexColours* colours) const {
+  const Topology& topology = prepared_->topology;
+  if (positions.rows() != topology.vertex_count) {
+    throw InvalidInput(concat("expected ", topology.vertex_count, " vertices to render, found ",
+                              positions.rows()));
+  }
+  if (colours != nullptr && colours->rows() != topology.vertex_count) {
+    throw InvalidInput(
+        concat("expected ", topology.vertex_count, " vertex colours, found ", colours->rows()));
+  }
+  std::vector<float> points = to_camera(positions, camera);
+  const Vector gaze = to_camera(camera, prepared_->options.front);
+  std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, points, gaze);
+  const Stage stage{{prepared_->device, std::move(points), prepared_->quads},
+                    camera_normals(topology, positions, camera),
+                    colours,
+                    prepared_->quads,
+                    prepared_->quad_kinds,
+                    prepared_->eyeballs,
+                    std::move(eyes),
+                    gaze,
+                    Vector(0, 0, static_cast<float>(1 / camera.half_tangent))};
+  const int size = prepared_->options.size_px;
+  const int tiles = (size + kTile - 1) / kTile;
+  Rgb8Image image(size, size);
+  parallel_for_each(std::ptrdiff_t{tiles} * tiles, [&](std::ptrdiff_t tile) {
+    render_tile(stage, prepared_->pattern, static_cast<int>(tile % tiles) * kTile,
+                static_cast<int>(tile / tiles) * kTile, image);
+  });
+  return image;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+#include "crowdface/render/camera.h"
+#include "crowdface/render/rgb8_image.h"
+#include "crowdface/render/surface_kind.h"
+#include "crowdface/render/vertex_colours.h"
+
+namespace crowdface {
+
+struct RenderOptions {
+  int size_px = 256;         ///< side of the square image
+  int samples_per_side = 3;  ///< antialiasing: this squared samples a pixel, at fixed places
+  int occlusion_rays = 4;    ///< a sample; 0 leaves ambient occlusion out
+  Axis front = {2, 1};       ///< where the eyes look: irises are painted there
+};
+
+/// Renders faces of one topology as clay in a portrait studio. Prepared once, then any number of
+/// faces, from any thread; the same pixels each time on one machine, whatever the thread count.
+/// Triangles and quads as they are, larger polygons as fans around their first corner, faces with
+/// fewer than three corners not at all.
+class FaceRenderer {
+ public:
+  /// \param kinds  one a face, or empty: all skin.
+  /// \throws InvalidInput if sizes or options make no sense.
+  explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
+                        const std::vector<SurfaceKind>& kinds = {});
+  ~FaceRenderer();
+  FaceRenderer(FaceRenderer&&) noexcept;
+  FaceRenderer& operator=(FaceRenderer&&) noexcept;
+
+  /// \param positions  #V by 3, in the camera's unit. If the whole mesh is wound inside out (as a
+  ///                   mirrored one is), it is turned.
+  /// \param colours    #V by 3 instead of the surfaces' own, or nullptr.
+  /// \throws InvalidInput if a size does not fit or a position is not finite.
+  Rgb8Image render(const Positions& positions, const Camera& camera,
+                   const VertexColours* colours = nullptr) const;
+
+  const RenderOptions& options() const;
+
+ private:
+  struct Prepared;
+  std::unique_ptr<Prepared> prepared_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace crowdface {
+
+/// The ray tracer (Embree), started once and shared by any number of scenes and threads.
+class RayDevice {
+ public:
+  RayDevice();
+  ~RayDevice();
+  RayDevice(const RayDevice&) = delete;
+  RayDevice& operator=(const RayDevice&) = delete;
+  struct State;
+  const State& state() const { return *state_; }
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+struct Ray {
+  Eigen::Vector3f origin;
+  Eigen::Vector3f direction;
+  float nearest = 0;
+  float furthest = 1e30F;
+};
+
+struct RayHit {
+  std::uint32_t primitive;  ///< row of the scene's quads
+  float u, v;               ///< over a quad bilinear, over a triangle barycentric
+  float distance;           ///< in lengths of the ray's direction
+  Eigen::Vector3f normal;   ///< of the surface, outward by winding, not of unit length
+};
+
+/// Four vertices a primitive; a triangle names its last vertex twice.
+using Quad = std::array<std::uint32_t, 4>;
+
+/// Quads that rays can be shot at, from any thread.
+class RayScene {
+ public:
+  /// \param points  x, y, z of each vertex. Kept by the scene.
+  /// \param quads   must outlive the scene; every entry < points.size() / 3.
+  RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  std::optional<RayHit> nearest_hit(const Ray& ray) const;
+  bool occluded(const Ray& ray) const;
+  Eigen::Vector3f point(std::uint32_t vertex) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace crowdface {
+
+/// An image as a screen shows it: sRGB, 8 bits, three channels, first row on top.
+struct Rgb8Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;  ///< height · width · 3
+
+  Rgb8Image() = default;
+  Rgb8Image(int width_px, int height_px, std::array<std::uint8_t, 3> colour = {})
+      : width(width_px), height(height_px) {
+    pixels.resize(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 3);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = colour[i % 3];
+  }
+  std::uint8_t* at(int x, int y) { return pixels.data() + offset(x, y); }
+  const std::uint8_t* at(int x, int y) const { return pixels.data() + offset(x, y); }
+  bool operator==(const Rgb8Image&) const = default;
+
+ private:
+  std::size_t offset(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(x)) *
+           3;
+  }
+};
+
+}  // namespace crowdface

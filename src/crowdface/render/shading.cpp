@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace crowdface {
+namespace {
+
+struct Material {
+  Light albedo;
+  Light wrap;         ///< how far light reaches past the shadow's edge, as a cosine
+  float roughness;    ///< of the microfacets, 0 a mirror
+  float reflectance;  ///< at normal incidence
+};
+
+Material material_of(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::kEye:
+      return {{0.66F, 0.63F, 0.60F}, {0.15F, 0.12F, 0.10F}, 0.16F, 0.04F};
+    case SurfaceKind::kIris:
+      return {{0.075F, 0.052F, 0.040F}, {0.05F, 0.05F, 0.05F}, 0.14F, 0.04F};
+    case SurfaceKind::kTeeth:
+      return {{0.68F, 0.62F, 0.52F}, {0.15F, 0.12F, 0.10F}, 0.25F, 0.04F};
+    case SurfaceKind::kGums:
+      return {{0.42F, 0.20F, 0.18F}, {0.20F, 0.10F, 0.08F}, 0.30F, 0.04F};
+    case SurfaceKind::kSkin:
+    case SurfaceKind::kHidden:
+      break;
+  }
+  return {{0.47F, 0.385F, 0.335F}, {0.30F, 0.19F, 0.14F}, 0.46F, 0.035F};
+}
+
+struct Lamp {
+  Eigen::Vector3f direction;  ///< towards it, unit
+  Light colour;
+};
+
+const Lamp kKey = {Eigen::Vector3f(-0.62F, 0.62F, 0.62F).normalized(), {1.55F, 1.49F, 1.39F}};
+const Lamp kFill = {Eigen::Vector3f(0.85F, 0.05F, 0.55F).normalized(), {0.15F, 0.165F, 0.185F}};
+const Lamp kRimRight = {Eigen::Vector3f(0.80F, 0.35F, -0.50F).normalized(), {0.62F, 0.65F, 0.71F}};
+const Lamp kRimLeft = {Eigen::Vector3f(-0.85F, 0.25F, -0.55F).normalized(), {0.25F, 0.26F, 0.28F}};
+const Light kSkyAbove = {0.29F, 0.30F, 0.315F};
+const Light kSkyBelow = {0.10F, 0.093F, 0.086F};
+constexpr float kPi = 3.14159265358979F;
+
+/// Diffuse light with the terminator moved to a cosine of −wrap, total energy kept.
+Light wrapped(float cosine, const Light& wrap) {
+  const Light lit = ((cosine + wrap) / (1 + wrap)).max(0.0F);
+  return lit * lit / (1 + wrap).square() * (1 + wrap) * 0.5F + lit / (1 + wrap) * 0.5F;
+}
+
+/// Microfacet reflection (GGX distribution, Walter et al. 2007; Schlick's Fresnel) times the
+/// cosine.
+float highlight(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye,
+                const Eigen::Vector3f& to_light, const Material& material) {
+  const float n_l = normal.dot(to_light);
+  const float n_v = std::max(normal.dot(to_eye), 0.05F);
+  if (n_l <= 0) return 0;
+  const Eigen::Vector3f half = (to_light + to_eye).normalized();
+  const float n_h = std::max(normal.dot(half), 0.0F);
+  const float v_h = std::max(to_eye.dot(half), 0.0F);
+  const float alpha = material.roughness * material.roughness;
+  const float a2 = alpha * alpha;
+  const float spread = n_h * n_h * (a2 - 1) + 1;
+  const float facets = a2 / (kPi * spread * spread);
+  const float away = 1 - v_h;
+  const float fresnel =
+      material.reflectance + (1 - material.reflectance) * away * away * away * away * away;
+  const float shadowing = n_l + std::sqrt(a2 + (1 - a2) * n_l * n_l);
+  const float masking = n_v + std::sqrt(a2 + (1 - a2) * n_v * n_v);
+  return n_l * facets * fresnel / (shadowing * masking) * kPi;
+}
+
+/// Light that bounces inside a crevice is not lost: it comes out in the surface's colour (fit by
+/// Jimenez et al. 2016, "Practical realtime strategies for accurate indirect occlusion").
+Light with_bounces(float visible, const Light& albedo) {
+  const Light a = 2.0404F * albedo - 0.3324F;
+  const Light b = -4.7951F * albedo + 0.6417F;
+  const Light c = 2.7552F * albedo + 0.6903F;
+  return (((visible * a + b) * visible + c) * visible).max(visible).min(1.0F);
+}
+
+float encode_srgb(float linear) {
+  if (linear <= 0.0031308F) return 12.92F * std::max(linear, 0.0F);
+  return 1.055F * std::pow(std::min(linear, 1.0F), 1 / 2.4F) - 0.055F;
+}
+
+/// Leaves the darker half as it is and bends the brighter half so that nothing burns out.
+float soft_shoulder(float x) {
+  constexpr float kKnee = 0.6F;
+  if (x <= kKnee) return x;
+  const float over = (x - kKnee) / (1 - kKnee);
+  return kKnee + (1 - kKnee) * over / (1 + 0.55F * over);
+}
+
+}  // namespace
+
+Light albedo_of(SurfaceKind kind) {
+  return material_of(kind).albedo;
+}
+
+Eigen::Vector3f key_direction() {
+  return kKey.direction;
+}
+
+Light shade(const ShadePoint& point) {
+  const Material material = material_of(point.kind);
+  const Eigen::Vector3f& n = point.normal;
+  const Light open = with_bounces(point.sky, point.albedo);
+
+  Light diffuse = kKey.colour * wrapped(n.dot(kKey.direction), material.wrap) * point.key;
+  diffuse += kFill.colour * wrapped(n.dot(kFill.direction), material.wrap) * open;
+  diffuse += kRimRight.colour * std::max(n.dot(kRimRight.direction), 0.0F) * point.sky;
+  diffuse += kRimLeft.colour * std::max(n.dot(kRimLeft.direction), 0.0F) * point.sky;
+  diffuse += (kSkyBelow + (kSkyAbove - kSkyBelow) * (0.5F + 0.5F * n.y())) * open;
+
+  Light gloss = kKey.colour * highlight(n, point.to_eye, kKey.direction, material) * point.key;
+  const float soft = point.sky * point.sky;
+  gloss += kFill.colour * highlight(n, point.to_eye, kFill.direction, material) * soft;
+  gloss += kRimRight.colour * highlight(n, point.to_eye, kRimRight.direction, material) * soft;
+  gloss += kRimLeft.colour * highlight(n, point.to_eye, kRimLeft.direction, material) * soft;
+
+  const Light light = point.albedo * diffuse + gloss;
+  return point.inside ? Light(light * 0.3F) : light;
+}
+
+Light background(float y) {
+  return Light(0.23F, 0.235F, 0.245F) * (1 - 0.48F * y);
+}
+
+std::array<std::uint8_t, 3> to_srgb8(const Light& light) {
+  std::array<std::uint8_t, 3> out;
+  for (int c = 0; c < 3; ++c) {
+    out[static_cast<std::size_t>(c)] =
+        static_cast<std::uint8_t>(std::lround(255 * encode_srgb(soft_shoulder(light[c]))));
+  }
+  return out;
+}
+
+Light from_srgb(const Eigen::Array3f& srgb) {
+  return srgb.unaryExpr([](float value) {
+    return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
+  });
+}
+
+}  // namespace crowdface

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/text_label.h"
+
+#include <algorithm>
+#include <string>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include "crowdface/core/error.h"
+
+namespace crowdface {
+namespace {
+
+constexpr const char* kFont = "DejaVuSans";
+
+/// The character that begins at `at`, which moves behind it; 0xFFFD for a byte that begins none.
+char32_t next_character(std::string_view text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned lead = byte(at++);
+  if (lead < 0x80) return lead;
+  const std::size_t more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC2 ? 1 : 0;
+  char32_t code = more == 0 ? 0xFFFD : lead & (0x3FU >> more);
+  for (std::size_t k = 0; k < more; ++k) {
+    if ((byte(at + k) & 0xC0U) != 0x80) return 0xFFFD;
+    code = code << 6U | (byte(at + k) & 0x3FU);
+  }
+  at += more;
+  return code;
+}
+
+/// OpenImageIO 2.4 draws ASCII only (it drops all but the last bits of other characters), so
+/// western letters lose their accents and what is left becomes a question mark.
+std::string drawable(std::string_view text) {
+  // U+00C0 to U+00FF.
+  constexpr std::string_view kPlain =
+      "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYTsaaaaaaaceeeeiiiidnooooo/ouuuuyty";
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const char32_t code = next_character(text, at);
+    if (code < 0x20 || code == 0x7F || code == 0xA0) {
+      out += ' ';
+    } else if (code < 0x7F) {
+      out += static_cast<char>(code);
+    } else if (code >= 0xC0 && code <= 0xFF) {
+      out += kPlain[code - 0xC0];
+    } else {
+      out += code == 0xB7 || (code >= 0x2010 && code <= 0x2015) ? '-' : '?';
+    }
+  }
+  return out;
+}
+
+OIIO::ROI extent(const std::string& text, int text_px) {
+  const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, text_px, kFont);
+  if (!roi.defined() && !text.empty()) {
+    throw MissingInput(
+        "the font DejaVu Sans is needed for labels and was not found; on Debian: "
+        "apt install fonts-dejavu-core");
+  }
+  return roi;
+}
+
+int width_of(const std::string& text, int text_px) {
+  return text.empty() ? 0 : extent(text, text_px).width();
+}
+
+/// The longest text that fits, its middle left out.
+std::string shortened(const std::string& text, int width_px, int text_px) {
+  const auto keep = [&](std::size_t kept) {
+    const std::size_t tail = kept / 2;
+    return text.substr(0, kept - tail) + "..." + text.substr(text.size() - tail);
+  };
+  std::size_t low = 0;
+  std::size_t high = text.size() - 1;
+  while (low < high) {  // the most characters that fit, by bisection
+    const std::size_t middle = (low + high + 1) / 2;
+    if (width_of(keep(middle), text_px) <= width_px) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  const std::string best = keep(low);
+  return width_of(best, text_px) <= width_px ? best : std::string();
+}
+
+struct FittedText {
+  std::string text;
+  int text_px;
+};
+
+FittedText fit(std::string_view text, int width_px, int height_px, const LabelStyle& style) {
+  const std::string whole = drawable(text);
+  const int largest = std::max(1, std::min(style.text_px, height_px * 3 / 4));
+  const int smallest = std::min(style.min_text_px, largest);
+  for (int size = largest; size >= smallest; --size) {
+    if (width_of(whole, size) <= width_px) return {whole, size};
+  }
+  return {shortened(whole, width_px, smallest), smallest};
+}
+
+void draw(Rgb8Image& image, const FittedText& fitted, const LabelStyle& style, int padding) {
+  const OIIO::ROI roi = extent(fitted.text, fitted.text_px);
+  int x = padding - roi.xbegin;
+  if (style.align == TextAlign::kCentre) x = (image.width - roi.width()) / 2 - roi.xbegin;
+  if (style.align == TextAlign::kRight) x = image.width - padding - roi.xend;
+  // One baseline for all labels of a size, whatever letters they hold.
+  const int y = (image.height + fitted.text_px * 7 / 10) / 2;
+  const OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+  OIIO::ImageBuf buffer(spec, image.pixels.data());
+  const float colour[3] = {static_cast<float>(style.text[0]) / 255,
+                           static_cast<float>(style.text[1]) / 255,
+                           static_cast<float>(style.text[2]) / 255};
+  OIIO::ImageBufAlgo::render_text(buffer, x, y, fitted.text, fitted.text_px, kFont, colour,
+                                  OIIO::ImageBufAlgo::TextAlignX::Left,
+                                  OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, 1);
+}
+
+}  // namespace
+
+Rgb8Image label_strip(std::string_view text, int width_px, int height_px, const LabelStyle& style) {
+  Rgb8Image image(width_px, height_px, style.paper);
+  const int padding = std::min(4, width_px / 8);
+  if (text.empty() || width_px < 8 || height_px < 6) return image;
+  const FittedText fitted = fit(text, width_px - 2 * padding, height_px, style);
+  if (!fitted.text.empty()) draw(image, fitted, style, padding);
+  return image;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/vertex_colours.h"
+
+#include <algorithm>
+#include <array>
+
+namespace crowdface {
+namespace {
+
+// Okabe & Ito's colours (2008), which colour-blind eyes tell apart too, without black and yellow.
+constexpr std::array<std::array<float, 3>, 6> kPalette = {{{0.84F, 0.37F, 0.00F},
+                                                           {0.00F, 0.45F, 0.70F},
+                                                           {0.00F, 0.62F, 0.45F},
+                                                           {0.80F, 0.47F, 0.65F},
+                                                           {0.90F, 0.62F, 0.00F},
+                                                           {0.34F, 0.71F, 0.91F}}};
+const Eigen::RowVector3f kClay = {0.80F, 0.78F, 0.76F};
+
+}  // namespace
+
+Eigen::Vector3f palette_colour(Eigen::Index k) {
+  const auto& c = kPalette[static_cast<std::size_t>(k) % kPalette.size()];
+  return {c[0], c[1], c[2]};
+}
+
+VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha) {
+  VertexColours colours = VertexColours::Zero(alpha.rows(), 3);
+  for (Eigen::Index k = 0; k < alpha.cols(); ++k) {
+    colours += alpha.col(k).cast<float>() * palette_colour(k).transpose();
+  }
+  return colours;
+}
+
+VertexColours mask_colours(const Eigen::Ref<const Eigen::VectorXd>& mask,
+                           const Eigen::Vector3f& colour) {
+  VertexColours colours(mask.size(), 3);
+  for (Eigen::Index i = 0; i < mask.size(); ++i) {
+    const float share = static_cast<float>(std::clamp(mask[i], 0.0, 1.0));
+    colours.row(i) = (1 - share) * kClay + share * colour.transpose();
+  }
+  return colours;
+}
+
+}  // namespace crowdface

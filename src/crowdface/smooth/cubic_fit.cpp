@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/cubic_fit.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "crowdface/smooth/chebyshev.h"
+
+namespace crowdface {
+
+std::vector<std::uint64_t> cubic_fit_levels(std::uint64_t max_level) {
+  constexpr int kSteps = 40;
+  std::vector<std::uint64_t> levels;
+  for (int j = 0; j <= kSteps; ++j) {
+    const double share = static_cast<double>(j) / kSteps;
+    const auto level =
+        static_cast<std::uint64_t>(std::round(static_cast<double>(max_level) * share * share));
+    if (levels.empty() || level != levels.back()) levels.push_back(level);
+  }
+  return levels;
+}
+
+std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64_t max_level) {
+  const double t = static_cast<double>(level) / static_cast<double>(max_level);
+  return {1, t, t * t, t * t * t};
+}
+
+CubicFit fit_cubic(const SmoothingOperator& smoothing, const Positions& positions,
+                   std::uint64_t max_level) {
+  const std::vector<std::uint64_t> levels = cubic_fit_levels(max_level);
+  const auto count = static_cast<Index>(levels.size());
+  Eigen::MatrixXd design(count, CubicFit::kRank);
+  for (Index l = 0; l < count; ++l) {
+    const auto basis = cubic_basis(levels[static_cast<std::size_t>(l)], max_level);
+    for (Index p = 0; p < CubicFit::kRank; ++p) design(l, p) = basis[static_cast<std::size_t>(p)];
+  }
+  // Least squares is linear in the data: c_p = Σ_l P_pl (S_{L_l} x − x), P the pseudo-inverse. With
+  // fewer than four levels the smallest coefficients that pass through them.
+  const Eigen::MatrixXd fit =
+      design.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(count, count));
+  std::vector<ChebyshevSeries> combined(CubicFit::kRank);
+  for (Index l = 0; l < count; ++l) {
+    const ChebyshevSeries series =
+        power_series(smoothing.kind(), levels[static_cast<std::size_t>(l)]);
+    for (Index p = 0; p < CubicFit::kRank; ++p) {
+      ChebyshevSeries& sum = combined[static_cast<std::size_t>(p)];
+      if (sum.size() < series.size()) sum.resize(series.size(), 0.0);
+      for (std::size_t k = 0; k < series.size(); ++k) sum[k] += fit(p, l) * series[k];
+      sum[0] -= fit(p, l);  // − x = − T_0(W) x
+    }
+  }
+  const std::vector<Columns> fields = filter_many(smoothing, positions, combined);
+  CubicFit result;
+  result.max_level = max_level;
+  for (std::size_t p = 0; p < CubicFit::kRank; ++p) result.fields[p] = fields[p].cast<float>();
+  return result;
+}
+
+Positions evaluate(const CubicFit& fit, const Positions& positions, std::uint64_t level) {
+  const auto basis = cubic_basis(level, fit.max_level);
+  Positions result = positions;
+  for (std::size_t p = 0; p < CubicFit::kRank; ++p) {
+    result += basis[p] * fit.fields[p].cast<double>();
+  }
+  return result;
+}
+
+}  // namespace crowdface

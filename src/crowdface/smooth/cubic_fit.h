@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/smooth/columns.h"
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// The paper's approximation of the levels (§5.1): for each coordinate a cubic in t = L/L_max,
+/// S_L x − x ≈ c_0 + c_1 t + c_2 t² + c_3 t³, fitted by least squares to about 40 levels. Its error
+/// is millimetres where the head moves by centimetres (docs/method.md): kept for comparison.
+struct CubicFit {
+  static constexpr int kRank = 4;
+  using Field = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  std::uint64_t max_level = 1;
+  std::array<Field, kRank> fields;  ///< c_p, #V by 3 each, in the positions' unit
+};
+
+/// The levels the fit uses: round(L_max·(j/40)²) for j = 0 … 40, each once: dense at the start, where
+/// fine detail goes, as the paper has it.
+std::vector<std::uint64_t> cubic_fit_levels(std::uint64_t max_level);
+
+/// Fits one head. The levels are combined while the Chebyshev recurrence runs; none is stored.
+CubicFit fit_cubic(const SmoothingOperator& smoothing, const Positions& positions,
+                   std::uint64_t max_level);
+
+/// φ_0 … φ_3 at a level: 1, t, t², t³.
+std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64_t max_level);
+
+/// S̃_L x, the approximated level of the head the fit was made from.
+Positions evaluate(const CubicFit& fit, const Positions& positions, std::uint64_t level);
+
+}  // namespace crowdface

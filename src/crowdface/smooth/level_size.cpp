@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/level_size.h"
+
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// σ² gained by one iteration, in squared edge lengths.
+double variance_per_iteration(OperatorKind kind) {
+  return kind == OperatorKind::kLazy ? 0.25 : 0.5;
+}
+
+}  // namespace
+
+std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_length) {
+  if (!(size > 0) || !(edge_length > 0)) {
+    throw InvalidInput(concat("a level's size and the edge length must be positive, got ", size,
+                              " and ", edge_length));
+  }
+  const double sigma = size / kWavelengthPerSigma / edge_length;
+  const double level = std::round(sigma * sigma / variance_per_iteration(kind));
+  if (level > 1e9) {
+    throw InvalidInput(concat("a size of ", size, " on edges of ", edge_length,
+                              " would take more than 10^9 iterations"));
+  }
+  return static_cast<std::uint64_t>(level);
+}
+
+double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length) {
+  const double variance = variance_per_iteration(kind) * static_cast<double>(level);
+  return kWavelengthPerSigma * edge_length * std::sqrt(variance);
+}
+
+}  // namespace crowdface

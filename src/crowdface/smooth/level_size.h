@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// Half-amplitude wavelength of a Gaussian of standard deviation 1: π·√(2/ln 2).
+inline constexpr double kWavelengthPerSigma = 5.336446256636997;
+
+/// The whole number of iterations whose size is nearest to `size` on edges of this length: L
+/// iterations act like a Gaussian of σ = h·√(L/2) (lazy: h·√L/2), which halves waves of length
+/// 5.34·σ.
+/// \param size, edge_length  in the same unit, both positive.
+/// \throws InvalidInput if an argument is not positive or the result would exceed 10⁹.
+std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_length);
+
+/// The inverse: the half-amplitude wavelength of `level` iterations, in the unit of the edge length.
+double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length);
+
+}  // namespace crowdface

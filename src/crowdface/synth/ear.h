@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "crowdface/synth/layout.h"
+
+namespace crowdface::synth {
+
+/// A place on the average ear, side x > 0, for ring and core addresses.
+Eigen::Vector3d ear_point(const Address& address);
+
+/// The middle of the ear on the head's side.
+inline const Eigen::Vector3d kEarCentre{6.9, -1.4, -1.1};
+
+}  // namespace crowdface::synth

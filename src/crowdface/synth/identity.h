@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/synth/noise.h"
+
+namespace crowdface::synth {
+
+/// What a head's measures hang together with.
+struct Person {
+  double male = 0;   ///< −1 female … 1 male
+  double age = 40;   ///< years, 18 … 78
+  double build = 0;  ///< standard normal, cut at ±2: slight … heavy
+
+  /// −1 … 1.9: 40 years is 0, 60 is 1.
+  double aged() const { return (age - 40) / 20; }
+};
+Person draw_person(std::uint64_t seed, std::uint64_t index);
+
+/// A smooth displacement of part of the head: (1 − r²)³ · (shift + stretch · (p − centre)), r being
+/// the distance from the centre in radii. Its mirror image at −x goes with it unless the centre
+/// lies in the middle.
+struct Pull {
+  Eigen::Vector3d centre, radii, shift, stretch;
+};
+
+/// Who a head is: its person and, drawn around what that person's are on average, its measures.
+class Identity {
+ public:
+  Identity(std::uint64_t seed, std::uint64_t index);
+
+  /// Carries a point of the average head to this one.
+  Eigen::Vector3d deform(const Eigen::Vector3d& point) const;
+
+  const Person& person() const { return person_; }
+  std::uint64_t seed() const { return seed_; }
+  std::uint64_t index() const { return index_; }
+
+ private:
+  std::uint64_t seed_, index_;
+  Person person_;
+  std::vector<Pull> pulls_;
+  Eigen::Vector3d scale_{1, 1, 1};
+  double face_length_ = 0;
+  SmoothNoise lopsided_;  ///< nobody's left is quite like their right
+};
+
+}  // namespace crowdface::synth

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/synth/layout.h"
+#include "crowdface/synth/synthetic_head.h"
+#include "crowdface/synth/unwrap.h"
+
+namespace crowdface {
+namespace {
+
+double smooth_step(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+std::uint8_t to_byte(double x) {
+  return static_cast<std::uint8_t>(std::floor(255 * x + 0.5));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> synthetic_region_mask(int size) {
+  if (size < 1) throw InvalidInput(concat("expected a mask size of at least 1, found ", size));
+  using synth::row_unit;
+  using synth::strip_v;
+  // Between brow and eye, and between nose and lips; half as far to either side.
+  const double brow = strip_v(row_unit(2)), under_eye = strip_v(row_unit(3));
+  const double nose = strip_v(row_unit(5)), lips = strip_v(row_unit(6));
+  const double eye = (brow + under_eye) / 2, half = (brow - under_eye) / 4;
+  const double upper = eye + 1.2 * half, lower = (nose + lips) / 2;
+  std::vector<std::uint8_t> out;
+  for (int row = 0; row < size; ++row) {
+    const double v = 1 - (row + 0.5) / size;
+    const auto top = to_byte(smooth_step(upper - half, upper + half, v));
+    const auto bottom = to_byte(smooth_step(lower + half, lower - half, v));
+    for (int column = 0; column < size; ++column) {
+      out.push_back(top);
+      out.push_back(static_cast<std::uint8_t>(255 - top - bottom));
+      out.push_back(bottom);
+    }
+  }
+  return out;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/synth/sculpture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector3d;
+
+// The bodies' distance functions follow Quilez, "Distance functions" (iquilezles.org).
+
+double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radii) {
+  const Vector3d q = (p - centre).cwiseQuotient(radii);
+  const double k0 = q.norm(), k1 = q.cwiseQuotient(radii).norm();
+  return k1 > 0 ? k0 * (k0 - 1) / k1 : -radii.minCoeff();
+}
+
+/// A rod whose radius changes evenly from one end to the other.
+double rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double ra, double rb) {
+  const Vector3d axis = b - a;
+  const double t = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
+  return (p - a - t * axis).norm() - (ra + (rb - ra) * t);
+}
+
+/// The smaller of two distances, the joint filled over a width of about k.
+double melt(double a, double b, double k) {
+  const double h = std::max(k - std::abs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * k / 4;
+}
+double carve(double a, double b, double k) {
+  return -melt(-a, b, k);
+}
+
+double smooth_step(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+double skull(const Vector3d& p) {
+  double d = ellipsoid(p, {0, 2.7, -0.7}, {7.3, 8.6, 9.4});
+  d = melt(d, ellipsoid(p, {0, 4.0, 2.7}, {6.1, 5.8, 6.5}), 2.0);
+  return melt(d, ellipsoid(p, {0, -3.0, 2.4}, {6.0, 7.4, 6.4}), 1.6);
+}
+
+double jaw(const Vector3d& p) {
+  const double mandible = rod(p, {4.4, -7.0, 1.5}, {1.2, -9.9, 7.0}, 1.05, 1.3);
+  const double ramus = rod(p, {5.4, -2.5, 0.6}, {4.4, -7.0, 1.5}, 1.2, 1.05);
+  const double chin = ellipsoid(p, {0, -10.0, 7.7}, {1.9, 1.4, 1.85});
+  return melt(melt(mandible, ramus, 1.0), chin, 1.2);
+}
+
+double cheek(const Vector3d& p) {
+  const double front = ellipsoid(p, {3.5, -3.2, 6.0}, {2.4, 2.4, 2.4});
+  const double bone = rod(p, {4.6, -2.2, 5.7}, {6.1, -1.6, 1.6}, 1.15, 0.75);
+  const double hollow = ellipsoid(p, {3.2, -5.8, 4.8}, {2.2, 2.6, 2.9});
+  const double masseter = ellipsoid(p, {4.4, -5.4, 2.8}, {1.5, 2.6, 2.0});
+  return melt(melt(melt(front, bone, 1.2), hollow, 1.5), masseter, 1.5);
+}
+
+double nose(const Vector3d& p) {
+  double d = rod(p, {0, 1.0, 8.75}, {0, -3.1, 11.05}, 0.62, 0.72);
+  d = melt(d, ellipsoid(p, {0, -3.2, 9.5}, {1.35, 1.7, 1.5}), 0.7);
+  d = melt(d, rod(p, {0.45, 0.2, 8.7}, {0.8, -2.8, 9.5}, 0.45, 0.5), 1.1);
+  d = melt(d, ellipsoid(p, {0, -3.45, 11.15}, {0.85, 0.75, 0.8}), 0.4);
+  d = melt(d, rod(p, {0, -3.9, 11.3}, {0, -4.6, 9.9}, 0.3, 0.36), 0.25);
+  d = melt(d, rod(p, {0.35, -3.55, 11.0}, {1.05, -3.75, 10.1}, 0.55, 0.5), 0.4);
+  return melt(d, ellipsoid(p, {1.15, -3.85, 10.0}, {0.6, 0.66, 0.95}), 0.35);
+}
+
+double upper_lip(const Vector3d& p) {
+  const double side = rod(p, {0.5, -6.47, 9.68}, {2.35, -6.95, 8.7}, 0.44, 0.22);
+  return melt(side, ellipsoid(p, {0, -6.6, 9.76}, {0.55, 0.45, 0.5}), 0.5);
+}
+
+double lower_lip(const Vector3d& p) {
+  return melt(rod(p, {0.5, -7.45, 9.55}, {2.25, -7.1, 8.75}, 0.52, 0.22),
+              ellipsoid(p, {0, -7.5, 9.58}, {0.65, 0.5, 0.5}), 0.6);
+}
+
+double neck(const Vector3d& p) {
+  // An upright, slanted sleeve that widens towards the shoulders and ends inside the head.
+  const double down = std::max(0.0, -10 - p.y());
+  const double z = p.z() + 1.7 + 0.13 * (-10 - p.y());
+  const double wide = 4.75 + 0.03 * down * down, deep = 4.6 + 0.012 * down * down;
+  const double r = std::sqrt(p.x() * p.x() / (wide * wide) + z * z / (deep * deep));
+  return -melt((1 - r) * std::min(wide, deep), -(p.y() + 5.5), 3.0);
+}
+
+}  // namespace
+
+double skin_distance(const Vector3d& point) {
+  const Vector3d p(std::abs(point.x()), point.y(), point.z());
+  double d = skull(p);
+  d = melt(d, jaw(p), 1.4);
+  d = melt(d, cheek(p), 1.4);
+  d = melt(d, neck(p), 1.6);
+  if (p.z() < 3) return d;
+  d = melt(d, ellipsoid(p, {0, -6.9, 6.7}, {2.9, 2.6, 3.0}), 1.6);
+  d = melt(d, rod(p, {0.8, 1.8, 8.45}, {5.7, 1.2, 4.6}, 0.8, 0.3), 1.5);
+  d = melt(d, ellipsoid(p, {0, 0.6, 7.9}, {1.2, 2.4, 1.5}), 0.8);
+  d = carve(d, ellipsoid(p, {3.2, -0.1, 9.7}, {1.8, 1.15, 2.2}), 0.8);
+  d = carve(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
+  d = melt(d, (p - kEyeCentre).norm() - (kEyeRadius + 0.13), 0.35);
+  d = melt(d, nose(p), 0.6);
+  const double lips = melt(upper_lip(p), lower_lip(p), 0.06);
+  d = melt(d, lips, 0.3 + 0.3 * smooth_step(-7.6, -8.4, p.y()));
+  return d;
+}
+
+Vector3d skin_normal(const Vector3d& point) {
+  constexpr double h = 1e-4;
+  Vector3d gradient;
+  for (int k = 0; k < 3; ++k) {
+    Vector3d step = Vector3d::Zero();
+    step[k] = h;
+    gradient[k] = skin_distance(point + step) - skin_distance(point - step);
+  }
+  const double length = gradient.norm();
+  return length > 0 ? Vector3d(gradient / length) : Vector3d(0, 0, 1);
+}
+
+Vector3d onto_skin(const Vector3d& origin, const Vector3d& guide) {
+  const Vector3d direction = (guide - origin).normalized();
+  const auto at = [&](double t) { return skin_distance(origin + t * direction); };
+  // Walk from the guide to the nearest change of sign …
+  double t0 = (guide - origin).norm(), d0 = at(t0);
+  double t1 = t0, d1 = d0;
+  for (int i = 0; i < 80 && (d1 > 0) == (d0 > 0); ++i) {
+    t0 = t1;
+    d0 = d1;
+    t1 -= std::copysign(std::clamp(0.8 * std::abs(d1), 0.02, 0.5), d1);
+    d1 = at(t1);
+  }
+  // … and close in on it (Illinois' false position).
+  for (int i = 0; i < 60 && std::abs(t1 - t0) > 1e-11 && d1 != 0; ++i) {
+    const double t = t1 - d1 * (t1 - t0) / (d1 - d0);
+    const double d = at(t);
+    if ((d > 0) != (d1 > 0)) {
+      t0 = t1;
+      d0 = d1;
+    } else {
+      d0 /= 2;
+    }
+    t1 = t;
+    d1 = d;
+  }
+  return origin + t1 * direction;
+}
+
+}  // namespace crowdface::synth

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+struct SyntheticHeadOptions {
+  Index vertices = 20000;  ///< wanted size, 5,000 … 1,200,000; the layout gives the nearest it can
+  std::uint64_t seed = 1;
+};
+
+/// Synthetic human heads in one quad-only topology: skull, brows, lids, nose, lips, ears, jaw and
+/// neck, of both sexes and several ages. One component; six open boundaries (pupils, mouth,
+/// nostrils, neck). The layout is hand-made here, no scan is part of it.
+class SyntheticHeads {
+ public:
+  /// \param vertices  wanted number, 5,000 … 1,200,000; nearest the layout can give, within 10 %.
+  /// \throws InvalidInput outside that range.
+  explicit SyntheticHeads(Index vertices);
+  ~SyntheticHeads();
+  SyntheticHeads(SyntheticHeads&&) noexcept;
+  SyntheticHeads& operator=(SyntheticHeads&&) noexcept;
+
+  /// The same for every seed. Each corner has a texture coordinate.
+  const Topology& topology() const;
+  /// #T by 2 in [0, 1]², one tile without overlaps, cut open down the back of the head.
+  const TextureCoordinates& uvs() const;
+
+  /// Head number `index` of a seed: #V by 3 in centimetres, +Y up, looking along +Z, the origin
+  /// between the eyes' height and the ears. The same surface at every resolution, the same bits on
+  /// every machine.
+  Positions positions(std::uint64_t seed, std::uint64_t index) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A region mask that fits the heads' texture coordinates at every resolution: `size` × `size` × 3
+/// bytes, row by row, first row at v = 1; channels top (brows and above), middle (eyes and nose),
+/// bottom (mouth and below), which add up to 255 and run softly into one another.
+/// \throws InvalidInput if size < 1.
+std::vector<std::uint8_t> synthetic_region_mask(int size);
+
+}  // namespace crowdface

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface {
+namespace {
+
+using testing::expect_error;
+using testing::read_text;
+using testing::TemporaryFolder;
+
+std::size_t entries_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+}
+
+TEST(WriteFile, LeavesTheFileAndNothingElse) {
+  const TemporaryFolder folder;
+  write_file(folder / "a", std::vector<std::string_view>{"one ", "", "two"});
+  EXPECT_EQ(read_file(folder / "a"), "one two");
+  write_file(folder / "a", "three");
+  EXPECT_EQ(read_text(folder / "a"), "three");
+  EXPECT_EQ(entries_in(folder.path()), 1U);
+}
+
+TEST(WriteFile, AFailedWriteKeepsTheOldFileAndLeavesNoOther) {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "old");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 4096;
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string large(100000, 'x');
+  expect_error(ExitCode::kIoError, {"a: writing failed"},
+               [&] { write_file(folder / "a", large); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(read_text(folder / "a"), "old");
+  EXPECT_EQ(entries_in(folder.path()), 1U);
+}
+
+TEST(WriteFile, NamesTheFileThatCannotBeCreated) {
+  const TemporaryFolder folder;
+  expect_error(ExitCode::kCannotCreate, {"missing/a"},
+               [&] { write_file(folder.path() / "missing" / "a", "x"); });
+}
+
+TEST(ReadFile, NamesWhatIsMissing) {
+  const TemporaryFolder folder;
+  expect_error(ExitCode::kMissingInput, {"none.obj"}, [&] { read_file(folder / "none.obj"); });
+  expect_error(ExitCode::kMissingInput, {"regular file"}, [&] { MappedFile file(folder.path()); });
+}
+
+TEST(MappedFile, ShowsTheBytes) {
+  const TemporaryFolder folder;
+  const MappedFile file(folder.write("a", "bytes"));
+  EXPECT_EQ(file.bytes(), "bytes");
+  EXPECT_TRUE(MappedFile(folder.write("empty", "")).bytes().empty());
+}
+
+TEST(MakeDirectories, RefusesWhereAFileStands) {
+  const TemporaryFolder folder;
+  folder.write("a", "file");
+  expect_error(ExitCode::kCannotCreate, {"a"}, [&] { make_directories(folder / "a"); });
+  EXPECT_NO_THROW(make_directories(folder.path() / "b" / "c"));
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+namespace crowdface {
+namespace {
+
+TEST(ParallelBlocks, CoverEachItemOnce) {
+  for (const std::ptrdiff_t count : {0, 1, 7, 8, 9, 1000}) {
+    std::vector<int> visits(static_cast<std::size_t>(count), 0);
+    parallel_blocks(count, 8, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      EXPECT_EQ(begin % 8, 0);
+      EXPECT_LE(end - begin, 8);
+      for (auto i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+    });
+    for (const int n : visits) EXPECT_EQ(n, 1);
+  }
+}
+
+TEST(ParallelSum, IsTheSameForAnyThreadCount) {
+  const auto term = [](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    double sum = 0;
+    for (auto i = begin; i < end; ++i) sum += 1.0 / static_cast<double>(i + 1);
+    return sum;
+  };
+  const double all = parallel_sum(100000, 1000, term);
+  const ThreadLimit one(1);
+  EXPECT_EQ(parallel_sum(100000, 1000, term), all);
+}
+
+TEST(ParallelForEach, HandsExceptionsOn) {
+  EXPECT_THROW(parallel_for_each(100,
+                                 [](std::ptrdiff_t i) {
+                                   if (i == 42) throw std::runtime_error("42");
+                                 }),
+               std::runtime_error);
+}
+
+TEST(ParallelForEach, RunsNoSecondItemWhileOneWaitsForAnInnerLoop) {
+  // Heavy items would otherwise pile up, and their memory with them.
+  thread_local int depth = 0;
+  std::atomic<int> deepest{0};
+  parallel_for_each(64, [&](std::ptrdiff_t) {
+    ++depth;
+    int seen = deepest.load();
+    while (seen < depth && !deepest.compare_exchange_weak(seen, depth)) {
+    }
+    parallel_blocks(1000, 10, [](std::ptrdiff_t, std::ptrdiff_t) {});
+    --depth;
+  });
+  EXPECT_EQ(deepest.load(), 1);
+}
+
+TEST(ThreadLimit, HoldsWhileItLives) {
+  {
+    const ThreadLimit one(1);
+    EXPECT_EQ(thread_count(), 1);
+  }
+  EXPECT_GE(thread_count(), 1);
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/text.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/random.h"
+
+namespace crowdface {
+namespace {
+
+TEST(ParseDouble, TakesFiniteDecimalNumbersOnly) {
+  EXPECT_EQ(parse_double("1.5"), 1.5);
+  EXPECT_EQ(parse_double("+2"), 2.0);
+  EXPECT_EQ(parse_double("-.5e1"), -5.0);
+  EXPECT_EQ(parse_double("1e-400"), 0.0);  // below what a double holds
+  for (const char* bad : {"", "+", "-", "nan", "inf", "-inf", "infinity", "abc", "1,5", "1 ", " 1",
+                          "0x10", "1e400", "-1e400", "1.5x", "--1", "+-1", "1e", "."}) {
+    EXPECT_EQ(parse_double(bad), std::nullopt) << bad;
+  }
+}
+
+TEST(ParseUnsigned, RefusesSignsAndOverflow) {
+  EXPECT_EQ(parse_unsigned("18446744073709551615"), UINT64_MAX);
+  for (const char* bad : {"", "-1", "+1", "18446744073709551616", "1.0", "1 ", "0x1"}) {
+    EXPECT_EQ(parse_unsigned(bad), std::nullopt) << bad;
+  }
+}
+
+TEST(FormatNumber, ReadsBackExactly) {
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const double value = random_between({1, i, "test", 0}, -1e3, 1e3) / 7;
+    EXPECT_EQ(parse_double(format_number(value)), value);
+  }
+  EXPECT_EQ(format_number(0.1), "0.1");
+  EXPECT_EQ(format_fixed(2.0 / 3, 3), "0.667");
+}
+
+TEST(NearestWord, SuggestsOnlyWhatIsNear) {
+  const std::vector<std::string> words = {"smoothness", "extrapolation", "position"};
+  EXPECT_EQ(nearest_word("smothness", words), "smoothness");
+  EXPECT_EQ(nearest_word("postion", words), "position");
+  EXPECT_EQ(nearest_word("colour", words), std::nullopt);
+}
+
+TEST(Quoted, EscapesAndShortens) {
+  EXPECT_EQ(quoted("a\"b\n"), "\"a\\\"b\\x0a\"");
+  EXPECT_LT(quoted(std::string(1000, 'x')).size(), 100U);
+}
+
+TEST(Concat, TakesTextAndNumbers) {
+  EXPECT_EQ(concat("a", 1, ' ', 2.5, std::string("b")), "a1 2.5b");
+  EXPECT_EQ(join({"a", "b", "c"}), "a, b, c");
+}
+
+}  // namespace
+}  // namespace crowdface

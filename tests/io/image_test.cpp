@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/image.h"
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+
+namespace crowdface {
+namespace {
+
+using std::filesystem::path;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ImageFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("crowdface_image_") + info->name() + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  template <class T>
+  path write(const std::string& name, int width, int height, int channels, OIIO::TypeDesc type,
+             const std::vector<T>& values) {
+    const path file = folder_ / name;
+    OIIO::ImageSpec spec(width, height, channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    auto output = OIIO::ImageOutput::create(file.string());
+    EXPECT_TRUE(output->open(file.string(), spec)) << output->geterror();
+    EXPECT_TRUE(output->write_image(OIIO::BaseTypeFromC<T>::value, values.data()));
+    EXPECT_TRUE(output->close());
+    return file;
+  }
+
+  path write_bytes(const std::string& name, std::string_view bytes) {
+    const path file = folder_ / name;
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+  }
+
+  path folder_;
+};
+
+std::string message_of(const path& file, const ImageLimits& limits = {}) {
+  try {
+    read_image(file, limits);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::vector<std::uint8_t> counting_bytes(std::size_t count) {
+  std::vector<std::uint8_t> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<std::uint8_t>(37 * i + 11);
+  return values;
+}
+
+std::vector<std::uint16_t> counting_words(std::size_t count) {
+  std::vector<std::uint16_t> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<std::uint16_t>(7919 * i + 3);
+  return values;
+}
+
+template <class T>
+void expect_fractions(const Image& image, const std::vector<T>& values) {
+  ASSERT_EQ(image.pixels.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(image.pixels[i],
+              static_cast<float>(values[i]) / static_cast<float>(std::numeric_limits<T>::max()));
+  }
+}
+
+TEST_F(ImageFiles, EveryChannelCountOfPngComesBack) {
+  for (int channels = 1; channels <= 4; ++channels) {
+    const auto bytes = counting_bytes(static_cast<std::size_t>(5 * 3 * channels));
+    const Image read = read_image(write("b.png", 5, 3, channels, OIIO::TypeDesc::UINT8, bytes));
+    EXPECT_EQ(read.width, 5);
+    EXPECT_EQ(read.height, 3);
+    EXPECT_EQ(read.channels, channels);
+    EXPECT_EQ(read.alpha_channel, channels % 2 == 0 ? channels - 1 : -1);
+    expect_fractions(read, bytes);
+    const auto words = counting_words(bytes.size());
+    expect_fractions(read_image(write("w.png", 5, 3, channels, OIIO::TypeDesc::UINT16, words)),
+                     words);
+  }
+}
+
+TEST_F(ImageFiles, TiffComesBackInEveryType) {
+  const auto bytes = counting_bytes(4 * 4 * 4);
+  expect_fractions(read_image(write("b.tif", 4, 4, 4, OIIO::TypeDesc::UINT8, bytes)), bytes);
+  const auto words = counting_words(4 * 4 * 3);
+  expect_fractions(read_image(write("w.tif", 4, 4, 3, OIIO::TypeDesc::UINT16, words)), words);
+  const std::vector<float> floats = {-1.5F, 0.1F, 3e9F, 0.25F};
+  EXPECT_EQ(read_image(write("f.tif", 2, 2, 1, OIIO::TypeDesc::FLOAT, floats)).pixels, floats);
+}
+
+TEST_F(ImageFiles, ExrKeepsItsFloats) {
+  std::vector<float> floats;
+  for (int i = 0; i < 3 * 2 * 5; ++i) floats.push_back(0.1F * static_cast<float>(i) - 1);
+  const Image five = read_image(write("five.exr", 3, 2, 5, OIIO::TypeDesc::FLOAT, floats));
+  EXPECT_EQ(five.channels, 5);
+  floats.resize(3 * 2 * 4);
+  const Image rgba = read_image(write("rgba.exr", 3, 2, 4, OIIO::TypeDesc::FLOAT, floats));
+  EXPECT_EQ(rgba.alpha_channel, 3);
+  EXPECT_EQ(rgba.pixels, floats);
+  const std::vector<float> halves = {0.5F, 1.0F, 0.25F, 2.0F};
+  EXPECT_EQ(read_image(write("half.exr", 2, 2, 1, OIIO::TypeDesc::HALF, halves)).pixels, halves);
+}
+
+TEST_F(ImageFiles, ColoursUnderAlphaZeroSurvive) {
+  const std::vector<std::uint8_t> clear = {200, 100, 50, 0, 10, 20, 30, 128};
+  for (const char* name : {"clear.png", "clear.tif"}) {
+    expect_fractions(read_image(write(name, 2, 1, 4, OIIO::TypeDesc::UINT8, clear)), clear);
+  }
+  expect_fractions(read_image(write_bytes("own.png", encode_png(2, 1, 4, clear))), clear);
+}
+
+TEST_F(ImageFiles, PngInMemoryComesBackAndIsReproducible) {
+  for (int channels = 1; channels <= 4; ++channels) {
+    const auto bytes = counting_bytes(static_cast<std::size_t>(31 * 17 * channels));
+    const std::string png = encode_png(31, 17, channels, bytes);
+    EXPECT_EQ(png, encode_png(31, 17, channels, bytes));
+    EXPECT_THAT(png, Not(HasSubstr("tIME")));
+    expect_fractions(read_image(write_bytes("memory.png", png)), bytes);
+  }
+}
+
+TEST_F(ImageFiles, PngEncodingRefusesWrongSizes) {
+  const std::vector<std::uint8_t> twelve(12);
+  EXPECT_THROW(encode_png(2, 2, 4, twelve), InvalidInput);
+  EXPECT_THROW(encode_png(0, 2, 3, {}), InvalidInput);
+  EXPECT_THROW(encode_png(2, 1, 6, twelve), InvalidInput);
+}
+
+TEST_F(ImageFiles, ContentDecidesNotTheName) {
+  const auto bytes = counting_bytes(4 * 4 * 3);
+  const path png = write("right.png", 4, 4, 3, OIIO::TypeDesc::UINT8, bytes);
+  std::filesystem::rename(png, folder_ / "wrong.exr");
+  expect_fractions(read_image(folder_ / "wrong.exr"), bytes);
+}
+
+TEST_F(ImageFiles, MissingFileIsMissingInput) {
+  EXPECT_THROW(read_image(folder_ / "none.png"), MissingInput);
+  EXPECT_THROW(read_image(folder_), MissingInput);
+}
+
+TEST_F(ImageFiles, OtherContentIsRefusedByName) {
+  const path text = write_bytes("text.png", "this is no picture");
+  EXPECT_THAT(message_of(text),
+              AllOf(HasSubstr("text.png"), HasSubstr("expected a PNG"), HasSubstr("this is")));
+  EXPECT_THAT(message_of(write_bytes("empty.png", "")), HasSubstr("empty file"));
+  EXPECT_THAT(message_of(write_bytes("x.jpg", "\xff\xd8\xff\xe0 JFIF")),
+              HasSubstr("expected a PNG"));
+}
+
+TEST_F(ImageFiles, EveryCutOfAFileIsRefused) {
+  const auto bytes = counting_bytes(16 * 16 * 3);
+  std::vector<float> floats(16 * 16 * 3);
+  for (std::size_t i = 0; i < floats.size(); ++i) floats[i] = static_cast<float>(bytes[i]);
+  const path files[] = {write("a.png", 16, 16, 3, OIIO::TypeDesc::UINT8, bytes),
+                        write("a.tif", 16, 16, 3, OIIO::TypeDesc::UINT8, bytes),
+                        write("a.exr", 16, 16, 3, OIIO::TypeDesc::FLOAT, floats)};
+  for (const path& file : files) {
+    const std::string whole = read_file(file);
+    EXPECT_EQ(message_of(file), "accepted");
+    for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 1 : 61) {
+      const path cut = write_bytes("cut", whole.substr(0, size));
+      EXPECT_NE(message_of(cut), "accepted") << file << " after " << size << " bytes";
+    }
+    const path cut = write_bytes("cut", whole.substr(0, whole.size() - 1));
+    EXPECT_NE(message_of(cut), "accepted") << file << " without its last byte";
+  }
+}
+
+TEST_F(ImageFiles, LimitsAreKept) {
+  const path file = write("limits.png", 6, 5, 3, OIIO::TypeDesc::UINT8, counting_bytes(90));
+  EXPECT_THAT(message_of(file, {.max_side = 5}),
+              AllOf(HasSubstr("at most 5 pixels"), HasSubstr("6 x 5")));
+  EXPECT_THAT(message_of(file, {.max_channels = 2}), HasSubstr("at most 2 channels"));
+  EXPECT_THAT(message_of(file, {.max_values = 89}), HasSubstr("at most 89 values"));
+  EXPECT_EQ(message_of(file, {.max_side = 6, .max_channels = 3, .max_values = 90}), "accepted");
+}
+
+TEST_F(ImageFiles, NotFiniteValuesAreNamed) {
+  std::vector<float> floats(4 * 3 * 2, 0.5F);
+  floats[(4 * 1 + 2) * 2 + 1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(message_of(write("nan.exr", 4, 3, 2, OIIO::TypeDesc::FLOAT, floats)),
+              HasSubstr("NaN at column 3, row 2, channel 2"));
+  floats.assign(24, 0.5F);
+  floats[0] = -std::numeric_limits<float>::infinity();
+  EXPECT_THAT(message_of(write("inf.exr", 4, 3, 2, OIIO::TypeDesc::FLOAT, floats)),
+              HasSubstr("infinity at column 1, row 1, channel 1"));
+}
+
+TEST_F(ImageFiles, WideIntegersAreRefused) {
+  const std::vector<std::uint32_t> wide(4, 7);
+  EXPECT_THAT(message_of(write("wide.tif", 2, 2, 1, OIIO::TypeDesc::UINT32, wide)),
+              HasSubstr("expected 8 or 16 bit"));
+}
+
+TEST_F(ImageFiles, PartOfAnExrIsRefused) {
+  const path file = folder_ / "part.exr";
+  OIIO::ImageSpec spec(2, 2, 1, OIIO::TypeDesc::FLOAT);
+  spec.full_width = 8;
+  spec.full_height = 8;
+  auto output = OIIO::ImageOutput::create(file.string());
+  ASSERT_TRUE(output->open(file.string(), spec));
+  const std::vector<float> floats(4, 1.0F);
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, floats.data()));
+  ASSERT_TRUE(output->close());
+  EXPECT_THAT(message_of(file), HasSubstr("display window"));
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/config_writer.h"
+
+#include <gmock/gmock.h>
+
+#include "job/config_test_folder.h"
+
+namespace crowdface {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+bool same(const WeightedHead& a, const WeightedHead& b) {
+  return a.head == b.head && a.weight == b.weight;
+}
+
+bool same(const std::vector<WeightedHead>& a, const std::vector<WeightedHead>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return same(x, y); });
+}
+
+bool same(const SmoothnessDistribution& a, const SmoothnessDistribution& b) {
+  return a.unit == b.unit && a.range == b.range;
+}
+
+bool same(const RegionSampling& a, const RegionSampling& b) {
+  return a.position.kind == b.position.kind && a.position.head == b.position.head &&
+         a.position.radius == b.position.radius && a.position.at == b.position.at &&
+         same(a.smoothness, b.smoothness) && a.extrapolation == b.extrapolation;
+}
+
+bool same(const HandRecipe::Region& a, const HandRecipe::Region& b) {
+  return a.position == b.position && same(a.weights, b.weights) &&
+         a.smoothness.has_value() == b.smoothness.has_value() &&
+         (!a.smoothness || same(*a.smoothness, *b.smoothness)) &&
+         a.extrapolation == b.extrapolation;
+}
+
+/// Every field but the name of the config's file.
+void expect_equal(const Config& a, const Config& b) {
+  EXPECT_EQ(a.crowd.name, b.crowd.name);
+  EXPECT_EQ(a.crowd.count, b.crowd.count);
+  EXPECT_EQ(a.crowd.seed, b.crowd.seed);
+  EXPECT_EQ(a.faces.files, b.faces.files);
+  EXPECT_EQ(a.faces.names, b.faces.names);
+  EXPECT_EQ(a.faces.units, b.faces.units);
+  EXPECT_EQ(a.faces.up, b.faces.up);
+  EXPECT_EQ(a.faces.front, b.faces.front);
+  EXPECT_EQ(a.faces.align, b.faces.align);
+  EXPECT_EQ(a.faces.tags, b.faces.tags);
+  EXPECT_EQ(a.regions.names, b.regions.names);
+  EXPECT_EQ(a.regions.mask, b.regions.mask);
+  EXPECT_EQ(a.smoothing.max_size_mm, b.smoothing.max_size_mm);
+  EXPECT_EQ(a.smoothing.max_iterations, b.smoothing.max_iterations);
+  EXPECT_EQ(a.smoothing.boundary, b.smoothing.boundary);
+  EXPECT_EQ(a.smoothing.operator_kind, b.smoothing.operator_kind);
+  EXPECT_EQ(a.smoothing.levels, b.smoothing.levels);
+  EXPECT_EQ(a.blending.normalization, b.blending.normalization);
+  EXPECT_EQ(a.plane.layout, b.plane.layout);
+  EXPECT_EQ(a.plane.anchors, b.plane.anchors);
+  EXPECT_TRUE(same(a.sampling.targets, b.sampling.targets));
+  EXPECT_EQ(a.sampling.sources, b.sampling.sources);
+  EXPECT_EQ(a.sampling.max_sources, b.sampling.max_sources);
+  ASSERT_EQ(a.sampling.regions.size(), b.sampling.regions.size());
+  for (std::size_t i = 0; i < a.sampling.regions.size(); ++i) {
+    EXPECT_TRUE(same(a.sampling.regions[i], b.sampling.regions[i])) << i;
+  }
+  ASSERT_EQ(a.recipes.size(), b.recipes.size());
+  for (std::size_t i = 0; i < a.recipes.size(); ++i) {
+    EXPECT_EQ(a.recipes[i].id, b.recipes[i].id);
+    EXPECT_EQ(a.recipes[i].target, b.recipes[i].target);
+    ASSERT_EQ(a.recipes[i].regions.size(), b.recipes[i].regions.size());
+    for (std::size_t k = 0; k < a.recipes[i].regions.size(); ++k) {
+      EXPECT_TRUE(same(a.recipes[i].regions[k], b.recipes[i].regions[k])) << i << ' ' << k;
+    }
+  }
+  EXPECT_EQ(a.output.directory, b.output.directory);
+  EXPECT_EQ(a.output.obj, b.output.obj);
+  ASSERT_EQ(a.output.contact_sheet.has_value(), b.output.contact_sheet.has_value());
+  if (a.output.contact_sheet) {
+    EXPECT_EQ(a.output.contact_sheet->columns, b.output.contact_sheet->columns);
+    EXPECT_EQ(a.output.contact_sheet->rows, b.output.contact_sheet->rows);
+    EXPECT_EQ(a.output.contact_sheet->cell, b.output.contact_sheet->cell);
+    EXPECT_EQ(a.output.contact_sheet->views, b.output.contact_sheet->views);
+  }
+}
+
+class EffectiveConfig : public ConfigTest {
+ protected:
+  /// Reads, writes into the output folder, reads again: the same config, and the same bytes.
+  std::string round_trip(const std::string& text) {
+    const auto first = read(text);
+    EXPECT_TRUE(first) << told();
+    if (!first) return "";
+    const std::string written = effective_config(*first, first->output.directory);
+    const auto file = first->output.directory / "config.yaml";
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << written;
+    const auto second = read_config(file, {}, problems_);
+    EXPECT_TRUE(second) << told() << written;
+    if (!second) return written;
+    expect_equal(*first, *second);
+    EXPECT_EQ(effective_config(*second, second->output.directory), written);
+    return written;
+  }
+};
+
+TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
+  EXPECT_EQ(round_trip(kPlain),
+            "schema: 1\n"
+            "crowd:\n"
+            "  name: mob\n"
+            "  count: 3\n"
+            "  seed: 1\n"
+            "faces:\n"
+            "  files:\n"
+            "    - ../../heads/ann.obj\n"
+            "    - ../../heads/bob.obj\n"
+            "    - ../../heads/cyd.obj\n"
+            "  units: cm\n"
+            "  up: +Y\n"
+            "  front: +Z\n"
+            "  align: check\n"
+            "  tags: {}\n"
+            "regions: none\n"
+            "smoothing:\n"
+            "  max_size: 240 mm\n"
+            "  boundary: fixed\n"
+            "  operator: umbrella\n"
+            "  levels: exact\n"
+            "blending:\n"
+            "  normalization: partition\n"
+            "parts: none\n"
+            "plane:\n"
+            "  layout: circle\n"
+            "  anchors: {}\n"
+            "sampling:\n"
+            "  targets: all\n"
+            "  sources: all\n"
+            "  position:\n"
+            "    default: {distribution: uniform}\n"
+            "  smoothness:\n"
+            "    default: [0.2, 0.8]\n"
+            "  extrapolation:\n"
+            "    default: 1\n"
+            "  max_sources: all\n"
+            "recipes: []\n"
+            "output:\n"
+            "  directory: .\n"
+            "  meshes: [obj]\n"
+            "  contact_sheet:\n"
+            "    columns: 6\n"
+            "    rows: 4\n"
+            "    cell: 256\n"
+            "    views: [front]\n");
+}
+
+TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
+  touch("heads/null.obj");
+  touch("heads/007.obj");
+  const std::string written = round_trip(
+      "schema: 1\n"
+      "crowd: {name: '2024', count: 1000000, seed: 18446744073709551615}\n"
+      "faces: {directory: heads, units: in, up: -Z, front: x, align: rigid,\n"
+      "        tags: {ann: [old, thin], 'null': [old], 007: ['yes']}}\n"
+      "regions: {names: [face, no, low], mask: [mask.png, tiles.<UDIM>.png]}\n"
+      "smoothing: {max_size: 12.34567890123 cm, boundary: free, operator: lazy, levels: cubic}\n"
+      "plane: {layout: similarity, anchors: {ann: [0.1, -1e-7], 'null': [1e5, "
+      "0.30000000000000004]}}\n"
+      "sampling:\n"
+      "  targets: {old: 2.5, cyd: 1}\n"
+      "  sources: [thin, bob]\n"
+      "  position: {default: {distribution: uniform}, face: {distribution: around, face: ann, "
+      "radius: 0.7},\n"
+      "             low: {distribution: fixed, position: [3, -4]}}\n"
+      "  smoothness: {default: [1 mm, 2.5 cm], face: 0.25, low: {iterations: [0, 10000000]}}\n"
+      "  extrapolation: {low: [-4, 4], face: 1.1}\n"
+      "  max_sources: 7\n"
+      "recipes:\n"
+      "  - {id: aged, target: 'null', regions: {all: {weights: {ann: 3, bob: 0}, smoothness: "
+      "0.5}}}\n"
+      "  - {id: 'on', regions: {face: {position: [1, 2], iterations: [3, 10000000]}, low:\n"
+      "      {smoothness: [0.1 mm, 8 mm], extrapolation: [1, 1.5]}}}\n"
+      "output: {directory: 'x y/ü#1', meshes: [], contact_sheet: {columns: 32, rows: 1, cell: 64,\n"
+      "         views: [profile, front, three_quarter]}}\n");
+  EXPECT_THAT(written, HasSubstr("name: \"2024\""));
+  EXPECT_THAT(written, HasSubstr("iterations: [0, 10000000]"));
+  EXPECT_THAT(written, Not(HasSubstr(folder_.string()))) << "paths are relative";
+}
+
+TEST_F(EffectiveConfig, ReadsBackWithIterationsAndPrintedAndManual) {
+  round_trip(kBands +
+             "smoothing: {max_iterations: 10000000, max_size: 5 mm}\n"
+             "blending: {normalization: printed}\n"
+             "plane: {layout: manual, anchors: {ann: [0, 0], bob: [1, 0], cyd: [0, 1]}}\n"
+             "sampling: {smoothness: 9 mm, position: {distribution: around, radius: 2}}\n"
+             "recipes: [{id: a, regions: {top: {position: [0, 0.5]}}}]\n"
+             "output: {contact_sheet: none}\n");
+  round_trip(kPlain +
+             "plane: {layout: grid}\nsampling: {targets: [bob], sources: [bob]}\n"
+             "recipes: [{id: a, target: ann}]\n");
+}
+
+TEST_F(EffectiveConfig, DoesNotDependOnHowPathsWereWritten) {
+  const auto one = read(kPlain + "output: {directory: out/mob}\n");
+  const auto other = read(
+      "schema: 1\ncrowd: {name: mob, count: 3}\n"
+      "faces: {files: [./heads/ann.obj, heads/../heads/bob.obj, heads//cyd.obj], units: cm}\n"
+      "output: {directory: heads/../out/mob/}\n");
+  ASSERT_TRUE(one && other) << told();
+  EXPECT_EQ(effective_config(*one, one->output.directory),
+            effective_config(*other, other->output.directory));
+  EXPECT_EQ(effective_config(*one, folder_ / "out/mob"),
+            effective_config(*one, folder_ / "out/mob/"));
+}
+
+}  // namespace
+}  // namespace crowdface

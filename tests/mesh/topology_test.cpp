@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/mesh/topology.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+using testing::make_topology;
+using ::testing::HasSubstr;
+
+TEST(FirstDifference, IsEmptyForEqualTopologies) {
+  EXPECT_EQ(first_difference(testing::cube_topology(), testing::cube_topology()), "");
+}
+
+TEST(FirstDifference, NamesTheFaceAsObjCountsIt) {
+  const Topology a = make_topology(4, {{0, 1, 2}, {0, 2, 3}});
+  const Topology b = make_topology(4, {{0, 1, 2}, {0, 3, 2}});
+  EXPECT_EQ(first_difference(a, b), "face 2: expected vertices 1 3 4, found 1 4 3");
+}
+
+TEST(FirstDifference, NamesCounts) {
+  const Topology a = make_topology(4, {{0, 1, 2}, {0, 2, 3}});
+  EXPECT_THAT(first_difference(a, make_topology(5, {{0, 1, 2}, {0, 2, 3}})),
+              HasSubstr("expected 4 vertices, found 5"));
+  EXPECT_THAT(first_difference(a, make_topology(4, {{0, 1, 2}})),
+              HasSubstr("expected 2 faces, found 1"));
+}
+
+TEST(FirstDifference, SeesTextureIndices) {
+  Topology a = make_topology(3, {{0, 1, 2}}), b = a;
+  a.corner_uvs = {0, 1, 2};
+  EXPECT_THAT(first_difference(a, b), HasSubstr("texture coordinates 1 2 3, found none"));
+  b.corner_uvs = {0, 2, 1};
+  EXPECT_THAT(first_difference(a, b), HasSubstr("texture coordinates 1 2 3, found 1 3 2"));
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/region/region_weights.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+
+namespace crowdface {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Vertices of one triangle strip, one texture coordinate each.
+struct Strip {
+  Topology topology;
+  TextureCoordinates uvs;
+
+  explicit Strip(const std::vector<std::array<double, 2>>& places)
+      : uvs(static_cast<Index>(places.size()), 2) {
+    topology.vertex_count = uvs.rows();
+    for (std::uint32_t i = 0; i < places.size(); ++i) uvs.row(i) << places[i][0], places[i][1];
+    for (std::uint32_t i = 0; i + 2 < places.size(); ++i) {
+      for (std::uint32_t c = i; c < i + 3; ++c) {
+        topology.corner_vertices.push_back(c);
+        topology.corner_uvs.push_back(c);
+      }
+      topology.face_offsets.push_back(topology.face_offsets.back() + 3);
+    }
+  }
+};
+
+Image image_of(int width, int height, int channels, const std::vector<float>& pixels,
+               int alpha = -1) {
+  return {width, height, channels, alpha, pixels};
+}
+
+std::string message_of(const Strip& strip, const std::vector<MaskSource>& masks, Index regions) {
+  try {
+    region_weights(strip.topology, strip.uvs, masks, regions);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+const Strip kThree({{0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}});
+
+TEST(SampleBilinear, TexelCentresAreExact) {
+  Image image = image_of(4, 8, 1, {});
+  for (int i = 0; i < 32; ++i) image.pixels.push_back(0.37F * static_cast<float>(i));
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      EXPECT_EQ(sample_bilinear(image, (x + 0.5) / 4, 1 - (y + 0.5) / 8, 0), image.at(x, y, 0));
+    }
+  }
+}
+
+TEST(SampleBilinear, RampIsLinearBetweenCentres) {
+  const Image image = image_of(4, 1, 1, {0, 1, 2, 3});
+  for (double u = 0.125; u <= 0.875; u += 0.03) {
+    EXPECT_NEAR(sample_bilinear(image, u, 0.3, 0), 4 * u - 0.5, 1e-12);
+  }
+}
+
+TEST(SampleBilinear, MixesFourNeighbours) {
+  const Image image = image_of(2, 2, 1, {1, 2, 3, 5});
+  EXPECT_DOUBLE_EQ(sample_bilinear(image, 0.5, 0.5, 0), 11.0 / 4);
+}
+
+TEST(SampleBilinear, EdgesAreClamped) {
+  const Image image = image_of(2, 2, 1, {1, 2, 3, 4});
+  EXPECT_EQ(sample_bilinear(image, 0, 1, 0), 1);
+  EXPECT_EQ(sample_bilinear(image, 1, 0, 0), 4);
+  EXPECT_EQ(sample_bilinear(image, -7, 9, 0), 1);
+  EXPECT_EQ(sample_bilinear(image, 0.2, -9, 0), 3);
+}
+
+TEST(SampleBilinear, FirstRowLiesAtTheTop) {
+  const Image image = image_of(1, 2, 1, {7, 8});
+  EXPECT_EQ(sample_bilinear(image, 0.5, 1, 0), 7);
+  EXPECT_EQ(sample_bilinear(image, 0.5, 0, 0), 8);
+}
+
+TEST(RegionWeights, WholeHeadIsAllOnes) {
+  const auto weights = region_weights(kThree.topology, {}, {}, 1);
+  EXPECT_EQ(weights.alpha, RegionWeights::Alpha::Ones(3, 1));
+  EXPECT_EQ(weights.uncovered_vertices, 0);
+}
+
+TEST(RegionWeights, ConstantMasksAreScaledToOne) {
+  const MaskSource mask("m", image_of(1, 1, 3, {0.5F, 0.25F, 0.25F}));
+  const MaskSource doubled("m", image_of(1, 1, 3, {1.0F, 0.5F, 0.5F}));
+  const auto weights = region_weights(kThree.topology, kThree.uvs, {mask}, 3);
+  for (Index i = 0; i < 3; ++i) {
+    EXPECT_EQ(weights.alpha.row(i), Eigen::RowVector3d(0.5, 0.25, 0.25));
+  }
+  EXPECT_EQ(region_weights(kThree.topology, kThree.uvs, {doubled}, 3).alpha, weights.alpha);
+}
+
+TEST(RegionWeights, RowsSumToOne) {
+  Image image = image_of(5, 4, 3, {});
+  for (int i = 0; i < 60; ++i) image.pixels.push_back(static_cast<float>((i * 37) % 19) / 7);
+  std::vector<std::array<double, 2>> places;
+  for (int i = 0; i < 200; ++i) places.push_back({0.137 * i - 5, 0.731 * i});
+  const Strip strip(places);
+  const auto weights = region_weights(strip.topology, strip.uvs, {MaskSource("m", image)}, 3);
+  for (Index i = 0; i < 200; ++i) {
+    EXPECT_NEAR(weights.alpha.row(i).sum(), 1, 1e-15);
+    EXPECT_GE(weights.alpha.row(i).minCoeff(), 0);
+  }
+}
+
+TEST(RegionWeights, SeamVertexTakesTheMeanOfItsPlaces) {
+  // Two pixels, region 0 on the left, region 1 on the right; vertex 0 lies once in each, and its
+  // place on the left is named by two of its three corners.
+  const MaskSource mask("m", image_of(2, 1, 2, {1, 0, 0, 1}));
+  Strip strip({{0.25, 0.5}, {0.25, 0.5}, {0.75, 0.5}, {0.75, 0.5}});
+  strip.topology.corner_vertices = {0, 1, 2, 0, 2, 3, 0, 3, 1};
+  strip.topology.corner_uvs = {0, 1, 2, 2, 2, 3, 0, 3, 1};
+  strip.topology.face_offsets = {0, 3, 6, 9};
+  const auto weights = region_weights(strip.topology, strip.uvs, {mask}, 2);
+  EXPECT_EQ(weights.alpha.row(0), Eigen::RowVector2d(0.5, 0.5));
+  EXPECT_EQ(weights.alpha.row(1), Eigen::RowVector2d(1, 0));
+  EXPECT_EQ(weights.alpha.row(3), Eigen::RowVector2d(0, 1));
+}
+
+TEST(RegionWeights, UncoveredVerticesGoToTheLastRegionAndAreCounted) {
+  const MaskSource mask("m", image_of(2, 1, 2, {1, 0, 0, 0}));
+  Strip strip({{0.1, 0.5}, {0.9, 0.5}, {0.8, 0.5}, {0.2, 0.5}});
+  strip.topology.vertex_count = 5;  // the last is in no face
+  const auto weights = region_weights(strip.topology, strip.uvs, {mask}, 2);
+  EXPECT_EQ(weights.uncovered_vertices, 2);
+  EXPECT_EQ(weights.alpha.row(0), Eigen::RowVector2d(1, 0));
+  EXPECT_EQ(weights.alpha.row(1), Eigen::RowVector2d(0, 1));
+  EXPECT_EQ(weights.alpha.row(4), Eigen::RowVector2d(0, 1));
+}
+
+TEST(RegionWeights, ChannelsOfSeveralImagesMakeRegionsInOrder) {
+  const MaskSource first("first", image_of(1, 1, 3, {1, 2, 3}));
+  const MaskSource second("second", image_of(1, 1, 3, {4, 6, 100}));  // its third is left over
+  const auto weights = region_weights(kThree.topology, kThree.uvs, {first, second}, 5);
+  EXPECT_TRUE(
+      weights.alpha.row(2).isApprox(Eigen::Matrix<double, 1, 5>(1, 2, 3, 4, 6) / 16, 1e-15));
+}
+
+TEST(RegionWeights, AlphaIsIgnored) {
+  const MaskSource mask("m", image_of(1, 1, 4, {0.5F, 0.25F, 0.25F, 0}, 3));
+  EXPECT_EQ(region_weights(kThree.topology, kThree.uvs, {mask}, 3).alpha.row(0),
+            Eigen::RowVector3d(0.5, 0.25, 0.25));
+  EXPECT_THAT(message_of(kThree, {mask}, 4), HasSubstr("4 regions, found 3"));
+}
+
+TEST(RegionWeights, ThreadCountChangesNothing) {
+  Image image = image_of(16, 16, 3, {});
+  for (int i = 0; i < 768; ++i) image.pixels.push_back(static_cast<float>((i * 91) % 57) / 57);
+  std::vector<std::array<double, 2>> places;
+  for (int i = 0; i < 20000; ++i) places.push_back({0.618034 * i - 0.618034 * i / 1.7, 1e-4 * i});
+  const Strip strip(places);
+  const auto many = region_weights(strip.topology, strip.uvs, {MaskSource("m", image)}, 3);
+  const ThreadLimit one(1);
+  EXPECT_EQ(many.alpha,
+            region_weights(strip.topology, strip.uvs, {MaskSource("m", image)}, 3).alpha);
+}
+
+TEST(RegionWeights, ChannelCountsAreChecked) {
+  const MaskSource grey("grey.png", image_of(1, 1, 1, {1}));
+  EXPECT_THAT(message_of(kThree, {grey}, 3),
+              AllOf(HasSubstr("3 regions, found 1"), HasSubstr("grey.png (1)")));
+  EXPECT_THAT(message_of(kThree, {}, 2), HasSubstr("no image"));
+  EXPECT_THAT(message_of(kThree, {grey, MaskSource("extra.png", image_of(1, 1, 1, {1}))}, 1),
+              AllOf(HasSubstr("extra.png"), HasSubstr("left over")));
+  EXPECT_THAT(message_of(kThree, {grey}, 0), HasSubstr("at least one region"));
+}
+
+class MaskFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("crowdface_masks_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  void write(const std::string& name, const std::vector<std::uint8_t>& pixel) const {
+    const std::string png = encode_png(1, 1, static_cast<int>(pixel.size()), pixel);
+    std::ofstream(path(name), std::ios::binary) << png;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(MaskFiles, TilesAreTakenByPlace) {
+  write("m.1001.png", {255, 0, 0});
+  write("m.1002.png", {0, 255, 0});
+  write("m.1012.png", {0, 0, 255});
+  // u = 1 and v = 1 are borders: each triangle's middle decides, in its own tile only.
+  const std::vector<std::array<double, 2>> first = {{1, 1}, {0.5, 1}, {1, 0.5}};
+  const std::vector<std::array<double, 2>> second = {{1, 1}, {1.5, 1}, {1, 0.5}};
+  const std::vector<std::array<double, 2>> third = {{1, 1}, {1.5, 1}, {2, 2}};
+  const MaskSource mask(path("m.<UDIM>.png"));
+  Index region = 0;
+  for (const auto& places : {first, second, third}) {
+    const Strip strip(places);
+    const auto weights = region_weights(strip.topology, strip.uvs, {mask}, 3);
+    for (Index i = 0; i < 3; ++i) EXPECT_EQ(weights.alpha(i, region), 1) << region;
+    ++region;
+  }
+}
+
+TEST_F(MaskFiles, MissingTilesAreAllNamed) {
+  write("m.1001.png", {255, 0, 0});
+  const Strip strip({{0.5, 0.5}, {1.5, 0.5}, {0.5, 1.5}});
+  try {
+    region_weights(strip.topology, strip.uvs, {MaskSource(path("m.<UDIM>.png"))}, 3);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kMissingInput);
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("tile 1002"), HasSubstr("m.1002.png"), HasSubstr("tile 1011")));
+  }
+}
+
+TEST_F(MaskFiles, TilesMustAgreeInChannels) {
+  write("m.1001.png", {255, 0, 0, 255});  // alpha does not count
+  write("m.1002.png", {0, 255, 0});
+  const Strip strip({{0.5, 0.5}, {1.5, 0.5}, {1.5, 0.7}});
+  EXPECT_EQ(message_of(strip, {MaskSource(path("m.<UDIM>.png"))}, 3), "accepted");
+  write("m.1002.png", {255});
+  EXPECT_THAT(message_of(strip, {MaskSource(path("m.<UDIM>.png"))}, 3),
+              HasSubstr("expected 3 channels as in tile 1001, found 1 in tile 1002"));
+}
+
+TEST_F(MaskFiles, MissingImageIsMissingInput) {
+  EXPECT_THROW(region_weights(kThree.topology, kThree.uvs, load_masks({path("none.png")}), 1),
+               Error);
+  EXPECT_THAT(message_of(kThree, load_masks({path("none.png")}), 1), HasSubstr("none.png"));
+}
+
+TEST_F(MaskFiles, SixteenBitsAreKept) {
+  OIIO::ImageSpec spec(1, 1, 2, OIIO::TypeDesc::UINT16);
+  spec.alpha_channel = -1;
+  const std::string file = path("deep.tif");
+  auto output = OIIO::ImageOutput::create(file);
+  ASSERT_TRUE(output->open(file, spec));
+  const std::uint16_t pixel[] = {257, 65278};
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT16, pixel) && output->close());
+  const auto weights = region_weights(kThree.topology, kThree.uvs, {MaskSource(file)}, 2);
+  EXPECT_NEAR(weights.alpha(0, 0), 257.0 / 65535, 1e-9);
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/camera.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/error.h"
+
+#include "render/shapes.h"
+
+namespace crowdface {
+namespace {
+
+constexpr View kViews[] = {View::kFront, View::kThreeQuarter, View::kProfile};
+
+/// Two boxes of points, unlike in size and place.
+std::vector<Positions> two_heads() {
+  std::vector<Positions> heads(2, Positions(8, 3));
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::RowVector3d corner(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+    heads[0].row(i) = 10 * corner + Eigen::RowVector3d(-3, 100, 2);
+    heads[1].row(i) =
+        corner.cwiseProduct(Eigen::RowVector3d(4, 19, 6)) + Eigen::RowVector3d(-2, 95, 5);
+  }
+  return heads;
+}
+
+std::vector<const Positions*> pointers(const std::vector<Positions>& heads) {
+  std::vector<const Positions*> out;
+  for (const Positions& head : heads) out.push_back(&head);
+  return out;
+}
+
+TEST(Camera, EveryHeadFitsWithItsMarginAndTouchesIt) {
+  const auto heads = two_heads();
+  const FramingOptions options = {.margin = 0.08};
+  for (const View view : kViews) {
+    const Camera camera = fit_camera(pointers(heads), {}, view, options);
+    double low = 1;
+    double high = 0;
+    for (const Positions& head : heads) {
+      for (Index i = 0; i < head.rows(); ++i) {
+        const Eigen::Vector2d place = camera.project(head.row(i));
+        low = std::min(low, place.minCoeff());
+        high = std::max(high, place.maxCoeff());
+      }
+    }
+    EXPECT_NEAR(low, 0.08, 1e-9);
+    EXPECT_NEAR(high, 0.92, 1e-9);
+  }
+}
+
+TEST(Camera, ViewsShareTheDistanceOfTheFurthest) {
+  const auto heads = two_heads();
+  const auto cameras = fit_cameras(pointers(heads), {}, kViews);
+  double furthest = 0;
+  for (const View view : kViews) {
+    furthest = std::max(furthest, fit_camera(pointers(heads), {}, view).distance);
+  }
+  ASSERT_EQ(cameras.size(), 3U);
+  for (const Camera& camera : cameras) EXPECT_EQ(camera.distance, furthest);
+}
+
+TEST(Camera, StandsWhereTheFaceLooks) {
+  const auto heads = two_heads();
+  const Camera front = fit_camera(pointers(heads), {}, View::kFront);
+  EXPECT_EQ(front.back, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(front.right, Eigen::Vector3d::UnitX());
+  const Camera profile = fit_camera(pointers(heads), {}, View::kProfile);
+  EXPECT_TRUE(profile.back.isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+  // What lies in front of the face appears on the left.
+  EXPECT_LT(profile.project(profile.target + Eigen::Vector3d::UnitZ()).x(), 0.5);
+}
+
+TEST(Camera, FollowsTheAxesOfTheConfig) {
+  const auto heads = two_heads();
+  std::vector<Positions> turned = heads;  // x, y, z → y, z, x: up is +Z, front is +X
+  for (Positions& head : turned) {
+    const Positions copy = head;
+    head.col(0) = copy.col(2);
+    head.col(1) = copy.col(0);
+    head.col(2) = copy.col(1);
+  }
+  for (const View view : kViews) {
+    const Camera a = fit_camera(pointers(heads), {}, view);
+    const Camera b = fit_camera(pointers(turned), {{2, 1}, {0, 1}}, view);
+    EXPECT_NEAR(a.distance, b.distance, 1e-9);
+    EXPECT_TRUE(a.project(heads[0].row(3)).isApprox(b.project(turned[0].row(3)), 1e-9));
+  }
+}
+
+TEST(Camera, ScalesWithTheUnit) {
+  const Mesh sphere = make_sphere(1);
+  const Mesh large = make_sphere(1000);
+  const Positions* small_head[] = {&sphere.positions};
+  const Positions* large_head[] = {&large.positions};
+  const Camera a = fit_camera(small_head, {}, View::kThreeQuarter);
+  const Camera b = fit_camera(large_head, {}, View::kThreeQuarter);
+  EXPECT_NEAR(b.distance, 1000 * a.distance, 1e-6);
+}
+
+TEST(Camera, CutBelowGivesUpTheLowestPartOnly) {
+  const auto heads = two_heads();  // heights 95 to 114
+  const Camera camera = fit_camera(pointers(heads), {}, View::kFront, {.cut_below = 0.5});
+  EXPECT_LT(camera.distance, fit_camera(pointers(heads), {}, View::kFront).distance);
+  for (const Positions& head : heads) {
+    for (Index i = 0; i < head.rows(); ++i) {
+      if (head(i, 1) < 104.5) continue;
+      const Eigen::Vector2d place = camera.project(head.row(i));
+      EXPECT_GE(place.minCoeff(), 0.06 - 1e-9);
+      EXPECT_LE(place.maxCoeff(), 0.94 + 1e-9);
+    }
+  }
+}
+
+TEST(Camera, OneSinglePointIsNoTrouble) {
+  const Positions point = Positions::Constant(1, 3, 4);
+  const Positions* heads[] = {&point};
+  const Camera camera = fit_camera(heads, {}, View::kFront);
+  EXPECT_GT(camera.distance, 0);
+  EXPECT_TRUE(camera.project(point.row(0)).isApprox(Eigen::Vector2d(0.5, 0.5)));
+}
+
+TEST(Camera, RefusesWhatItCannotSee) {
+  EXPECT_THROW(fit_camera({}, {}, View::kFront), InvalidInput);
+  Positions point = Positions::Zero(1, 3);
+  const Positions* heads[] = {&point};
+  EXPECT_THROW(fit_camera(heads, {{1, 1}, {1, -1}}, View::kFront), InvalidInput);
+  point(0, 2) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(fit_camera(heads, {}, View::kFront), InvalidInput);
+}
+
+}  // namespace
+}  // namespace crowdface

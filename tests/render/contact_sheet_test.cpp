@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/contact_sheet.h"
+
+#include <array>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/render/text_label.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::array<std::uint8_t, 3> kRed = {200, 30, 30};
+
+std::vector<SheetCell> red_cells(std::size_t count, int width = 60, int height = 50) {
+  std::vector<SheetCell> cells(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    cells[i] = {Rgb8Image(width, height, kRed), "face_" + std::to_string(i)};
+  }
+  return cells;
+}
+
+/// Whether every pixel of the columns left and right of `from` to `to` is paper.
+bool is_blank(const Rgb8Image& image, int from, int to, const LabelStyle& style) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = from; x < to; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (image.at(x, y)[c] != style.paper[c]) return false;
+      }
+    }
+  }
+  return true;
+}
+
+TEST(SheetLayout, SizeIsCellsLabelsGapsAndMargins) {
+  const auto cells = red_cells(7);
+  const SheetLayout layout = layout_sheet(cells, {.columns = 3, .title = "market"});
+  EXPECT_EQ(layout.rows, 3);
+  EXPECT_EQ(layout.width(), 2 * layout.margin + 3 * 60 + 2 * layout.gap);
+  EXPECT_EQ(layout.height(),
+            layout.header_height + 3 * (50 + layout.label_height) + 2 * layout.gap + layout.margin);
+  const Rgb8Image sheet = contact_sheet(cells, {.columns = 3, .title = "market"});
+  EXPECT_EQ(sheet.width, layout.width());
+  EXPECT_EQ(sheet.height, layout.height());
+}
+
+TEST(SheetLayout, FixedRowsKeepTheLastPageAsLargeAsTheOthers) {
+  const auto full = red_cells(6);
+  const auto part = red_cells(2);
+  const SheetOptions options = {.columns = 3, .rows = 2};
+  EXPECT_EQ(layout_sheet(full, options).height(), layout_sheet(part, options).height());
+}
+
+TEST(ContactSheet, PicturesStandInTheirCellsAndNowhereElse) {
+  const auto cells = red_cells(5);
+  const SheetOptions options = {.columns = 2, .title = "market", .note = "sheet 1 of 1"};
+  const SheetLayout layout = layout_sheet(cells, options);
+  const Rgb8Image sheet = contact_sheet(cells, options);
+  int red = 0;
+  for (int y = 0; y < sheet.height; ++y) {
+    for (int x = 0; x < sheet.width; ++x) {
+      red += std::equal(kRed.begin(), kRed.end(), sheet.at(x, y)) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(red, 5 * 60 * 50);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_TRUE(std::equal(kRed.begin(), kRed.end(), sheet.at(layout.left(i), layout.top(i))));
+    EXPECT_TRUE(
+        std::equal(kRed.begin(), kRed.end(), sheet.at(layout.left(i) + 59, layout.top(i) + 49)));
+  }
+}
+
+TEST(ContactSheet, ALabelChangesOnlyItsStrip) {
+  auto cells = red_cells(4);
+  const SheetOptions options = {.columns = 2};
+  const SheetLayout layout = layout_sheet(cells, options);
+  const Rgb8Image before = contact_sheet(cells, options);
+  cells[3].label = "another";
+  const Rgb8Image after = contact_sheet(cells, options);
+  bool changed = false;
+  for (int y = 0; y < after.height; ++y) {
+    for (int x = 0; x < after.width; ++x) {
+      if (std::equal(after.at(x, y), after.at(x, y) + 3, before.at(x, y))) continue;
+      changed = true;
+      EXPECT_GE(x, layout.left(3));
+      EXPECT_LT(x, layout.left(3) + layout.cell_width);
+      EXPECT_GE(y, layout.top(3) + layout.cell_height);
+      EXPECT_LT(y, layout.top(3) + layout.cell_height + layout.label_height);
+    }
+  }
+  EXPECT_TRUE(changed);
+}
+
+TEST(ContactSheet, ThreadCountChangesNothing) {
+  const auto cells = red_cells(9);
+  const SheetOptions options = {.columns = 3, .title = "t", .note = "n"};
+  const Rgb8Image many = contact_sheet(cells, options);
+  const ThreadLimit one(1);
+  EXPECT_EQ(contact_sheet(cells, options), many);
+}
+
+TEST(ContactSheet, RefusesWhatDoesNotFit) {
+  auto cells = red_cells(4);
+  EXPECT_THROW(contact_sheet({}, {}), InvalidInput);
+  EXPECT_THROW(contact_sheet(cells, {.columns = 0}), InvalidInput);
+  EXPECT_THROW(contact_sheet(cells, {.columns = 1, .rows = 3}), InvalidInput);
+  EXPECT_THROW(contact_sheet(cells, {.columns = 1'000'000}), InvalidInput);
+  cells[2].image = Rgb8Image(61, 50);
+  EXPECT_THROW(contact_sheet(cells, {}), InvalidInput);
+}
+
+TEST(LabelStrip, ALongTextFitsAndKeepsBothEnds) {
+  const LabelStyle style;
+  const std::string start(40, 'W');
+  const Rgb8Image strip = label_strip(start + "_0001", 120, 20, style);
+  EXPECT_TRUE(is_blank(strip, 0, 3, style));
+  EXPECT_TRUE(is_blank(strip, 117, 120, style));
+  EXPECT_FALSE(is_blank(strip, 3, 117, style));
+  EXPECT_NE(strip, label_strip(start + "_0002", 120, 20, style));  // the number at the end shows
+}
+
+TEST(LabelStrip, ATextThatNearlyFitsShrinks) {
+  const LabelStyle style;
+  const Rgb8Image strip = label_strip("market_smith_0123", 128, 20, style);
+  EXPECT_TRUE(is_blank(strip, 0, 3, style));
+  EXPECT_TRUE(is_blank(strip, 125, 128, style));
+}
+
+TEST(LabelStrip, AlignsWithinTheStrip) {
+  LabelStyle style;
+  style.align = TextAlign::kLeft;
+  EXPECT_TRUE(is_blank(label_strip("abc", 200, 20, style), 100, 200, style));
+  style.align = TextAlign::kRight;
+  EXPECT_TRUE(is_blank(label_strip("abc", 200, 20, style), 0, 100, style));
+}
+
+TEST(LabelStrip, AccentsAreLeftOutAndOtherLettersMarked) {
+  const LabelStyle style;
+  EXPECT_EQ(label_strip("Jos\xc3\xa9", 100, 20, style), label_strip("Jose", 100, 20, style));
+  EXPECT_EQ(label_strip("a\xe4\xb8\xad", 100, 20, style), label_strip("a?", 100, 20, style));
+  EXPECT_EQ(label_strip("a\xff", 100, 20, style), label_strip("a?", 100, 20, style));
+  EXPECT_EQ(label_strip("a\tb", 100, 20, style), label_strip("a b", 100, 20, style));
+}
+
+TEST(LabelStrip, TinyStripsStayEmpty) {
+  const LabelStyle style;
+  const Rgb8Image strip = label_strip("market_0001", 9, 7, style);
+  EXPECT_EQ(strip.width, 9);
+  EXPECT_EQ(strip.height, 7);
+  EXPECT_TRUE(is_blank(label_strip("", 50, 20, style), 0, 50, style));
+}
+
+TEST(SideBySide, PutsViewsInARow) {
+  const std::vector<Rgb8Image> views = {Rgb8Image(3, 2, {1, 1, 1}), Rgb8Image(5, 2, {9, 9, 9})};
+  const Rgb8Image row = side_by_side(views);
+  EXPECT_EQ(row.width, 8);
+  EXPECT_EQ(row.at(2, 1)[0], 1);
+  EXPECT_EQ(row.at(3, 1)[0], 9);
+  const std::vector<Rgb8Image> unequal = {Rgb8Image(3, 2), Rgb8Image(3, 3)};
+  EXPECT_THROW(side_by_side(unequal), InvalidInput);
+  EXPECT_THROW(side_by_side({}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/face_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/render/shading.h"
+
+#include "render/shapes.h"
+
+namespace crowdface {
+namespace {
+
+Camera camera_for(const Positions& positions) {
+  const Positions* heads[] = {&positions};
+  return fit_camera(heads, {}, View::kFront);
+}
+
+/// The backdrop's own colour in the middle of a row.
+std::array<std::uint8_t, 3> backdrop(int y, int size) {
+  return to_srgb8(background((static_cast<float>(y) + 0.5F) / static_cast<float>(size)));
+}
+
+bool is_backdrop(const Rgb8Image& image, int x, int y) {
+  const auto expected = backdrop(y, image.height);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (std::abs(image.at(x, y)[c] - expected[c]) > 1) return false;
+  }
+  return true;
+}
+
+int largest_difference(const Rgb8Image& a, const Rgb8Image& b) {
+  int largest = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    largest = std::max(largest, std::abs(a.pixels[i] - b.pixels[i]));
+  }
+  return largest;
+}
+
+TEST(FaceRenderer, SphereIsADiscOfTheRightSize) {
+  const Mesh sphere = make_sphere(3, 60, 120);
+  const Camera camera = camera_for(sphere.positions);
+  const int size = 200;
+  const FaceRenderer renderer(sphere.topology, {.size_px = size});
+  const Rgb8Image image = renderer.render(sphere.positions, camera);
+  // Seen from distance d, the outline of a sphere of radius r lies at the tangent r / √(d² − r²).
+  const double d = camera.distance;
+  const double radius = size / 2.0 * (3 / std::sqrt(d * d - 9)) / camera.half_tangent;
+  EXPECT_NEAR(radius, size * 0.44, 0.5);  // the default margin is 0.06
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const double r = std::hypot(x + 0.5 - size / 2.0, y + 0.5 - size / 2.0);
+      if (std::abs(r - radius) < 1.5) continue;  // the antialiased rim
+      EXPECT_EQ(is_backdrop(image, x, y), r > radius) << x << " " << y;
+    }
+  }
+}
+
+TEST(FaceRenderer, KeyLightComesFromTheUpperLeft) {
+  const Mesh sphere = make_sphere(1);
+  const FaceRenderer renderer(sphere.topology, {.size_px = 100});
+  const Rgb8Image image = renderer.render(sphere.positions, camera_for(sphere.positions));
+  EXPECT_GT(image.at(35, 35)[1], image.at(60, 65)[1] + 30);
+}
+
+TEST(FaceRenderer, SamePixelsEachTimeAndOnAnyNumberOfThreads) {
+  const Mesh sphere = make_sphere(1, 150, 300);
+  const Camera camera = camera_for(sphere.positions);
+  const FaceRenderer renderer(sphere.topology, {.size_px = 96});
+  const Rgb8Image first = renderer.render(sphere.positions, camera);
+  EXPECT_EQ(renderer.render(sphere.positions, camera), first);
+  EXPECT_EQ(FaceRenderer(sphere.topology, {.size_px = 96}).render(sphere.positions, camera), first);
+  const ThreadLimit one(1);
+  EXPECT_EQ(renderer.render(sphere.positions, camera), first);
+}
+
+TEST(FaceRenderer, OneFlatShapeLooksTheSameInTrianglesQuadsAndOnePolygon) {
+  Positions square(6, 3);
+  square << -1, -1, 0, 0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0;
+  const Topology polygon = {6, {0, 1, 2, 3, 4, 5}, {}, {0, 6}};
+  const Topology quads = {6, {0, 1, 4, 5, 1, 2, 3, 4}, {}, {0, 4, 8}};
+  const Topology triangles = {6, {0, 1, 4, 0, 4, 5, 1, 2, 3, 1, 3, 4}, {}, {0, 3, 6, 9, 12}};
+  const Camera camera = camera_for(square);
+  const RenderOptions options = {.size_px = 64};
+  const Rgb8Image expected = FaceRenderer(quads, options).render(square, camera);
+  EXPECT_LE(largest_difference(FaceRenderer(polygon, options).render(square, camera), expected), 1);
+  EXPECT_LE(largest_difference(FaceRenderer(triangles, options).render(square, camera), expected),
+            1);
+  EXPECT_FALSE(is_backdrop(expected, 32, 32));
+}
+
+TEST(FaceRenderer, TheUnitDoesNotMatter) {
+  const Mesh one = make_sphere(1);
+  const Mesh large = make_sphere(256);
+  const RenderOptions options = {.size_px = 64};
+  EXPECT_LE(
+      largest_difference(
+          FaceRenderer(one.topology, options).render(one.positions, camera_for(one.positions)),
+          FaceRenderer(large.topology, options)
+              .render(large.positions, camera_for(large.positions))),
+      2);
+}
+
+TEST(FaceRenderer, AMirroredMeshIsTurnedAndLooksAlike) {
+  const Mesh sphere = make_sphere(1);
+  Positions mirrored = sphere.positions;
+  mirrored.col(0) *= -1;  // the same shape, wound inside out
+  const Camera camera = camera_for(sphere.positions);
+  const FaceRenderer renderer(sphere.topology, {.size_px = 64});
+  EXPECT_LE(largest_difference(renderer.render(mirrored, camera),
+                               renderer.render(sphere.positions, camera)),
+            12);
+}
+
+TEST(FaceRenderer, TheInsideOfASurfaceIsDarker) {
+  const Mesh sphere = make_sphere(1);
+  Topology bowl = sphere.topology;  // without the front: one looks into the back half
+  bowl.corner_vertices.clear();
+  bowl.face_offsets = {0};
+  for (Index f = 0; f < sphere.topology.face_count(); ++f) {
+    const auto face = sphere.topology.face(f);
+    if (sphere.positions(face[0], 2) > 0.3) continue;
+    bowl.corner_vertices.insert(bowl.corner_vertices.end(), face.begin(), face.end());
+    bowl.face_offsets.push_back(static_cast<std::uint32_t>(bowl.corner_vertices.size()));
+  }
+  const Camera camera = camera_for(sphere.positions);
+  const RenderOptions options = {.size_px = 64};
+  const Rgb8Image outside = FaceRenderer(sphere.topology, options).render(sphere.positions, camera);
+  const Rgb8Image inside = FaceRenderer(bowl, options).render(sphere.positions, camera);
+  EXPECT_LT(inside.at(32, 32)[0], outside.at(32, 32)[0] / 2);
+}
+
+TEST(FaceRenderer, OcclusionDarkensTheFootOfAWall) {
+  // A floor and a wall that meet in a corner; far from it both are as bright as without occlusion.
+  // They share no vertex, so that their normals are their own.
+  Positions corner(8, 3);
+  corner << -4, 0, 4, 4, 0, 4, 4, 0, 0, -4, 0, 0, -4, 0, 0, 4, 0, 0, 4, 6, 0, -4, 6, 0;
+  const Topology topology = {8, {0, 1, 2, 3, 4, 5, 6, 7}, {}, {0, 4, 8}};
+  const Camera camera = camera_for(corner);
+  const Rgb8Image open =
+      FaceRenderer(topology, {.size_px = 64, .occlusion_rays = 0}).render(corner, camera);
+  const Rgb8Image closed =
+      FaceRenderer(topology, {.size_px = 64, .occlusion_rays = 8}).render(corner, camera);
+  const Eigen::Vector2d foot = 64 * camera.project({0, 0.15, 0});
+  const Eigen::Vector2d top = 64 * camera.project({0, 5, 0});
+  const auto drop = [&](const Eigen::Vector2d& place) {
+    const int x = static_cast<int>(place.x());
+    const int y = static_cast<int>(place.y());
+    return open.at(x, y)[0] - closed.at(x, y)[0];
+  };
+  EXPECT_GT(drop(foot), 8);
+  EXPECT_LE(drop(top), 1);
+}
+
+TEST(FaceRenderer, HiddenFacesAreNotThere) {
+  const Mesh sphere = make_sphere(1);
+  const std::vector<SurfaceKind> kinds(static_cast<std::size_t>(sphere.topology.face_count()),
+                                       SurfaceKind::kHidden);
+  const Rgb8Image image = FaceRenderer(sphere.topology, {.size_px = 32}, kinds)
+                              .render(sphere.positions, camera_for(sphere.positions));
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) EXPECT_TRUE(is_backdrop(image, x, y));
+  }
+}
+
+TEST(FaceRenderer, AnEyeballLooksWithADarkPupil) {
+  const Mesh ball = make_sphere(1);
+  const std::vector<SurfaceKind> kinds(static_cast<std::size_t>(ball.topology.face_count()),
+                                       SurfaceKind::kEye);
+  const Camera camera = camera_for(ball.positions);
+  const Rgb8Image ahead =
+      FaceRenderer(ball.topology, {.size_px = 64}, kinds).render(ball.positions, camera);
+  EXPECT_LT(ahead.at(33, 33)[0], 90);
+  EXPECT_GT(ahead.at(12, 33)[0], 110);
+  // Eyes that look away show no pupil.
+  const Rgb8Image away = FaceRenderer(ball.topology, {.size_px = 64, .front = {2, -1}}, kinds)
+                             .render(ball.positions, camera);
+  EXPECT_GT(away.at(33, 33)[0], 110);
+}
+
+TEST(FaceRenderer, VertexColoursReplaceTheSurface) {
+  const Mesh sphere = make_sphere(1);
+  VertexColours colours = VertexColours::Zero(sphere.positions.rows(), 3);
+  for (Index i = 0; i < colours.rows(); ++i) {
+    colours(i, sphere.positions(i, 0) < 0 ? 0 : 2) = 0.8F;  // left red, right blue
+  }
+  const Rgb8Image image = FaceRenderer(sphere.topology, {.size_px = 64})
+                              .render(sphere.positions, camera_for(sphere.positions), &colours);
+  EXPECT_GT(image.at(20, 32)[0], image.at(20, 32)[2] + 60);
+  EXPECT_GT(image.at(44, 32)[2], image.at(44, 32)[0] + 30);
+}
+
+TEST(FaceRenderer, FacesWithoutAreaDoNoHarm) {
+  Mesh sphere = make_sphere(1);
+  auto& topology = sphere.topology;
+  for (const std::uint32_t vertex : {5U, 5U, 5U, 6U, 6U, 7U, 9U, 10U}) {
+    topology.corner_vertices.push_back(vertex);
+  }
+  const auto end = static_cast<std::uint32_t>(topology.corner_vertices.size());
+  topology.face_offsets.insert(topology.face_offsets.end(), {end - 5, end - 2, end});
+  const Camera camera = camera_for(sphere.positions);
+  const Mesh plain = make_sphere(1);
+  EXPECT_LE(largest_difference(
+                FaceRenderer(topology, {.size_px = 64}).render(sphere.positions, camera),
+                FaceRenderer(plain.topology, {.size_px = 64}).render(plain.positions, camera)),
+            40);
+}
+
+TEST(FaceRenderer, RefusesWhatDoesNotFit) {
+  const Mesh sphere = make_sphere(1);
+  const Camera camera = camera_for(sphere.positions);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.size_px = 0}), InvalidInput);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.samples_per_side = 0}), InvalidInput);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.occlusion_rays = -1}), InvalidInput);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {SurfaceKind::kSkin}), InvalidInput);
+  const FaceRenderer renderer(sphere.topology, {.size_px = 16});
+  EXPECT_THROW(renderer.render(sphere.positions.topRows(5), camera), InvalidInput);
+  const VertexColours few = VertexColours::Zero(5, 3);
+  EXPECT_THROW(renderer.render(sphere.positions, camera, &few), InvalidInput);
+  Positions broken = sphere.positions;
+  broken(7, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(renderer.render(broken, camera), InvalidInput);
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/cubic_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+
+#include "crowdface/smooth/chebyshev.h"
+#include "crowdface/smooth/iterate.h"
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+TEST(CubicFitLevels, AreAboutFortyAndDenseAtTheStart) {
+  const auto levels = cubic_fit_levels(20000);
+  EXPECT_EQ(levels.size(), 41U);
+  EXPECT_EQ(levels.front(), 0U);
+  EXPECT_EQ(levels.back(), 20000U);
+  EXPECT_LT(levels[20] - levels[0], levels[40] - levels[20]);
+  EXPECT_EQ(cubic_fit_levels(3), (std::vector<std::uint64_t>{0, 1, 2, 3}));
+}
+
+TEST(CubicFit, EqualsLeastSquaresOverStoredLevels) {
+  const Topology topology = testing::grid_topology(8, 6);
+  const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
+                                    OperatorKind::kUmbrella);
+  const Positions positions = testing::random_positions(topology.vertex_count, 1);
+  constexpr std::uint64_t kMaxLevel = 200;
+  const auto levels = cubic_fit_levels(kMaxLevel);
+  const auto count = static_cast<Index>(levels.size());
+  // The paper's way: store the levels, solve for each coordinate of each vertex.
+  Eigen::MatrixXd design(count, 4), data(count, positions.size());
+  for (Index l = 0; l < count; ++l) {
+    const auto basis = cubic_basis(levels[static_cast<std::size_t>(l)], kMaxLevel);
+    for (Index p = 0; p < 4; ++p) design(l, p) = basis[static_cast<std::size_t>(p)];
+    const Positions moved =
+        iterate(smoothing, positions, levels[static_cast<std::size_t>(l)]) - positions;
+    data.row(l) = moved.reshaped<Eigen::RowMajor>().transpose();
+  }
+  const Eigen::MatrixXd expected = design.colPivHouseholderQr().solve(data);
+  const CubicFit fit = fit_cubic(smoothing, positions, kMaxLevel);
+  for (Index p = 0; p < 4; ++p) {
+    const Eigen::VectorXd found =
+        fit.fields[static_cast<std::size_t>(p)].cast<double>().reshaped<Eigen::RowMajor>();
+    EXPECT_LT((found - expected.row(p).transpose()).cwiseAbs().maxCoeff(), 2e-6) << p;
+  }
+}
+
+TEST(CubicFit, IsExactWhereFourLevelsAreAll) {
+  const Topology topology = testing::grid_topology(5, 5);
+  const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFree,
+                                    OperatorKind::kLazy);
+  const Positions positions = testing::random_positions(topology.vertex_count, 2);
+  const CubicFit fit = fit_cubic(smoothing, positions, 3);
+  for (std::uint64_t level = 0; level <= 3; ++level) {
+    EXPECT_LT((evaluate(fit, positions, level) - iterate(smoothing, positions, level))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-5);
+  }
+}
+
+TEST(CubicFit, LeavesFixedVerticesWhereTheyAre) {
+  const Topology topology = testing::grid_topology(6, 6);
+  const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
+                                    OperatorKind::kUmbrella);
+  const Positions positions = testing::random_positions(topology.vertex_count, 3);
+  const Positions moved = evaluate(fit_cubic(smoothing, positions, 100), positions, 60);
+  for (Index i = 0; i < positions.rows(); ++i) {
+    if (smoothing.neighbours(i).empty()) {
+      EXPECT_LT((moved.row(i) - positions.row(i)).norm(), 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crowdface
