@@ -1,0 +1,25 @@
+# `cmake --install` puts the program, the libraries with their headers and a CMake package in place:
+# find_package(crowdface), then link crowdface::job or any other module.
+include(CMakePackageConfigHelpers)
+
+get_property(modules GLOBAL PROPERTY CROWDFACE_MODULES)
+install(TARGETS crowdface)
+install(TARGETS ${modules} EXPORT crowdfaceTargets)
+install(DIRECTORY src/crowdface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/crowdface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crowdface)
+install(EXPORT crowdfaceTargets NAMESPACE crowdface:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/crowdfaceConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/crowdfaceConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/crowdfaceConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/crowdfaceConfig.cmake ${PROJECT_BINARY_DIR}/crowdfaceConfigVersion.cmake
+  DESTINATION ${package_dir})
+
+install(DIRECTORY configs masks DESTINATION ${CMAKE_INSTALL_DATADIR}/crowdface)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -34,6 +34,52 @@ TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
   EXPECT_GE(examples, 6);
 }
 
+/// The YAML blocks of a page.
+std::vector<std::string> yaml_blocks(const std::string& page) {
+  const std::string open = "```yaml\n";
+  std::vector<std::string> blocks;
+  for (std::size_t at = page.find(open); at != std::string::npos; at = page.find(open, at)) {
+    at += open.size();
+    const std::size_t end = page.find("```", at);
+    blocks.push_back(page.substr(at, end - at));
+    at = end;
+  }
+  return blocks;
+}
+
+/// The block with the sections that it leaves out, so that it is a whole config.
+std::string complete(const std::string& block) {
+  std::string text = block;
+  const auto add = [&](const std::string& key, const std::string& value) {
+    if (!text.starts_with(key) && text.find('\n' + key) == std::string::npos) {
+      text += key + ' ' + value + '\n';
+    }
+  };
+  add("schema:", "1");
+  add("crowd:", "{name: a, count: 1}");
+  add("faces:", "{directory: heads, units: cm, tags: {ann: [old]}}");
+  add("regions:", "{names: [top, middle, bottom], mask: mask.png}");
+  return text;
+}
+
+TEST_F(ExampleConfigs, ThoseOfTheReferenceAreReadToo) {
+  for (const char* name : {"ann", "bob", "cyd"}) {
+    touch(concat("configs/heads/", name, ".obj"));
+    touch(concat("scans/", name, ".obj"));
+  }
+  touch("configs/mask.png");
+  touch("masks/bands.1001.png");
+  const auto page = std::filesystem::path(CROWDFACE_SOURCE_DIR) / "docs/config.md";
+  const std::vector<std::string> blocks = yaml_blocks(read_file(page));
+  EXPECT_GE(blocks.size(), 8u);
+  for (const std::string& block : blocks) {
+    problems_ = Problems();
+    EXPECT_TRUE(read_config(touch("configs/c.yaml", complete(block)), {}, problems_))
+        << told() << '\n'
+        << complete(block);
+  }
+}
+
 TEST_F(ExampleConfigs, TheStarterReadsBack) {
   StarterFacts facts;
   facts.heads = "heads";

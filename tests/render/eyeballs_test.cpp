@@ -12,21 +12,7 @@ namespace {
 
 /// Two spheres in one mesh, the second of radius 2 around (10, 0, 0).
 Mesh two_balls() {
-  Mesh mesh = make_sphere(1, 8, 12);
-  const Mesh second = make_sphere(2, 8, 12);
-  const auto shift = static_cast<std::uint32_t>(mesh.topology.vertex_count);
-  const std::uint32_t corners = mesh.topology.face_offsets.back();
-  for (const std::uint32_t v : second.topology.corner_vertices) {
-    mesh.topology.corner_vertices.push_back(v + shift);
-  }
-  for (std::size_t f = 1; f < second.topology.face_offsets.size(); ++f) {
-    mesh.topology.face_offsets.push_back(second.topology.face_offsets[f] + corners);
-  }
-  mesh.topology.vertex_count *= 2;
-  Positions both(mesh.topology.vertex_count, 3);
-  both << mesh.positions, second.positions.rowwise() + Eigen::RowVector3d(10, 0, 0);
-  mesh.positions = both;
-  return mesh;
+  return join_meshes(make_sphere(1, 8, 12), make_sphere(2, 8, 12), {10, 0, 0});
 }
 
 TEST(Eyeballs, EachConnectedPartIsOne) {

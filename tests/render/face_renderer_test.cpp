@@ -136,26 +136,21 @@ TEST(FaceRenderer, TheInsideOfASurfaceIsDarker) {
   EXPECT_LT(inside.at(32, 32)[0], outside.at(32, 32)[0] / 2);
 }
 
-TEST(FaceRenderer, OcclusionDarkensTheFootOfAWall) {
-  // A floor and a wall that meet in a corner; far from it both are as bright as without occlusion.
-  // They share no vertex, so that their normals are their own.
-  Positions corner(8, 3);
-  corner << -4, 0, 4, 4, 0, 4, 4, 0, 0, -4, 0, 0, -4, 0, 0, 4, 0, 0, 4, 6, 0, -4, 6, 0;
-  const Topology topology = {8, {0, 1, 2, 3, 4, 5, 6, 7}, {}, {0, 4, 8}};
-  const Camera camera = camera_for(corner);
-  const Rgb8Image open =
-      FaceRenderer(topology, {.size_px = 64, .occlusion_rays = 0}).render(corner, camera);
-  const Rgb8Image closed =
-      FaceRenderer(topology, {.size_px = 64, .occlusion_rays = 8}).render(corner, camera);
-  const Eigen::Vector2d foot = 64 * camera.project({0, 0.15, 0});
-  const Eigen::Vector2d top = 64 * camera.project({0, 5, 0});
-  const auto drop = [&](const Eigen::Vector2d& place) {
+TEST(FaceRenderer, OcclusionDarkensACrevice) {
+  const Mesh balls = join_meshes(make_sphere(1), make_sphere(1), {2, 0, 0});  // touching at x = 1
+  const Camera camera = camera_for(balls.positions);
+  const Rgb8Image open = FaceRenderer(balls.topology, {.size_px = 64, .occlusion_rays = 0})
+                             .render(balls.positions, camera);
+  const Rgb8Image closed = FaceRenderer(balls.topology, {.size_px = 64, .occlusion_rays = 8})
+                               .render(balls.positions, camera);
+  const auto drop = [&](const Eigen::Vector3d& point) {
+    const Eigen::Vector2d place = 64 * camera.project(point);
     const int x = static_cast<int>(place.x());
     const int y = static_cast<int>(place.y());
     return open.at(x, y)[0] - closed.at(x, y)[0];
   };
-  EXPECT_GT(drop(foot), 8);
-  EXPECT_LE(drop(top), 1);
+  EXPECT_GT(drop({0.92, 0, 0.39}), 15);
+  EXPECT_LE(drop({-0.3, 0, 0.95}), 1);
 }
 
 TEST(FaceRenderer, HiddenFacesAreNotThere) {

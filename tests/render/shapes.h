@@ -44,4 +44,21 @@ inline Mesh make_sphere(double radius, std::uint32_t rings = 24, std::uint32_t s
   return mesh;
 }
 
+/// Both meshes in one, the second moved.
+inline Mesh join_meshes(const Mesh& first, const Mesh& second, const Eigen::RowVector3d& move) {
+  Mesh mesh = first;
+  const auto vertices = static_cast<std::uint32_t>(first.topology.vertex_count);
+  const std::uint32_t corners = first.topology.face_offsets.back();
+  for (const std::uint32_t vertex : second.topology.corner_vertices) {
+    mesh.topology.corner_vertices.push_back(vertex + vertices);
+  }
+  for (std::size_t f = 1; f < second.topology.face_offsets.size(); ++f) {
+    mesh.topology.face_offsets.push_back(second.topology.face_offsets[f] + corners);
+  }
+  mesh.topology.vertex_count += second.topology.vertex_count;
+  mesh.positions.conservativeResize(mesh.topology.vertex_count, 3);
+  mesh.positions.bottomRows(second.positions.rows()) = second.positions.rowwise() + move;
+  return mesh;
+}
+
 }  // namespace crowdface

@@ -12,13 +12,14 @@
 namespace crowdface {
 
 struct ThreadLimit::Control {
-  tbb::global_control limit;
+  explicit Control(std::size_t threads)
+      : limit(tbb::global_control::max_allowed_parallelism, threads) {}
+  tbb::global_control limit;  // copying one would end the limit with the copy
 };
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads <= 0) return;
-  control_ = std::make_unique<Control>(Control{tbb::global_control(
-      tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
+  control_ = std::make_unique<Control>(static_cast<std::size_t>(threads));
 }
 ThreadLimit::~ThreadLimit() = default;
 

@@ -46,7 +46,10 @@ long long decimal_exponent(std::string_view number) {
 }  // namespace
 
 std::optional<double> parse_double(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::nullopt;
+  }
   if (text.empty()) return std::nullopt;
   // from_chars would take "nan" and "inf"; a number starts with a digit, a point or a minus.
   const char first = text.front() == '-' && text.size() > 1 ? text[1] : text.front();

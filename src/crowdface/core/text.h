@@ -27,6 +27,7 @@ std::string format_fixed(double value, int decimals);
 std::string quoted(std::string_view text);
 /// The same; without it, std::quoted would be chosen for strings.
 inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
+inline std::string quoted(const char* text) { return quoted(std::string_view(text)); }
 
 /// The candidate nearest to `word` by edit distance if it is near enough to be what was meant.
 std::optional<std::string> nearest_word(std::string_view word,

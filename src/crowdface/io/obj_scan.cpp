@@ -62,9 +62,6 @@ class Scanner {
       fail("expected plain text, found a byte-order mark; save the file as UTF-8 without BOM");
     }
     for_each_line([&](std::string_view line) { count(line); });
-    if (total_.vertices == 0) {
-      throw InvalidInput(concat(name_, ": expected a mesh, found no vertex ('v' line)"));
-    }
     if (total_.vertices > kMostVertices) {
       throw InvalidInput(concat(name_, ": expected at most ", kMostVertices, " vertices, found ",
                                 total_.vertices));
@@ -74,6 +71,9 @@ class Scanner {
     scan_.vertex_spans.reserve(total_.vertices);
     scan_.normal_spans.reserve(total_.normals);
     for_each_line([&](std::string_view line) { check(line); });
+    if (total_.vertices == 0) {
+      throw InvalidInput(concat(name_, ": expected a mesh, found no vertex ('v' line)"));
+    }
     if (scan_.face_count == 0) {
       throw InvalidInput(concat(name_, ": expected a mesh, found no face ('f' line)"));
     }

@@ -229,7 +229,7 @@ std::string explain(const std::string& message) {
             "'key: value'"},
       Entry{"end of sequence not found", "this line is indented like no item of the list above it"},
       Entry{"illegal block entry", "a list item '-' does not fit here; check the indentation"},
-      Entry{"end of sequence flow not found", "a '[' is not closed before here"},
+      Entry{"end of sequence flow not found", "a '[' is not closed"},
       Entry{"end of map flow not found", "a '{' is not closed"},
       Entry{"illegal flow end", "a ']' or '}' stands here without its opening bracket"},
       Entry{"unknown token", "a value cannot start with this character; put it between quotes"},

@@ -33,10 +33,11 @@ GuideRay eye_edge(const Vector2d& c) {
 }
 
 GuideRay mouth_edge(const Vector2d& c) {
-  const double x = 2.42 * c.x(), q = c.x() * c.x();
+  // The window's short sides gather near the corners.
+  const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.4 - 0.4 * q);
   // The line between the lips: a dip in the middle, corners a little lower than the bows.
   const double line = -7.0 + 0.10 * q * (1 - q) * 2 - 0.02 * q;
-  const double gap = 0.035 * c.y();
+  const double gap = 0.03 * c.y();
   return {{0.4 * x, line + gap, 3}, {x, line + gap, 9.9 - 0.18 * x * x}};
 }
 
@@ -81,7 +82,7 @@ Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, doub
     const Vector3d goal = centre + 0.75 * (edge - centre) + Vector3d(0, 0.75, -0.25);
     return edge + t * (goal - edge);
   }
-  return edge + t * Vector3d(-0.1 * edge.x(), 0.3 * c.y(), -1.0);
+  return edge + t * Vector3d(-0.2 * edge.x(), 0.35 * c.y(), -0.9);
 }
 
 SkinPoint on_skin(const GuideRay& ray) {

@@ -28,9 +28,9 @@ double bump(double x) {
 struct Fold {
   std::string_view name;
   Vector2d start, control, end;
-  double width, depth;         ///< centimetres
-  double base, aged, spread;   ///< depth's factor at 40, its change to 60, what is drawn around it
-  double bulge;                ///< ridge beside it, away from the curve's left, as part of the depth
+  double width, depth;        ///< centimetres
+  double base, aged, spread;  ///< depth's factor at 40, its change to 60, what is drawn around it
+  double bulge;               ///< ridge beside it, away from the curve's left, as part of the depth
   bool paired = true;
 };
 
@@ -67,7 +67,9 @@ double coarseness(const Vector3d& p) {
 }
 
 /// How much of an octave of this wavelength edges of this length can carry.
-double carried(double wavelength, double edge) { return smooth_step(2, 4, wavelength / edge); }
+double carried(double wavelength, double edge) {
+  return smooth_step(2, 4, wavelength / edge);
+}
 
 }  // namespace
 
@@ -83,10 +85,11 @@ Relief::Relief(const Identity& identity, double edge_cm)
       if (side < 0 && !fold.paired) continue;
       const std::string purpose = concat("synth/fold/", fold.name);
       const std::string lean = concat(purpose, side > 0 ? "/left" : "/right");
-      const double factor = fold.base + fold.aged * aged +
-                            fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
+      const double factor =
+          fold.base + fold.aged * aged +
+          fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      if (factor > 0.02) add_stroke(i, side, fold.depth * std::min(factor, 1.6) * lopsided);
+      if (factor > 0.02) add_stroke(i, side, 1.4 * fold.depth * std::min(factor, 1.7) * lopsided);
     }
   }
   const double rough = 1 + 0.25 * aged + 0.15 * identity.person().male;

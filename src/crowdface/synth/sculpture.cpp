@@ -39,30 +39,30 @@ double smooth_step(double from, double to, double x) {
 }
 
 double skull(const Vector3d& p) {
-  double d = ellipsoid(p, {0, 2.7, -0.7}, {7.3, 8.6, 9.4});
+  double d = ellipsoid(p, {0, 2.6, -0.7}, {7.3, 8.4, 9.4});
   d = melt(d, ellipsoid(p, {0, 4.0, 2.7}, {6.1, 5.8, 6.5}), 2.0);
   return melt(d, ellipsoid(p, {0, -3.0, 2.4}, {6.0, 7.4, 6.4}), 1.6);
 }
 
 double jaw(const Vector3d& p) {
-  const double mandible = rod(p, {4.4, -7.0, 1.5}, {1.2, -9.9, 7.0}, 1.05, 1.3);
-  const double ramus = rod(p, {5.4, -2.5, 0.6}, {4.4, -7.0, 1.5}, 1.2, 1.05);
+  const double mandible = rod(p, {4.05, -7.0, 1.5}, {1.2, -9.9, 7.0}, 1.05, 1.3);
+  const double ramus = rod(p, {5.4, -2.5, 0.6}, {4.05, -7.0, 1.5}, 1.2, 1.05);
   const double chin = ellipsoid(p, {0, -10.0, 7.7}, {1.9, 1.4, 1.85});
   return melt(melt(mandible, ramus, 1.0), chin, 1.2);
 }
 
 double cheek(const Vector3d& p) {
   const double front = ellipsoid(p, {3.5, -3.2, 6.0}, {2.4, 2.4, 2.4});
-  const double bone = rod(p, {4.6, -2.2, 5.7}, {6.1, -1.6, 1.6}, 1.15, 0.75);
+  const double bone = rod(p, {4.5, -2.2, 5.7}, {6.0, -1.6, 1.4}, 1.1, 0.7);
   const double hollow = ellipsoid(p, {3.2, -5.8, 4.8}, {2.2, 2.6, 2.9});
   const double masseter = ellipsoid(p, {4.4, -5.4, 2.8}, {1.5, 2.6, 2.0});
   return melt(melt(melt(front, bone, 1.2), hollow, 1.5), masseter, 1.5);
 }
 
 double nose(const Vector3d& p) {
-  double d = rod(p, {0, 1.0, 8.75}, {0, -3.1, 11.05}, 0.62, 0.72);
+  double d = rod(p, {0, 1.0, 8.8}, {0, -3.1, 11.05}, 0.5, 0.68);
   d = melt(d, ellipsoid(p, {0, -3.2, 9.5}, {1.35, 1.7, 1.5}), 0.7);
-  d = melt(d, rod(p, {0.45, 0.2, 8.7}, {0.8, -2.8, 9.5}, 0.45, 0.5), 1.1);
+  d = melt(d, rod(p, {0.35, 0.2, 8.6}, {0.85, -2.8, 9.5}, 0.4, 0.5), 1.1);
   d = melt(d, ellipsoid(p, {0, -3.45, 11.15}, {0.85, 0.75, 0.8}), 0.4);
   d = melt(d, rod(p, {0, -3.9, 11.3}, {0, -4.6, 9.9}, 0.3, 0.36), 0.25);
   d = melt(d, rod(p, {0.35, -3.55, 11.0}, {1.05, -3.75, 10.1}, 0.55, 0.5), 0.4);
@@ -70,13 +70,13 @@ double nose(const Vector3d& p) {
 }
 
 double upper_lip(const Vector3d& p) {
-  const double side = rod(p, {0.5, -6.47, 9.68}, {2.35, -6.95, 8.7}, 0.44, 0.22);
-  return melt(side, ellipsoid(p, {0, -6.6, 9.76}, {0.55, 0.45, 0.5}), 0.5);
+  const double side = rod(p, {0.5, -6.47, 9.58}, {2.4, -6.95, 8.65}, 0.44, 0.24);
+  return melt(side, ellipsoid(p, {0, -6.6, 9.66}, {0.55, 0.45, 0.5}), 0.5);
 }
 
 double lower_lip(const Vector3d& p) {
-  return melt(rod(p, {0.5, -7.45, 9.55}, {2.25, -7.1, 8.75}, 0.52, 0.22),
-              ellipsoid(p, {0, -7.5, 9.58}, {0.65, 0.5, 0.5}), 0.6);
+  return melt(rod(p, {0.5, -7.45, 9.46}, {2.3, -7.1, 8.65}, 0.52, 0.24),
+              ellipsoid(p, {0, -7.5, 9.5}, {0.65, 0.5, 0.5}), 0.6);
 }
 
 double neck(const Vector3d& p) {
@@ -94,18 +94,19 @@ double skin_distance(const Vector3d& point) {
   const Vector3d p(std::abs(point.x()), point.y(), point.z());
   double d = skull(p);
   d = melt(d, jaw(p), 1.4);
-  d = melt(d, cheek(p), 1.4);
+  d = melt(d, cheek(p), 2.0);
   d = melt(d, neck(p), 1.6);
   if (p.z() < 3) return d;
   d = melt(d, ellipsoid(p, {0, -6.9, 6.7}, {2.9, 2.6, 3.0}), 1.6);
-  d = melt(d, rod(p, {0.8, 1.8, 8.45}, {5.7, 1.2, 4.6}, 0.8, 0.3), 1.5);
-  d = melt(d, ellipsoid(p, {0, 0.6, 7.9}, {1.2, 2.4, 1.5}), 0.8);
+  d = melt(d, rod(p, {0.8, 1.8, 8.45}, {4.3, 1.65, 6.8}, 0.8, 0.5), 1.2);
+  d = melt(d, rod(p, {4.3, 1.65, 6.8}, {5.2, -1.2, 5.4}, 0.5, 0.5), 1.4);
+  d = melt(d, ellipsoid(p, {0, 0.6, 7.9}, {1.0, 2.4, 1.5}), 0.9);
   d = carve(d, ellipsoid(p, {3.2, -0.1, 9.7}, {1.8, 1.15, 2.2}), 0.8);
   d = carve(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
   d = melt(d, (p - kEyeCentre).norm() - (kEyeRadius + 0.13), 0.35);
   d = melt(d, nose(p), 0.6);
-  const double lips = melt(upper_lip(p), lower_lip(p), 0.06);
-  d = melt(d, lips, 0.3 + 0.3 * smooth_step(-7.6, -8.4, p.y()));
+  const double lips = melt(upper_lip(p), lower_lip(p), 0.1);
+  d = melt(d, lips, 0.42 + 0.3 * smooth_step(-7.6, -8.4, p.y()));
   return d;
 }
 

@@ -65,8 +65,7 @@ Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) con
     for (auto i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const synth::SkinPoint& mean = state_->mean[k];
-      const Eigen::Vector3d fine =
-          mean.position + relief.height(mean) * mean.normal;
+      const Eigen::Vector3d fine = mean.position + relief.height(mean) * mean.normal;
       out.row(i) = identity.deform(fine).transpose();
     }
   });

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Configures and builds a preset of CMakePresets.json, quietly.
+#
+#   scripts/build.sh PRESET [TARGET …]      into build/PRESET; without a target, everything
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=${1:?"usage: scripts/build.sh PRESET [TARGET …]"}
+shift
+
+options=()
+command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+targets=()
+[ $# -gt 0 ] && targets=(--target "$@")
+
+mkdir -p "build/$preset"
+log=build/$preset/build.log
+quietly() {
+  "$@" >"$log" 2>&1 </dev/null || {
+    tail -n 60 "$log" >&2
+    echo "failed: $* (everything it said: $log)" >&2
+    exit 1
+  }
+}
+
+start=$SECONDS
+echo "configuring build/$preset"
+quietly cmake --preset "$preset" "${options[@]}"
+echo "building build/$preset (some minutes the first time)"
+if [ -t 1 ]; then
+  cmake --build --preset "$preset" --parallel "$(nproc)" "${targets[@]}"
+else
+  quietly cmake --build --preset "$preset" --parallel "$(nproc)" "${targets[@]}"
+fi
+echo "built in $((SECONDS - start)) s"

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# From nothing to a first crowd: installs what is missing, builds, makes eight synthetic heads and
+# casts 24 faces from them. May be run again at any time.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install_dependencies.sh
+scripts/build.sh release crowdface
+
+start=$SECONDS
+crowdface=build/release/bin/crowdface
+"$crowdface" synth -o out/demo_heads --count 8 --vertices 20000 --seed 1
+# --force: after a change of configs/demo.yaml the demo's own folder is filled anew.
+"$crowdface" generate configs/demo.yaml --force
+
+echo
+echo "24 new faces from 8 heads in $((SECONDS - start)) s"
+echo "  contact sheet  $PWD/out/demo/sheets/sheet_001.png"
+echo "  meshes         $PWD/out/demo/meshes/"
+echo "  recipes        $PWD/out/demo/plan.jsonl"
+echo "Change configs/demo.yaml and run this again, or bring your own heads: docs/own-scans.md"

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the Debian 12 packages that crowdface needs and that are not there yet. Silent and quick
+# when none is missing. Works as root and with sudo; where it may not install, it says what is
+# missing and exits with 69.
+#
+#   scripts/install_dependencies.sh          what building and testing needs
+#   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
+set -euo pipefail
+
+packages=(
+  # compiler and build
+  g++ cmake ninja-build pkg-config
+  # libraries, see cmake/CrowdfaceDependencies.cmake
+  libeigen3-dev libtbb-dev libtinyobjloader-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
+  libspdlog-dev libxxhash-dev librandom123-dev libembree-dev
+  # OpenImageIO's CMake package insists on its command-line tools
+  libopenimageio-dev openimageio-tools
+  # the labels of contact sheets
+  fonts-dejavu-core
+  # tests
+  libgtest-dev libgmock-dev
+)
+case "${1-}" in
+  "") ;;
+  --check) packages+=(clang-format clang-tidy) ;;
+  *) echo "usage: scripts/install_dependencies.sh [--check]" >&2; exit 64 ;;
+esac
+
+cannot() {
+  {
+    echo "crowdface needs Debian packages that are not installed:"
+    echo "  ${missing[*]}"
+    echo "$1 Install them with:"
+    echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+  } >&2
+  exit 69
+}
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  missing=("${packages[@]}")
+  cannot "This system has no apt-get; the packages have other names here."
+fi
+
+installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)
+missing=()
+for package in "${packages[@]}"; do
+  grep -qx "installed $package" <<<"$installed" || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=(env)
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    cannot "You are not root and there is no sudo."
+  elif sudo -n true 2>/dev/null; then
+    as_root=(sudo -n env)
+  elif [ -t 0 ]; then
+    echo "sudo may ask for your password to install packages."
+    as_root=(sudo env)
+  else
+    cannot "You are not root, and sudo cannot ask for a password without a terminal."
+  fi
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() {
+  "${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@" \
+    >"$log" 2>&1 </dev/null || {
+    tail -n 20 "$log" >&2
+    cannot "apt-get $1 failed (its last words are above)."
+  }
+}
+echo "installing ${#missing[@]} packages: ${missing[*]}"
+[ "${as_root[0]}" = env ] || "${as_root[@]}" true  # the password, before the output is hidden
+apt update
+apt install -y --no-install-recommends "${missing[@]}"

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/obj_file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface {
+namespace {
+
+using testing::expect_error;
+using testing::TemporaryFolder;
+
+ObjFile read_text(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_obj(folder.write("head.obj", text));
+}
+
+TEST(ReadObj, KeepsQuadsNgonsOrderAndGroups) {
+  const ObjFile file = read_text(
+      "# comment\nmtllib a.mtl\no head\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0.5 0 1.0\n"
+      "vt 0 0\nvt 1 0\nvt 1 1 0\nvt 0 1\nvt 0.5\nvn 0 0 1\n"
+      "g left\ns 1\nusemtl skin\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"
+      "g right\nusemtl lips of rose\nf -4/-4/-1 -1/-1/-1 -3/-3/-1\nf 1/1/1 2/2/1 5/5/1 3/3/1 4/4/1\n");
+  EXPECT_EQ(file.topology.vertex_count, 5);
+  EXPECT_EQ(file.topology.face_offsets, (std::vector<std::uint32_t>{0, 4, 7, 12}));
+  EXPECT_EQ(file.topology.corner_vertices,
+            (std::vector<std::uint32_t>{0, 1, 2, 3, 1, 4, 2, 0, 1, 4, 2, 3}));
+  EXPECT_EQ(file.topology.corner_uvs,
+            (std::vector<std::uint32_t>{0, 1, 2, 3, 1, 4, 2, 0, 1, 4, 2, 3}));
+  EXPECT_EQ(file.corner_normals, std::vector<std::uint32_t>(12, 0));
+  EXPECT_EQ(file.positions.row(4), Eigen::RowVector3d(2, 0.5, 0));
+  EXPECT_EQ(file.uvs.row(4), Eigen::RowVector2d(0.5, 0));
+  EXPECT_EQ(file.material_libraries, (std::vector<std::string>{"a.mtl"}));
+  EXPECT_EQ(face_materials(file),
+            (std::vector<std::string>{"skin", "lips of rose", "lips of rose"}));
+}
+
+TEST(ReadObj, RoundsNumbersCorrectly) {
+  // The loader's own number reader is off in the last bits; the scan's is not.
+  const ObjFile file = read_text("v 0.1 10.635861 -1e-3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(file.positions.row(0), Eigen::RowVector3d(0.1, 10.635861, -0.001));
+}
+
+TEST(ReadObj, TakesWindowsLineEndsAndNoFinalOne) {
+  const ObjFile file = read_text("v 0 0 0\r\nv 1 0 0\r\n\r\n  v 0 1 0\t\r\nf 1 2 3");
+  EXPECT_EQ(file.topology.face_count(), 1);
+  EXPECT_TRUE(file.topology.corner_uvs.empty());
+  EXPECT_TRUE(file.corner_normals.empty());
+}
+
+struct Malformed {
+  std::string name;
+  std::string text;
+  std::vector<std::string> phrases;
+};
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+const std::vector<Malformed> kMalformed = {
+    {"nan", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "finite number", "\"nan\""}},
+    {"inf", "v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n", {":2:", "finite number", "\"inf\""}},
+    {"word", "v 0 0 0\nv 1 0 0\nv abc 1 0\nf 1 2 3\n", {":3:", "finite number", "\"abc\""}},
+    {"overflow", "v 1e400 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"1e400\""}},
+    {"huge", "v 1e38 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "within", "\"1e38\""}},
+    {"hexadecimal", "v 0x10 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"0x10\""}},
+    {"comma", "v 0,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"0,5\""}},
+    {"two_coordinates", "v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "3 coordinates", "2 words"}},
+    {"nine_numbers", "v 0 0 0 1 1 1 1 1 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "9 words"}},
+    {"index_beyond", kTriangle + "f 1 2 99\n", {":4:", "between 1 and 3", "\"99\""}},
+    {"index_zero", kTriangle + "f 0 1 2\n", {":4:", "\"0\""}},
+    {"index_relative_beyond", kTriangle + "f -4 -2 -1\n", {":4:", "-1 and -3", "\"-4\""}},
+    {"index_wraps", kTriangle + "f 1 2 4294967297\n", {":4:", "\"4294967297\""}},
+    {"index_huge", kTriangle + "f 1 2 99999999999999999999\n", {":4:", "number of a vertex"}},
+    {"index_word", kTriangle + "f 1 2 x\n", {":4:", "number of a vertex", "\"x\""}},
+    {"index_decimal", kTriangle + "f 1 2 3.0\n", {":4:", "\"3.0\""}},
+    {"two_corners", kTriangle + "f 1 2\n", {":4:", "at least 3 corners", "found 2"}},
+    {"texture_missing", kTriangle + "f 1/1 2/1 3/1\n", {":4:", "texture coordinate"}},
+    {"texture_empty", kTriangle + "vt 0 0\nf 1/ 2/ 3/\n", {":5:", "texture coordinate"}},
+    {"normal_beyond", kTriangle + "vn 0 0 1\nf 1//1 2//2 3//1\n", {":5:", "normal", "\"2\""}},
+    {"mixed_corners", kTriangle + "vt 0 0\nf 1/1 2 3/1\n", {":5:", "like the first", "\"2\""}},
+    {"normal_of_two", kTriangle + "vn 0 0\nf 1 2 3\n", {":4:", "normal"}},
+    {"byte_order_mark", "\xEF\xBB\xBF" + kTriangle + "f 1 2 3\n", {":1:", "byte-order mark"}},
+    {"empty", "", {"no vertex"}},
+    {"no_faces", kTriangle, {"no face"}},
+    {"binary", std::string("\x7f\x45\x4c\x46\x00\x01\x02\n v\n", 12), {":1:"}},
+    {"words", "this is no mesh\nat all\n", {":1:", "OBJ statement", "\"this\""}},
+    {"unknown_statement", kTriangle + "face 1 2 3\n", {":4:", "OBJ statement", "\"face\""}},
+    {"continued_line", kTriangle + "f 1 2 \\\n3\n", {":4:", "continued"}},
+    {"old_mac", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", {}},
+    {"nul_byte", kTriangle + std::string("f 1 2 3 \0\n", 10), {":4:"}},
+};
+
+class MalformedObj : public ::testing::TestWithParam<Malformed> {};
+
+TEST_P(MalformedObj, IsRefusedWithItsPlace) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("bad.obj", GetParam().text);
+  try {
+    read_obj(path);
+    FAIL() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadData);
+    EXPECT_THAT(error.what(), ::testing::StartsWith(path.string()));
+    for (const std::string& phrase : GetParam().phrases) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(phrase));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, MalformedObj, ::testing::ValuesIn(kMalformed),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(ReadObj, RefusesPolygonsThatTheLoaderMiscounts) {
+  std::string text;
+  for (int i = 0; i < 256; ++i) text += "v " + std::to_string(i) + " 0 0\n";
+  std::string face = "f";
+  for (int i = 1; i <= 256; ++i) face += " " + std::to_string(i);
+  expect_error(ExitCode::kBadData, {":257:", "at most 255 corners, found 256"},
+               [&] { read_text(text + face + "\n"); });
+  // One corner fewer is fine.
+  const ObjFile file = read_text(text + face.substr(0, face.rfind(' ')) + "\n");
+  EXPECT_EQ(file.topology.corner_count(), 255);
+}
+
+TEST(ReadObj, NamesAFileThatIsNotThere) {
+  expect_error(ExitCode::kMissingInput, {"nowhere.obj"}, [] { read_obj("nowhere.obj"); });
+}
+
+TEST(ReadObj, SurvivesEveryCutOfAFile) {
+  // Each prefix of a good file is either read or refused as bad data.
+  const std::string text =
+      "mtllib a.mtl\nv 0.5 0 0\nv 1 0 -1e-2\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+      "usemtl a\nf 1/1/1 2/2/1 3/3/1\n";
+  const TemporaryFolder folder;
+  int read = 0;
+  for (std::size_t size = 0; size <= text.size(); ++size) {
+    const auto path = folder.write("cut.obj", text.substr(0, size));
+    try {
+      EXPECT_EQ(read_obj(path).topology.face_count(), 1);
+      ++read;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadData) << size;
+    }
+  }
+  EXPECT_GE(read, 2);  // with and without the final line end
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <crowdface/core/version.h>
+#include <crowdface/job/config_reader.h>
+#include <crowdface/smooth/chebyshev.h>
+#include <crowdface/synth/synthetic_head.h>
+
+#include <iostream>
+
+int main() {
+  using namespace crowdface;
+  const SyntheticHeads heads(5000);
+  const SmoothingOperator smoothing(build_adjacency(heads.topology()), Boundary::kFixed,
+                                    OperatorKind::kUmbrella);
+  const Positions smoothed = smooth(smoothing, heads.positions(1, 1), 100);
+  Problems problems;
+  const bool refused = !read_config("no_such_file.yaml", {}, problems);
+  std::cout << "crowdface " << kVersion << ", " << smoothed.rows() << " vertices smoothed\n";
+  return smoothed.allFinite() && refused && problems.code() == ExitCode::kMissingInput ? 0 : 1;
+}

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What `cmake --install` puts in place is complete: the program runs from there, and a project of
+# its own finds the package, builds against every module and runs.
+#   install_test.sh SOURCE BUILD CXX_FLAGS
+set -euo pipefail
+source=$1 build=$2 flags=$3
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+
+cmake --install "$build" --prefix "$place/prefix" >"$place/install.log" || {
+  cat "$place/install.log"
+  exit 1
+}
+for file in bin/crowdface include/crowdface/core/version.h include/crowdface/job/generate.h \
+  share/crowdface/configs/demo.yaml share/doc/crowdface/LICENSE share/doc/crowdface/config.md; do
+  [ -e "$place/prefix/$file" ] || { echo "not installed: $file"; exit 1; }
+done
+"$place/prefix/bin/crowdface" --version
+
+cmake -G Ninja -S "$source/tests/structure/consumer" -B "$place/build" \
+  -DCMAKE_PREFIX_PATH="$place/prefix" -DCMAKE_CXX_FLAGS="$flags" >"$place/configure.log" 2>&1 || {
+  cat "$place/configure.log"
+  exit 1
+}
+cmake --build "$place/build" || exit 1
+"$place/build/consumer"

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Each third-party library is included by the modules that own it and by no other (docs/
+# architecture.md): behind one door it can be replaced, and its quirks are known in one place.
+#   third_party_doors.sh ROOT
+set -euo pipefail
+cd "$1/src"
+
+status=0
+# door PATTERN MODULE…: includes that match stand in .cpp files of these modules only.
+door() {
+  local pattern=$1 found
+  shift
+  local allowed
+  allowed=$(IFS='|'; echo "$*")
+  found=$(grep -rnE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($pattern)" . |
+    grep -vE "^\./($allowed)" || true)
+  [ -z "$found" ] && return
+  echo "expected only in: $*"
+  echo "$found"
+  status=1
+}
+
+door 'tbb/|oneapi/tbb' 'crowdface/core/[a-z_]*\.cpp'
+door 'spdlog/' 'crowdface/core/[a-z_]*\.cpp'
+door 'xxhash' 'crowdface/core/[a-z_]*\.cpp'
+door 'Random123/' 'crowdface/core/[a-z_]*\.cpp'
+door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
+door 'OpenImageIO/' 'crowdface/io/[a-z_]*\.cpp' 'crowdface/render/[a-z_]*\.cpp'
+door 'embree' 'crowdface/render/[a-z_]*\.cpp'
+door 'yaml-cpp/' 'crowdface/job/[a-z_]*\.cpp'
+door 'nlohmann/' 'crowdface/job/[a-z_]*\.cpp'
+door 'CLI/' 'cli/[a-z_]*\.(cpp|h)'
+exit $status
