@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/alignment_check.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
 #include "crowdface/job/generate.h"
+
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -37,10 +39,9 @@ Bowls make_bowls() {
 }
 
 Positions turned(const Positions& positions, double degrees) {
-  return positions *
-         Eigen::AngleAxisd(degrees * kPi / 180, Eigen::Vector3d(1, 2, 3).normalized())
-             .toRotationMatrix()
-             .transpose();
+  return positions * Eigen::AngleAxisd(degrees * kPi / 180, Eigen::Vector3d(1, 2, 3).normalized())
+                         .toRotationMatrix()
+                         .transpose();
 }
 
 using ::testing::AllOf;

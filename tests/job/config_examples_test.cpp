@@ -13,7 +13,7 @@ class ExampleConfigs : public ConfigTest {};
 
 TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
   for (int i = 1; i <= 8; ++i) {
-    touch(concat("out/demo_heads/head_0", i, ".obj"));
+    touch(concat("out/demo_heads/synth_0", i, ".obj"));
     touch(concat("heads/ict/ict_0", i, ".obj"));
   }
   touch("heads/ict/ict_bands.1001.png");

@@ -240,6 +240,16 @@ TEST_F(ReadConfig, AWrongFolderIsOneProblem) {
   EXPECT_EQ(problems_.size(), 1u) << told();
 }
 
+TEST_F(ReadConfig, AWrongTagIsOneProblem) {
+  EXPECT_FALSE(
+      read("schema: 1\ncrowd: {name: a, count: 1}\n"
+           "faces: {directory: heads, units: cm, tags: {amn: [old]}}\n"
+           "sampling: {targets: [old], sources: {old: 1}}\n"
+           "plane: {anchors: {bop: [0, 0]}}\n"));
+  EXPECT_EQ(problems_.size(), 3u) << told();
+  EXPECT_THAT(told(), HasSubstr("c.yaml:3:45: faces.tags: no head is called \"amn\""));
+}
+
 TEST_F(ReadConfig, AFloodOfProblemsIsCut) {
   std::string text = kPlain + "sampling:\n";
   for (int i = 0; i < 5000; ++i) text += concat("  k", i, ": 1\n");

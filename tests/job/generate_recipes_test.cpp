@@ -4,6 +4,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/generate.h"
+
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/small_crowd.h"

@@ -6,6 +6,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/small_crowd.h"
@@ -145,10 +146,10 @@ TEST(Generate, LeavesNoTemporaryFiles) {
   run(folder, "out");
   std::vector<std::string> names;
   for (const auto& [name, bytes] : crowd_files(folder.out())) names.push_back(name);
-  EXPECT_THAT(names, ::testing::UnorderedElementsAre(
-                         "config.yaml", "crowd.csv", "plan.jsonl", "report.json",
-                         "meshes/mob_0001.obj", "meshes/mob_0002.obj", "meshes/mob_0003.obj",
-                         "meshes/mob_0004.obj"));
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("config.yaml", "crowd.csv", "plan.jsonl",
+                                                     "report.json", "meshes/mob_0001.obj",
+                                                     "meshes/mob_0002.obj", "meshes/mob_0003.obj",
+                                                     "meshes/mob_0004.obj"));
 }
 
 TEST(Generate, LargerCountKeepsTheFirstFaces) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/job/generate.h"
+
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/small_crowd.h"
@@ -46,7 +47,7 @@ TEST(HeadCache, SecondRunTakesAllHeadsFromIt) {
 
 TEST(HeadCache, OtherSettingsAndOtherHeadsDoNotHit) {
   SmallCrowd crowd;
-  const SmallCrowdFolder folder(crowd);
+  SmallCrowdFolder folder(crowd);
   run(folder, folder.cache());
   for (const char* other : {"boundary", "operator", "limit"}) {
     SmallCrowd changed = crowd;
@@ -68,8 +69,9 @@ TEST(HeadCache, DamagedEntriesAreMadeAnewWithTheSameBytes) {
   const auto first = crowd_files(folder.out());
   const fs::path entry = list_cache(folder.cache()).entries.at(1);
   const std::string whole = testing::read_text(entry);
-  std::vector<std::string> damaged = {"", "x", whole.substr(0, 71), whole.substr(0, 72),
-                                      whole.substr(0, whole.size() - 1), whole + "x"};
+  std::vector<std::string> damaged = {
+      "",         "x", whole.substr(0, 71), whole.substr(0, 72), whole.substr(0, whole.size() - 1),
+      whole + "x"};
   for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{20}, std::size_t{70},
                                whole.size() / 2, whole.size() - 1}) {
     std::string flipped = whole;

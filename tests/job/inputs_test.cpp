@@ -2,13 +2,14 @@
 // Inputs that do not fit together: refused with the right code, the file and the first difference.
 #include "crowdface/job/inputs.h"
 
-#include <gtest/gtest.h>
-
 #include <functional>
+
+#include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/generate.h"
 #include "crowdface/job/pipeline.h"
+
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/small_crowd.h"
@@ -115,7 +116,8 @@ TEST(Inputs, NumbersThatAreNoneAreRefused) {
 
 TEST(Inputs, HugeCoordinatesAreRefusedOrStayFinite) {
   const SmallCrowdFolder folder{SmallCrowd{}};
-  edit(folder, "cyd", [](Lines& lines) { lines[first_line(lines, "v ", 3)] = "v 1e38 -1e38 1e300"; });
+  edit(folder, "cyd",
+       [](Lines& lines) { lines[first_line(lines, "v ", 3)] = "v 1e38 -1e38 1e300"; });
   expect_refused(folder, ExitCode::kBadData, {"cyd.obj"});
 }
 
@@ -145,8 +147,8 @@ TEST(Inputs, MasksThatCannotBeReadAreRefused) {
   crowd.regions = 3;
   const SmallCrowdFolder folder(crowd);
   const std::string whole = testing::read_text(folder / "mask_0.png");
-  for (const std::string& bytes : {std::string("not an image"), std::string(),
-                                   whole.substr(0, whole.size() / 2)}) {
+  for (const std::string& bytes :
+       {std::string("not an image"), std::string(), whole.substr(0, whole.size() / 2)}) {
     folder.folder().write("mask_0.png", bytes);
     expect_refused(folder, ExitCode::kBadData, {"mask_0.png"});
   }
@@ -155,7 +157,7 @@ TEST(Inputs, MasksThatCannotBeReadAreRefused) {
 TEST(Inputs, TooFewChannelsAreRefused) {
   SmallCrowd crowd;
   crowd.regions = 3;
-  const SmallCrowdFolder folder(crowd);
+  SmallCrowdFolder folder(crowd);
   crowd.regions = 5;  // one image for five regions
   folder.configure(crowd);
   expect_refused(folder, ExitCode::kBadData, {"mask_0.png", "5"});
@@ -201,9 +203,9 @@ TEST(Inputs, SettingsHashTellsWhatMeshesDependOn) {
   };
   const std::string plain = settings({});
   EXPECT_EQ(settings({"crowd.count=7", "crowd.seed=5", "sampling.max_sources=1"}), plain);
-  for (const char* other : {"smoothing.boundary=free", "smoothing.operator=lazy",
-                            "smoothing.levels=cubic", "regions=none",
-                            "regions.names=[region_2, region_1, region_3]"}) {
+  for (const char* other :
+       {"smoothing.boundary=free", "smoothing.operator=lazy", "smoothing.levels=cubic",
+        "regions=none", "regions.names=[region_2, region_1, region_3]"}) {
     EXPECT_NE(settings({other}), plain) << other;
   }
   edit(folder, "bob", [](Lines& lines) { lines[first_line(lines, "v ")] = "v -7 -8 1.5"; });

@@ -22,7 +22,7 @@ for file in "${files[@]}"; do
     *.sh | .ci/run) line=2 ;;
     *) continue ;;
   esac
-  if ! sed -n "${line}p" "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0$'; then
+  if [[ $(sed -n "${line}{p;q}" "$file") != *"SPDX-License-Identifier: Apache-2.0" ]]; then
     echo "$file:$line: expected '// SPDX-License-Identifier: Apache-2.0'"
     status=1
   fi

@@ -23,7 +23,8 @@ expect_error() {
 }
 
 echo '#include "crowdface/core/a.h"' >"$tree/src/crowdface/mesh/a.cpp"
-"$script" "$tree" | grep -qF 'mesh --> core' || fail 'does not draw mesh --> core'
+drawn=$("$script" "$tree")
+grep -qF 'mesh --> core' <<<"$drawn" || fail 'does not draw mesh --> core'
 
 "$script" --check "$tree" >/dev/null 2>&1 && fail 'accepts a stale page'
 "$script" --write "$tree"

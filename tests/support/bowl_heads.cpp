@@ -18,8 +18,7 @@ double noise(std::uint64_t seed, std::uint64_t index, std::string_view purpose) 
 
 std::string single(double value) {
   char buffer[32];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, static_cast<float>(value)).ptr;
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, static_cast<float>(value)).ptr;
   return {buffer, end};
 }
 
@@ -125,8 +124,8 @@ void write_faces(const Bowl& bowl, Text& text) {
   text.line("s off");
   if (bowl.materials) text.line("usemtl eye");
   const int e = grid;
-  for (const auto& f : std::vector<std::vector<int>>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+  for (const auto& f : std::vector<std::vector<int>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
     text.line(face_line(bowl, {e + f[0], e + f[1], e + f[2], e + f[3]}, 0));
   }
 }
@@ -142,7 +141,8 @@ std::string bowl_text(const Bowl& bowl, std::uint64_t person) {
   write_vertices(bowl, person, text);
   if (bowl.uvs) write_uvs(bowl, text);
   if (bowl.normals) {
-    for (int v = 0; v < bowl.vertex_count(); ++v) text.line("vn 0 0.6 ", v % 2 == 0 ? "0.8" : "-0.8");
+    for (int v = 0; v < bowl.vertex_count(); ++v)
+      text.line("vn 0 0.6 ", v % 2 == 0 ? "0.8" : "-0.8");
   }
   text.line("g skin");
   text.line("s 1");

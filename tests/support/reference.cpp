@@ -12,9 +12,15 @@
 namespace crowdface::reference {
 namespace {
 
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Point operator+(const Point& a, const Point& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Point operator-(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Point operator*(double s, const Point& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
 
 /// "7/3/9" and the like, also counted from the end; no texture coordinate: nothing.
 std::pair<std::size_t, std::optional<std::size_t>> corner(const std::string& text,
@@ -40,7 +46,8 @@ double sample(const Picture& picture, double u, double v, std::size_t channel) {
   const auto texel = [&](double column, double row) {
     const double c = std::clamp(column, 0.0, static_cast<double>(picture.width) - 1);
     const double r = std::clamp(row, 0.0, static_cast<double>(picture.height) - 1);
-    const std::size_t at = static_cast<std::size_t>(r) * picture.width + static_cast<std::size_t>(c);
+    const std::size_t at =
+        static_cast<std::size_t>(r) * picture.width + static_cast<std::size_t>(c);
     return picture.values.at(at * picture.channels + channel);
   };
   const double left = std::floor(x), above = std::floor(y);
@@ -51,9 +58,9 @@ double sample(const Picture& picture, double u, double v, std::size_t channel) {
 
 /// The tile along one axis: ⌊c⌋, or where c is whole that of the polygon's middle.
 double tile_of(double coordinate, double middle) {
-  return coordinate == std::floor(coordinate) ? std::min(std::max(std::floor(middle), coordinate - 1),
-                                                         coordinate)
-                                              : std::floor(coordinate);
+  return coordinate == std::floor(coordinate)
+             ? std::min(std::max(std::floor(middle), coordinate - 1), coordinate)
+             : std::floor(coordinate);
 }
 
 using Smoothed = std::function<Points(const std::string& head, std::uint64_t level)>;
@@ -206,8 +213,8 @@ std::vector<std::vector<double>> masks_at_vertices(const Obj& mesh, const std::v
             tiled ? mask.at(1001 + static_cast<int>(tile_u) + 10 * static_cast<int>(tile_v))
                   : mask.at(0);
         for (std::size_t c = 0; c < picture.channels && region < regions; ++c, ++region) {
-          alpha[i][region] += tiled ? sample(picture, u - tile_u, v - tile_v, c)
-                                    : sample(picture, u, v, c);
+          alpha[i][region] +=
+              tiled ? sample(picture, u - tile_u, v - tile_v, c) : sample(picture, u, v, c);
         }
       }
     }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The method once more, as plainly as it can be written: loops over lists, no filter, no matrices, no
-// code of the program. Tests hold what the program makes against it.
+// The method once more, as plainly as it can be written: loops over lists, no filter, no matrices,
+// no code of the program. Tests hold what the program makes against it.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace crowdface::reference {
 
@@ -61,8 +62,8 @@ struct Heads {
 /// Eq. 7 with the numbers of a plan line: Σ_k α_k [S_L B + e Σ_i ω̂_i (C_i − S_L C_i)].
 Points blend(const Heads& heads, const nlohmann::json& line);
 
-/// The paper's cubics (§5.1): c_0 … c_3 of every coordinate, S̃_L x = x + Σ_p c_p (L/L_max)^p, fitted
-/// by least squares to the levels round(L_max·(j/40)²).
+/// The paper's cubics (§5.1): c_0 … c_3 of every coordinate, S̃_L x = x + Σ_p c_p (L/L_max)^p,
+/// fitted by least squares to the levels round(L_max·(j/40)²).
 struct Cubics {
   std::uint64_t max_level = 1;
   std::vector<std::array<Point, 4>> coefficients;

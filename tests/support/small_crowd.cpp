@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
+
 #include "support/crowd_files.h"
 
 namespace crowdface::testing {
@@ -63,19 +64,17 @@ void SmallCrowdFolder::configure(const SmallCrowd& crowd) {
   for (std::size_t image = 0; image < masks_.size(); ++image) {
     masks.push_back(concat("mask_", image, crowd.udim ? ".<UDIM>.png" : ".png"));
   }
-  const std::string regions = crowd.regions == 0
-                                  ? "none"
-                                  : concat("{names: [", join(crowd.region_names()), "], mask: [",
-                                           join(masks), "]}");
-  folder_.write("config.yaml",
-                concat("schema: 1\ncrowd: {name: mob, count: ", crowd.count, ", seed: ", crowd.seed,
-                       "}\nfaces: {directory: heads, units: ", crowd.units, ", align: none}",
-                       "\nregions: ", regions, "\nsmoothing: {", crowd.smoothing_limit,
-                       ", boundary: ", crowd.boundary, ", operator: ", crowd.operator_kind,
-                       ", levels: ", crowd.levels, "}\nblending: {normalization: ",
-                       crowd.normalization, "}\nsampling: ", crowd.sampling,
-                       "\noutput: {directory: out, contact_sheet: ", crowd.contact_sheet, "}\n",
-                       crowd.more));
+  const std::string regions = crowd.regions == 0 ? "none"
+                                                 : concat("{names: [", join(crowd.region_names()),
+                                                          "], mask: [", join(masks), "]}");
+  folder_.write(
+      "config.yaml",
+      concat("schema: 1\ncrowd: {name: mob, count: ", crowd.count, ", seed: ", crowd.seed,
+             "}\nfaces: {directory: heads, units: ", crowd.units, ", align: none}", "\nregions: ",
+             regions, "\nsmoothing: {", crowd.smoothing_limit, ", boundary: ", crowd.boundary,
+             ", operator: ", crowd.operator_kind, ", levels: ", crowd.levels,
+             "}\nblending: {normalization: ", crowd.normalization, "}\nsampling: ", crowd.sampling,
+             "\noutput: {directory: out, contact_sheet: ", crowd.contact_sheet, "}\n", crowd.more));
 }
 
 reference::Heads SmallCrowdFolder::reference_heads() const {
@@ -88,9 +87,8 @@ reference::Heads SmallCrowdFolder::reference_heads() const {
   heads.filter =
       reference::make_filter(mesh, crowd_.boundary == "fixed", crowd_.operator_kind == "lazy");
   heads.regions = crowd_.region_names();
-  heads.alpha = crowd_.regions == 0
-                    ? std::vector<std::vector<double>>(mesh.vertices.size(), {1.0})
-                    : reference::masks_at_vertices(mesh, masks_, crowd_.regions);
+  heads.alpha = crowd_.regions == 0 ? std::vector<std::vector<double>>(mesh.vertices.size(), {1.0})
+                                    : reference::masks_at_vertices(mesh, masks_, crowd_.regions);
   return heads;
 }
 
@@ -109,9 +107,10 @@ void expect_meshes_match_plan(const SmallCrowdFolder& folder, const std::filesys
   EXPECT_FALSE(lines.empty());
   for (const auto& line : lines) {
     const auto path = out / "meshes" / (line.at("id").get<std::string>() + ".obj");
-    const reference::Points expected = cubics.empty() ? reference::blend(heads, line)
-                                                      : reference::blend(heads, cubics, line);
-    EXPECT_LT(reference::largest_difference(reference::read_obj(path).vertices, expected), tolerance)
+    const reference::Points expected =
+        cubics.empty() ? reference::blend(heads, line) : reference::blend(heads, cubics, line);
+    EXPECT_LT(reference::largest_difference(reference::read_obj(path).vertices, expected),
+              tolerance)
         << line.dump();
     expect_same_but_positions(folder.head(line.at("target").get<std::string>()), path);
   }
@@ -129,9 +128,9 @@ void expect_weights_match_positions(const SmallCrowdFolder& folder,
   for (const auto& line : plan_lines(out)) {
     for (const auto& [region, values] : line.at("regions").items()) {
       if (values.at("position").is_null()) continue;
-      const auto expected = reference::weights_at(
-          anchors, line.at("target").get<std::string>(), folder.names(),
-          values.at("position").get<std::array<double, 2>>(), printed, 3);
+      const auto expected =
+          reference::weights_at(anchors, line.at("target").get<std::string>(), folder.names(),
+                                values.at("position").get<std::array<double, 2>>(), printed, 3);
       const auto found = values.at("weights").get<std::map<std::string, double>>();
       ASSERT_EQ(found.size(), expected.size()) << line.dump();
       for (const auto& [name, weight] : expected) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small job from end to end: heads, masks and a config in a folder, and the comparison of what comes
-// out with the plain computation.
+// A small job from end to end: heads, masks and a config in a folder, and the comparison of what
+// comes out with the plain computation.
 #pragma once
 
 #include <filesystem>
@@ -62,8 +62,8 @@ class SmallCrowdFolder {
   std::vector<reference::Mask> masks_;
 };
 
-/// Expects every line of a crowd's plan to have a mesh, and each mesh to be what the plain computation
-/// makes of the line, within 2·10⁻⁵ cm.
+/// Expects every line of a crowd's plan to have a mesh, and each mesh to be what the plain
+/// computation makes of the line, within 2·10⁻⁵ cm.
 void expect_meshes_match_plan(const SmallCrowdFolder& folder, const std::filesystem::path& out);
 
 /// Expects the weights of each line of the plan that has a position to be those of Eqs. 3 and 4.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
@@ -51,7 +52,7 @@ std::vector<std::string> textures_of(const std::string& text) {
 
 class Collector {
  public:
-  explicit Collector(const fs::path& mesh) : mesh_(mesh), folder_(mesh.parent_path()) {}
+  explicit Collector(fs::path folder) : folder_(std::move(folder)) {}
 
   void add_library(const std::string& argument) {
     // A name may hold blanks, or the line may name several files: whichever exists.
@@ -69,12 +70,12 @@ class Collector {
 
   bool take_file(const fs::path& relative, std::string_view what) {
     if (!stays_inside(relative)) {
-      result_.warnings.push_back(concat(mesh_.string(), ": ", what, " ", quoted(relative.string()),
+      result_.warnings.push_back(concat(what, " ", quoted(relative.string()),
                                         " lies outside the head's folder and is not copied"));
       return false;
     }
     if (!exists(relative)) {
-      result_.warnings.push_back(concat(mesh_.string(), ": ", what, " ", quoted(relative.string()),
+      result_.warnings.push_back(concat(what, " ", quoted(relative.string()),
                                         " is missing; meshes will name it all the same"));
       return false;
     }
@@ -97,14 +98,14 @@ class Collector {
     }
   }
 
-  fs::path mesh_, folder_;
+  fs::path folder_;
   MaterialFiles result_;
 };
 
 }  // namespace
 
 MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::string>& libraries) {
-  Collector collector(mesh);
+  Collector collector(mesh.parent_path());
   for (const std::string& library : libraries) collector.add_library(library);
   return collector.take();
 }

@@ -15,7 +15,7 @@ struct MaterialFile {
 
 struct MaterialFiles {
   std::vector<MaterialFile> files;      ///< each destination once
-  std::vector<std::string> warnings;    ///< files that are missing or lie outside the folder
+  std::vector<std::string> warnings;    ///< about files that are missing or lie outside the folder
 };
 
 /// The material files that a mesh names and the textures that those name. A file that is missing is

@@ -130,7 +130,7 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
         i < tags.size() && std::find(tags[i].begin(), tags[i].end(), name) != tags[i].end();
     if (known[i] == name || tagged) heads.push_back(static_cast<Eigen::Index>(i));
   }
-  if (heads.empty() && draft.heads_known) {
+  if (heads.empty() && draft.heads_known && draft.tags_known) {
     for (const auto& of_head : tags) known.insert(known.end(), of_head.begin(), of_head.end());
     draft.complaints.add(place, concat(path, ": no head and no tag is called ", quoted(name),
                                        suggestion(name, known)));

@@ -170,12 +170,15 @@ void read_tags(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
   if (node->kind != YamlNode::Kind::kMap) {
     draft.complaints.expected(*node, "a mapping from heads to tags, {head: [tag, ...]}");
+    draft.tags_known = false;
     return;
   }
+  const std::size_t complaints_before = draft.complaints.size();
   for (const YamlEntry& entry : node->entries) {
     const auto head = find_head(entry.key, entry.key_place, node->path, draft);
     if (head) read_tags_of_head(entry.value, *head, draft);
   }
+  draft.tags_known = draft.complaints.size() == complaints_before;
 }
 
 std::optional<Axis> read_axis(const YamlNode& node, Complaints& out) {

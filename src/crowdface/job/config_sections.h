@@ -19,9 +19,10 @@ struct ConfigDraft {
   Config config;
   Complaints& complaints;
   std::filesystem::path folder;  ///< of the config file; relative paths start there
-  /// After a complaint about the heads or regions their names are not known, and names elsewhere
+  /// After a complaint about the heads, tags or regions their names are not known, and names elsewhere
   /// are not held against them.
   bool heads_known = false;
+  bool tags_known = true;
   bool regions_known = false;
   std::optional<double> largest_size_mm;         ///< of a smoothness; none: not known here
   std::optional<std::uint64_t> most_iterations;  ///< likewise

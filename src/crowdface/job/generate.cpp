@@ -3,7 +3,9 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "crowdface/core/file.h"
@@ -60,27 +62,39 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const std::vect
   write_file(directory.table(), format_csv(crowd, job.names));
 }
 
-/// Copies material files and textures of all heads that are targets. \return warnings.
+/// Copies material files and textures of all heads that are targets. \return warnings, each once
+/// with the heads it is about.
 std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& directory,
                                         const std::vector<Recipe>& crowd) {
-  std::vector<bool> is_target(job.inputs.files.size());
-  for (const Recipe& recipe : crowd) is_target[static_cast<std::size_t>(recipe.target)] = true;
-  std::vector<std::string> warnings;
-  std::vector<fs::path> copied;
-  for (std::size_t h = 0; h < job.inputs.files.size(); ++h) {
-    if (!is_target[h]) continue;
-    const ObjFile& file = job.inputs.files[h];
+  std::set<Index> targets;
+  for (const Recipe& recipe : crowd) targets.insert(recipe.target);
+  std::map<std::string, std::vector<std::string>> heads_of_warning;
+  std::map<fs::path, Digest> copied;
+  for (const Index target : targets) {
+    const ObjFile& file = job.inputs.files[static_cast<std::size_t>(target)];
+    const std::string& head = job.names.heads[static_cast<std::size_t>(target)];
     MaterialFiles found = find_material_files(file.path, file.material_libraries);
-    warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+    for (const std::string& warning : found.warnings) heads_of_warning[warning].push_back(head);
     for (const MaterialFile& material : found.files) {
-      if (std::find(copied.begin(), copied.end(), material.relative) != copied.end()) continue;
-      copied.push_back(material.relative);
-      const fs::path to = directory.meshes() / material.relative;
-      make_directories(to.parent_path());
-      write_file(to, MappedFile(material.from).bytes());
+      const MappedFile bytes(material.from);
+      const Digest digest = hash_bytes(bytes.bytes());
+      const auto [known, is_new] = copied.emplace(material.relative, digest);
+      if (is_new) {
+        const fs::path to = directory.meshes() / material.relative;
+        make_directories(to.parent_path());
+        write_file(to, bytes.bytes());
+      } else if (known->second != digest) {
+        heads_of_warning[concat(material.relative.string(),
+                                " is not the same file for all heads; the first head's is kept")]
+            .push_back(head);
+      }
     }
   }
-  for (const std::string& warning : warnings) log_warning(warning);
+  std::vector<std::string> warnings;
+  for (const auto& [warning, heads] : heads_of_warning) {
+    warnings.push_back(concat(warning, " (", join(heads), ")"));
+    log_warning(warnings.back());
+  }
   return warnings;
 }
 

@@ -12,7 +12,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
-#include "crowdface/mesh/normals.h"
+#include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/perpendicular.h"
 #include "crowdface/render/ray_scene.h"
@@ -57,55 +57,6 @@ struct Stage {
   Vector gaze;
   Vector viewer;
 };
-
-Vector to_camera(const Camera& camera, Axis axis) {
-  const Eigen::Vector3d d = axis.sign * Eigen::Vector3d::Unit(axis.index);
-  return Eigen::Vector3d(d.dot(camera.right), d.dot(camera.up), d.dot(camera.back)).cast<float>();
-}
-
-std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
-  Eigen::Matrix3d axes;
-  axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
-  axes /= camera.half_extent();
-  std::vector<float> points(static_cast<std::size_t>(positions.rows()) * 3);
-  points.reserve(points.size() + 1);
-  for (Index i = 0; i < positions.rows(); ++i) {
-    const Vector point = (axes * (positions.row(i).transpose() - camera.target)).cast<float>();
-    if (!point.allFinite()) {
-      throw InvalidInput(concat("a render needs finite positions, vertex ", i + 1, " is not"));
-    }
-    std::copy_n(point.data(), 3, points.begin() + 3 * i);
-  }
-  return points;
-}
-
-/// +1, or −1 if the surface as a whole is wound inside out: faces look away from its middle.
-float winding(const Topology& topology, const Positions& positions) {
-  const Eigen::RowVector3d middle = positions.colwise().mean();
-  double outward = 0;
-  double total = 0;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    if (topology.face(f).size() < 3) continue;
-    const Eigen::RowVector3d area = face_area_vector(topology, f, positions);
-    const Eigen::RowVector3d reach = positions.row(topology.face(f)[0]) - middle;
-    outward += area.dot(reach);
-    total += area.norm() * reach.norm();
-  }
-  return outward < -0.05 * total ? -1.0F : 1.0F;
-}
-
-std::vector<Vector> camera_normals(const Topology& topology, const Positions& positions,
-                                   const Camera& camera) {
-  const float sign = winding(topology, positions);
-  const Positions normals = vertex_normals(topology, positions);
-  std::vector<Vector> out(static_cast<std::size_t>(normals.rows()));
-  for (Index i = 0; i < normals.rows(); ++i) {
-    const Eigen::Vector3d n = normals.row(i);
-    const Eigen::Vector3d turned(n.dot(camera.right), n.dot(camera.up), n.dot(camera.back));
-    out[static_cast<std::size_t>(i)] = sign * turned.cast<float>();
-  }
-  return out;
-}
 
 /// Shares of a primitive's four vertices in a point on it.
 Eigen::Vector4f shares(const Quad& quad, float u, float v) {

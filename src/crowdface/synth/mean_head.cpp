@@ -34,10 +34,10 @@ GuideRay eye_edge(const Vector2d& c) {
 
 GuideRay mouth_edge(const Vector2d& c) {
   // The window's short sides gather near the corners.
-  const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.4 - 0.4 * q);
+  const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.15 - 0.15 * q);
   // The line between the lips: a dip in the middle, corners a little lower than the bows.
-  const double line = -7.0 + 0.10 * q * (1 - q) * 2 - 0.02 * q;
-  const double gap = 0.03 * c.y();
+  const double line = -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
+  const double gap = 0.026 * c.y() * (1 + 1.8 * q);
   return {{0.4 * x, line + gap, 3}, {x, line + gap, 9.9 - 0.18 * x * x}};
 }
 

@@ -70,12 +70,12 @@ double nose(const Vector3d& p) {
 }
 
 double upper_lip(const Vector3d& p) {
-  const double side = rod(p, {0.5, -6.47, 9.58}, {2.4, -6.95, 8.65}, 0.44, 0.24);
+  const double side = rod(p, {0.5, -6.47, 9.58}, {2.42, -6.95, 8.6}, 0.44, 0.2);
   return melt(side, ellipsoid(p, {0, -6.6, 9.66}, {0.55, 0.45, 0.5}), 0.5);
 }
 
 double lower_lip(const Vector3d& p) {
-  return melt(rod(p, {0.5, -7.45, 9.46}, {2.3, -7.1, 8.65}, 0.52, 0.24),
+  return melt(rod(p, {0.5, -7.45, 9.46}, {2.36, -7.1, 8.6}, 0.52, 0.2),
               ellipsoid(p, {0, -7.5, 9.5}, {0.65, 0.5, 0.5}), 0.6);
 }
 
@@ -105,8 +105,10 @@ double skin_distance(const Vector3d& point) {
   d = carve(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
   d = melt(d, (p - kEyeCentre).norm() - (kEyeRadius + 0.13), 0.35);
   d = melt(d, nose(p), 0.6);
-  const double lips = melt(upper_lip(p), lower_lip(p), 0.1);
-  d = melt(d, lips, 0.42 + 0.3 * smooth_step(-7.6, -8.4, p.y()));
+  // The groove between the lips runs out towards the corners.
+  const double groove = 0.1 + 0.5 * smooth_step(1.5, 2.4, p.x());
+  const double lips = melt(upper_lip(p), lower_lip(p), groove);
+  d = melt(d, lips, 0.3 + 0.3 * smooth_step(-7.6, -8.4, p.y()));
   return d;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+
 #include <crowdface/core/version.h>
 #include <crowdface/job/config_reader.h>
 #include <crowdface/smooth/chebyshev.h>
 #include <crowdface/synth/synthetic_head.h>
-
-#include <iostream>
 
 int main() {
   using namespace crowdface;

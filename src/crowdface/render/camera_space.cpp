@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/camera_space.h"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/normals.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kVertexBlock = 4096;
+
+void check_finite(const Positions& positions) {
+  if (positions.allFinite()) return;
+  Index i = 0;
+  while (positions.row(i).allFinite()) ++i;
+  throw InvalidInput(concat("a render needs finite positions, vertex ", i + 1, " is not"));
+}
+
+/// +1, or −1 if the surface as a whole is wound inside out: faces look away from its middle.
+float winding(const Topology& topology, const Positions& positions) {
+  const Eigen::RowVector3d middle = positions.colwise().mean();
+  const auto sum = [&](auto&& term) {
+    return parallel_sum(topology.face_count(), kVertexBlock, [&](Index begin, Index end) {
+      double total = 0;
+      for (Index f = begin; f < end; ++f) {
+        if (topology.face(f).size() < 3) continue;
+        const Eigen::RowVector3d area = face_area_vector(topology, f, positions);
+        const Eigen::RowVector3d reach = positions.row(topology.face(f)[0]) - middle;
+        total += term(area, reach);
+      }
+      return total;
+    });
+  };
+  const double outward = sum([](auto& area, auto& reach) { return area.dot(reach); });
+  const double total = sum([](auto& area, auto& reach) { return area.norm() * reach.norm(); });
+  return outward < -0.05 * total ? -1.0F : 1.0F;
+}
+
+}  // namespace
+
+Eigen::Vector3f to_camera(const Camera& camera, Axis axis) {
+  const Eigen::Vector3d d = axis.sign * Eigen::Vector3d::Unit(axis.index);
+  return Eigen::Vector3d(d.dot(camera.right), d.dot(camera.up), d.dot(camera.back)).cast<float>();
+}
+
+std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
+  check_finite(positions);
+  Eigen::Matrix3d axes;
+  axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
+  axes /= camera.half_extent();
+  std::vector<float> points(static_cast<std::size_t>(positions.rows()) * 3);
+  points.reserve(points.size() + 1);  // RayScene adds one
+  parallel_blocks(positions.rows(), kVertexBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const Eigen::Vector3f point =
+          (axes * (positions.row(i).transpose() - camera.target)).cast<float>();
+      std::copy_n(point.data(), 3, points.begin() + 3 * i);
+    }
+  });
+  return points;
+}
+
+std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Positions& positions,
+                                            const Camera& camera) {
+  const float sign = winding(topology, positions);
+  const Positions normals = vertex_normals(topology, positions);
+  std::vector<Eigen::Vector3f> out(static_cast<std::size_t>(normals.rows()));
+  parallel_blocks(normals.rows(), kVertexBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const Eigen::Vector3d n = normals.row(i);
+      const Eigen::Vector3d turned(n.dot(camera.right), n.dot(camera.up), n.dot(camera.back));
+      out[static_cast<std::size_t>(i)] = sign * turned.cast<float>();
+    }
+  });
+  return out;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/core/units.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/render/camera.h"
+
+namespace crowdface {
+
+// A head as the camera sees it: x right, y up, z towards the camera, the target at the origin, and
+// half the side of the image as unit, so that small distances mean the same in any unit of the
+// files.
+
+/// x, y, z of each vertex. \throws InvalidInput if a position is not finite.
+std::vector<float> to_camera(const Positions& positions, const Camera& camera);
+
+/// An axis of the file as a unit vector.
+Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
+
+/// #V unit normals. If the surface as a whole is wound inside out, they are turned round.
+std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Positions& positions,
+                                            const Camera& camera);
+
+}  // namespace crowdface

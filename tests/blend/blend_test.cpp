@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/blend/blend.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/smooth/iterate.h"
+
+#include "support/expect_error.h"
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+/// Three random heads on an open sheet, and two regions with random masks.
+class Blend : public ::testing::Test {
+ protected:
+  Blend() {
+    faces_.topology = testing::grid_topology(9, 8);
+    for (std::uint64_t h = 0; h < 3; ++h) {
+      faces_.heads.push_back({std::string(1, static_cast<char>('a' + h)),
+                              10 * testing::random_positions(faces_.topology.vertex_count, h + 1)});
+    }
+    const Positions noise = testing::random_positions(faces_.topology.vertex_count, 9);
+    two_.alpha.resize(noise.rows(), 2);
+    two_.alpha.col(0) = (noise.col(0).array() + 1) / 2;
+    two_.alpha.col(1) = 1 - two_.alpha.col(0).array();
+  }
+
+  SmoothingOperator filter(Boundary boundary = Boundary::kFixed,
+                           OperatorKind kind = OperatorKind::kUmbrella) const {
+    return {build_adjacency(faces_.topology), boundary, kind};
+  }
+  const Positions& head(std::size_t h) const { return faces_.heads[h].positions; }
+  static Positions level(const SmoothingOperator& smoothing, const Positions& x, std::uint64_t l) {
+    return iterate(smoothing, x, l);
+  }
+
+  static Recipe recipe(Index target, std::vector<RegionRecipe> regions) {
+    Recipe result;
+    result.id = "test";
+    result.target = target;
+    result.regions = std::move(regions);
+    return result;
+  }
+  static RegionRecipe region(std::vector<SourceWeight> weights, std::uint64_t iterations,
+                             double extrapolation = 1) {
+    return {std::nullopt, std::move(weights), 0, iterations, extrapolation};
+  }
+
+  FaceSet faces_;
+  RegionWeights one_ = whole_head(testing::grid_topology(9, 8));
+  RegionWeights two_;
+};
+
+double difference(const Positions& a, const Positions& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
+TEST_F(Blend, TargetAloneGivesTheTargetToTheBit) {
+  for (const Boundary boundary : {Boundary::kFixed, Boundary::kFree}) {
+    for (const std::uint64_t l : {0U, 1U, 7U, 300U}) {
+      const Recipe alone = recipe(1, {region({{1, 1}}, l), region({{1, 1}}, 2 * l + 3)});
+      EXPECT_EQ(blend_exact(faces_, filter(boundary), two_, alone), head(1)) << l;
+    }
+  }
+}
+
+TEST_F(Blend, LevelZeroGivesTheTargetToTheBit) {
+  const Recipe unsmoothed = recipe(0, {region({{1, 0.25}, {2, 0.75}}, 0)});
+  EXPECT_EQ(blend_exact(faces_, filter(), one_, unsmoothed), head(0));
+}
+
+TEST_F(Blend, TwoFacesFollowEquation2) {
+  for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
+    for (const Boundary boundary : {Boundary::kFixed, Boundary::kFree}) {
+      const SmoothingOperator smoothing = filter(boundary, kind);
+      const Positions expected =
+          level(smoothing, head(0), 13) + head(2) - level(smoothing, head(2), 13);
+      const Recipe transfer = recipe(0, {region({{2, 1}}, 13)});
+      EXPECT_LT(difference(blend_exact(faces_, smoothing, one_, transfer), expected), 1e-7);
+    }
+  }
+}
+
+TEST_F(Blend, RegionsFollowEquation7) {
+  const SmoothingOperator smoothing = filter();
+  const std::vector<RegionRecipe> regions = {region({{0, 0.5}, {1, 0.2}, {2, 0.3}}, 5, 0.9),
+                                             region({{1, 1}}, 40, 1.3)};
+  Positions expected = Positions::Zero(head(0).rows(), 3);
+  for (Index k = 0; k < 2; ++k) {
+    const RegionRecipe& r = regions[static_cast<std::size_t>(k)];
+    Positions face = level(smoothing, head(0), r.iterations);
+    for (const SourceWeight& source : r.weights) {
+      const Positions& c = head(static_cast<std::size_t>(source.head));
+      face += r.extrapolation * source.weight * (c - level(smoothing, c, r.iterations));
+    }
+    expected += two_.alpha.col(k).asDiagonal() * face;
+  }
+  EXPECT_LT(difference(blend_exact(faces_, smoothing, two_, recipe(0, regions)), expected), 1e-7);
+}
+
+TEST_F(Blend, OrderOfSourcesChangesNothing) {
+  const Recipe a = recipe(1, {region({{0, 0.5}, {1, 0.2}, {2, 0.3}}, 20, 1.1)});
+  const Recipe b = recipe(1, {region({{2, 0.3}, {0, 0.5}, {1, 0.2}}, 20, 1.1)});
+  EXPECT_LT(
+      difference(blend_exact(faces_, filter(), one_, a), blend_exact(faces_, filter(), one_, b)),
+      1e-12);
+}
+
+TEST_F(Blend, RegionsOfEqualParametersAreOneRegion) {
+  const RegionRecipe same = region({{0, 0.4}, {2, 0.6}}, 30, 1.2);
+  EXPECT_LT(difference(blend_exact(faces_, filter(), two_, recipe(0, {same, same})),
+                       blend_exact(faces_, filter(), one_, recipe(0, {same}))),
+            1e-12);
+}
+
+TEST_F(Blend, ExtrapolationIsLinear) {
+  const auto face = [&](double e) {
+    return blend_exact(faces_, filter(), one_, recipe(0, {region({{0, 0.4}, {2, 0.6}}, 30, e)}));
+  };
+  EXPECT_LT(difference(face(1.5), face(0) + 1.5 * (face(1) - face(0))), 1e-10);
+  EXPECT_LT(difference(face(-2), face(0) - 2 * (face(1) - face(0))), 1e-10);
+  EXPECT_LT(difference(face(0), level(filter(), head(0), 30)), 1e-7) << "no detail: B^L";
+}
+
+TEST_F(Blend, NoWeightsLeaveTheSmoothedTarget) {
+  // The printed formula with m on the target.
+  EXPECT_LT(difference(blend_exact(faces_, filter(), one_, recipe(0, {region({}, 25)})),
+                       level(filter(), head(0), 25)),
+            1e-7);
+}
+
+TEST_F(Blend, FixedRimKeepsTheTargetsBits) {
+  const Adjacency adjacency = build_adjacency(faces_.topology);
+  const Recipe any = recipe(2, {region({{0, 0.3}, {1, 0.7}}, 17, 1.4), region({{1, 1}}, 300, 0.2)});
+  const Positions face = blend_exact(faces_, filter(), two_, any);
+  Index rim = 0;
+  for (Index i = 0; i < face.rows(); ++i) {
+    if (!adjacency.boundary[static_cast<std::size_t>(i)]) continue;
+    ++rim;
+    EXPECT_EQ(face.row(i), head(2).row(i));
+  }
+  EXPECT_EQ(rim, 2 * (9 + 8));
+}
+
+TEST_F(Blend, CubicFollowsItsFormula) {
+  const SmoothingOperator smoothing = filter();
+  std::vector<CubicFit> fits;
+  for (const Head& h : faces_.heads) fits.push_back(fit_cubic(smoothing, h.positions, 50));
+  const std::vector<RegionRecipe> regions = {region({{0, 0.5}, {1, 0.2}, {2, 0.3}}, 5, 0.9),
+                                             region({{1, 1}}, 50, 1.3)};
+  Positions expected = Positions::Zero(head(0).rows(), 3);
+  for (Index k = 0; k < 2; ++k) {
+    const RegionRecipe& r = regions[static_cast<std::size_t>(k)];
+    Positions face = evaluate(fits[0], head(0), r.iterations);  // Eq. 6
+    for (const SourceWeight& source : r.weights) {
+      const auto i = static_cast<std::size_t>(source.head);
+      face += r.extrapolation * source.weight *
+              (head(i) - evaluate(fits[i], head(i), r.iterations));  // Eq. 5
+    }
+    expected += two_.alpha.col(k).asDiagonal() * face;
+  }
+  EXPECT_LT(difference(blend_cubic(faces_, fits, two_, recipe(0, regions)), expected), 1e-11);
+}
+
+TEST_F(Blend, CubicTargetAloneGivesTheTarget) {
+  std::vector<CubicFit> fits;
+  for (const Head& h : faces_.heads) fits.push_back(fit_cubic(filter(), h.positions, 50));
+  const Recipe alone = recipe(1, {region({{1, 1}}, 20)});
+  EXPECT_LT(difference(blend_cubic(faces_, fits, one_, alone), head(1)), 1e-13);
+}
+
+TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
+  const auto refuse = [&](const Recipe& bad, const RegionWeights& regions) {
+    testing::expect_error(ExitCode::kBadData, {},
+                          [&] { blend_exact(faces_, filter(), regions, bad); });
+    std::vector<CubicFit> fits(3, fit_cubic(filter(), head(0), 5));
+    testing::expect_error(ExitCode::kBadData, {}, [&] { blend_cubic(faces_, fits, regions, bad); });
+  };
+  refuse(recipe(0, {region({{1, 1}}, 3)}), two_);
+  refuse(recipe(3, {region({{1, 1}}, 3)}), one_);
+  refuse(recipe(-1, {region({{1, 1}}, 3)}), one_);
+  refuse(recipe(0, {region({{3, 1}}, 3)}), one_);
+  RegionWeights shorter;
+  shorter.alpha = RegionWeights::Alpha::Ones(5, 1);
+  refuse(recipe(0, {region({{1, 1}}, 3)}), shorter);
+}
+
+TEST_F(Blend, CubicNeedsAFitForEachHead) {
+  const std::vector<CubicFit> fits(2, fit_cubic(filter(), head(0), 5));
+  testing::expect_error(ExitCode::kBadData, {}, [&] {
+    blend_cubic(faces_, fits, one_, recipe(0, {region({{1, 1}}, 3)}));
+  });
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/cast_crowd.h"
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/plane/layout.h"
+#include "crowdface/smooth/level_size.h"
+
+#include "support/expect_error.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::uint64_t kMany = 4000;
+
+Casting example() {
+  Casting casting;
+  casting.name = "mob";
+  casting.count = kMany;
+  casting.seed = 3;
+  casting.anchors = circle_layout(5);
+  casting.region_names = {"top", "low"};
+  casting.sampling.targets = {{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}};
+  casting.sampling.sources = {0, 1, 2, 3, 4};
+  casting.sampling.regions.resize(2);
+  casting.scale = {OperatorKind::kUmbrella, 1000, 2};
+  return casting;
+}
+
+bool same(const Recipe& a, const Recipe& b) {
+  if (a.id != b.id || a.index != b.index || a.target != b.target || a.attempt != b.attempt) {
+    return false;
+  }
+  for (std::size_t k = 0; k < a.regions.size(); ++k) {
+    const RegionRecipe &x = a.regions[k], &y = b.regions[k];
+    if (x.position != y.position || x.weights != y.weights || x.smoothness != y.smoothness ||
+        x.iterations != y.iterations || x.extrapolation != y.extrapolation) {
+      return false;
+    }
+  }
+  return a.regions.size() == b.regions.size();
+}
+
+/// Smallest, mean and largest of one number of all faces.
+struct Spread {
+  double low = HUGE_VAL, mean = 0, high = -HUGE_VAL;
+};
+Spread spread(const std::vector<Recipe>& crowd,
+              const std::function<double(const Recipe&)>& number) {
+  Spread result;
+  for (const Recipe& recipe : crowd) {
+    result.low = std::min(result.low, number(recipe));
+    result.high = std::max(result.high, number(recipe));
+    result.mean += number(recipe) / static_cast<double>(crowd.size());
+  }
+  return result;
+}
+
+TEST(CastCrowd, FacesDoNotDependOnTheCount) {
+  Casting casting = example();
+  const auto crowd = cast_crowd(casting);
+  ASSERT_EQ(crowd.size(), kMany);
+  casting.count = 10;
+  const auto few = cast_crowd(casting);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_TRUE(same(few[i], crowd[i]));
+  EXPECT_TRUE(same(cast_face(casting, 3777), crowd[3776])) << "also beyond the count";
+}
+
+TEST(CastCrowd, SeedsAndIndicesGiveOtherFaces) {
+  Casting casting = example();
+  const auto a = cast_crowd(casting);
+  casting.seed = 4;
+  const auto b = cast_crowd(casting);
+  std::set<double> smoothness;
+  for (std::size_t i = 0; i < kMany; ++i) {
+    EXPECT_NE(a[i].regions[0].smoothness, b[i].regions[0].smoothness);
+    for (const RegionRecipe& region : a[i].regions) smoothness.insert(region.smoothness);
+  }
+  EXPECT_EQ(smoothness.size(), 2 * kMany) << "regions are drawn apart";
+}
+
+TEST(CastCrowd, IdsCountFromOne) {
+  EXPECT_EQ(face_id("mob", 1), "mob_0001");
+  EXPECT_EQ(face_id("mob", 9999), "mob_9999");
+  EXPECT_EQ(face_id("mob", 123456), "mob_123456");
+  const Recipe recipe = cast_face(example(), 12);
+  EXPECT_EQ(recipe.id, "mob_0012");
+  EXPECT_EQ(recipe.index, 12U);
+}
+
+TEST(CastCrowd, TargetsComeByWeight) {
+  Casting casting = example();
+  casting.sampling.targets = {{1, 3}, {4, 1}};
+  std::map<Index, double> share;
+  for (const Recipe& r : cast_crowd(casting)) share[r.target] += 1. / kMany;
+  EXPECT_EQ(share.size(), 2U);
+  EXPECT_NEAR(share[1], 0.75, 0.03);
+}
+
+TEST(CastCrowd, UniformPositionsFillTheHullOfTheSources) {
+  Casting casting = example();
+  casting.sampling.sources = {0, 1, 3};
+  const std::vector<PlanePoint> corner = {casting.anchors[0], casting.anchors[1],
+                                          casting.anchors[3]};
+  const auto cross = [](const PlanePoint& a, const PlanePoint& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  PlanePoint middle(0, 0);
+  double near_first = 0;
+  for (const Recipe& r : cast_crowd(casting)) {
+    const PlanePoint m = *r.regions[1].position;
+    double parts[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const PlanePoint &a = corner[(c + 1) % 3], &b = corner[(c + 2) % 3];
+      parts[c] = cross(b - a, m - a) / area;  // barycentric
+      EXPECT_GE(parts[c], -1e-12);
+    }
+    near_first += (parts[0] > 0.5 ? 1. : 0.) / kMany;
+    middle += m / static_cast<double>(kMany);
+  }
+  EXPECT_LT((middle - (corner[0] + corner[1] + corner[2]) / 3).norm(), 0.03);
+  EXPECT_NEAR(near_first, 0.25, 0.03) << "uniform by area";
+}
+
+TEST(CastCrowd, AroundStaysInTheDisc) {
+  Casting casting = example();
+  casting.sampling.regions[0].position = {PositionDistribution::Kind::kAround, 2, 0.3};
+  casting.sampling.regions[1].position = {PositionDistribution::Kind::kAround, std::nullopt, 0.5};
+  double inner = 0;
+  PlanePoint middle(0, 0);
+  for (const Recipe& r : cast_crowd(casting)) {
+    const PlanePoint offset = *r.regions[0].position - casting.anchors[2];
+    EXPECT_LE(offset.norm(), 0.3 * (1 + 1e-12));
+    EXPECT_LE((*r.regions[1].position - casting.anchors[static_cast<std::size_t>(r.target)]).norm(),
+              0.5 * (1 + 1e-12));
+    inner += (offset.norm() < 0.15 ? 1. : 0.) / kMany;
+    middle += offset / static_cast<double>(kMany);
+  }
+  EXPECT_NEAR(inner, 0.25, 0.03) << "uniform by area";
+  EXPECT_LT(middle.norm(), 0.01);
+}
+
+TEST(CastCrowd, FixedStaysPut) {
+  Casting casting = example();
+  casting.count = 20;
+  casting.sampling.regions[0].position = {
+      PositionDistribution::Kind::kFixed, {}, 0, PlanePoint(0.25, -0.75)};
+  for (const Recipe& r : cast_crowd(casting)) {
+    EXPECT_EQ(*r.regions[0].position, PlanePoint(0.25, -0.75));
+    EXPECT_NE(*r.regions[1].position, PlanePoint(0.25, -0.75));
+  }
+}
+
+TEST(CastCrowd, RangesAreFilledAndKept) {
+  Casting casting = example();
+  casting.sampling.regions[0].smoothness.range = {0.25, 0.5};
+  casting.sampling.regions[0].extrapolation = {-1, 2};
+  casting.sampling.regions[1].extrapolation = {1.5, 1.5};
+  const auto crowd = cast_crowd(casting);
+  const Spread smoothness = spread(crowd, [](auto& r) { return r.regions[0].smoothness; });
+  EXPECT_GE(smoothness.low, 0.25);
+  EXPECT_LE(smoothness.high, 0.5);
+  EXPECT_NEAR(smoothness.low, 0.25, 0.005);
+  EXPECT_NEAR(smoothness.high, 0.5, 0.005);
+  EXPECT_NEAR(smoothness.mean, 0.375, 0.01);
+  const Spread e = spread(crowd, [](auto& r) { return r.regions[0].extrapolation; });
+  EXPECT_GE(e.low, -1);
+  EXPECT_LE(e.high, 2);
+  EXPECT_NEAR(e.mean, 0.5, 0.06);
+  const Spread fixed = spread(crowd, [](auto& r) { return r.regions[1].extrapolation; });
+  EXPECT_EQ(fixed.low, 1.5);
+  EXPECT_EQ(fixed.high, 1.5);
+}
+
+TEST(CastCrowd, FractionsBecomeTheNearestIterations) {
+  Casting casting = example();
+  casting.sampling.regions[0].smoothness.range = {0, 1};
+  for (const Recipe& r : cast_crowd(casting)) {
+    const RegionRecipe& region = r.regions[0];
+    EXPECT_EQ(static_cast<double>(region.iterations), std::round(region.smoothness * 1000));
+  }
+  EXPECT_EQ(iterations_of(0, casting.scale), 0U);
+  EXPECT_EQ(iterations_of(1, casting.scale), 1000U);
+}
+
+TEST(CastCrowd, IterationsStandAsDrawn) {
+  Casting casting = example();
+  casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kIterations, {3, 6}};
+  std::map<std::uint64_t, double> share;
+  for (const Recipe& r : cast_crowd(casting)) {
+    share[r.regions[0].iterations] += 1. / kMany;
+    EXPECT_NEAR(r.regions[0].smoothness, static_cast<double>(r.regions[0].iterations) / 1000,
+                1e-12);
+  }
+  ASSERT_THAT(share, ::testing::SizeIs(4));
+  EXPECT_EQ(share.begin()->first, 3U);
+  for (const auto& [iterations, part] : share) EXPECT_NEAR(part, 0.25, 0.1) << iterations;
+}
+
+TEST(CastCrowd, SizesBecomeTheirIterations) {
+  for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
+    Casting casting = example();
+    casting.scale.kind = kind;
+    const double largest = size_of_iterations(kind, casting.scale.max_level, 2);
+    std::uint64_t before = 0;
+    for (const double size : {0.0, 8.0, 20.0, 50.0, largest}) {
+      casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kSize, {size, size}};
+      const RegionRecipe region = cast_face(casting, 1).regions[0];
+      EXPECT_GE(region.iterations, before);
+      before = region.iterations;
+      // The nearest whole iterations: no neighbour's size is nearer.
+      if (size > 0) {
+        EXPECT_EQ(region.iterations, iterations_of_size(kind, size, 2));
+      }
+      EXPECT_NEAR(region.smoothness, static_cast<double>(region.iterations) / 1000, 1e-3);
+    }
+    EXPECT_EQ(before, casting.scale.max_level);
+  }
+}
+
+TEST(CastCrowd, SourcesAndTheirNumberAreKept) {
+  Casting casting = example();
+  casting.sampling.targets = {{2, 1}};
+  casting.sampling.sources = {0, 1, 3, 4};
+  casting.sampling.max_sources = 2;
+  double with_target = 0;
+  for (const Recipe& r : cast_crowd(casting)) {
+    const auto& weights = r.regions[0].weights;
+    EXPECT_LE(weights.size(), 2U);
+    double sum = 0;
+    Index previous = -1;
+    for (const SourceWeight& w : weights) {
+      sum += w.weight;
+      EXPECT_GT(w.head, previous);
+      EXPECT_GT(w.weight, 0);
+      previous = w.head;
+      with_target += w.head == 2 ? 1 : 0;
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+  }
+  EXPECT_GT(with_target, 0) << "the target takes part as face 0";
+}
+
+TEST(CastCrowd, PrintedWeightsLeaveTheTargetOut) {
+  Casting casting = example();
+  casting.normalization = Normalization::kPrinted;
+  for (const Recipe& r : cast_crowd(casting)) {
+    for (const RegionRecipe& region : r.regions) {
+      double sum = 0;
+      for (const SourceWeight& w : region.weights) {
+        EXPECT_NE(w.head, r.target);
+        sum += w.weight;
+      }
+      EXPECT_GT(sum, 0);
+      EXPECT_LT(sum, 1);
+    }
+  }
+}
+
+TEST(CastCrowd, AnotherRegionDisturbsNone) {
+  const Casting casting = example();
+  Casting more = casting;
+  more.region_names = {"new", "top", "low"};
+  more.sampling.regions.resize(3);
+  const Recipe a = cast_face(casting, 5), b = cast_face(more, 5);
+  EXPECT_EQ(a.target, b.target);
+  EXPECT_EQ(a.regions[0].position, b.regions[1].position);
+  EXPECT_EQ(a.regions[1].smoothness, b.regions[2].smoothness);
+}
+
+TEST(CastCrowd, HandRecipesComeFirstAndAreNormalised) {
+  Casting casting = example();
+  casting.count = 1;
+  HandRecipe hand;
+  hand.id = "mine";
+  hand.target = 3;
+  hand.regions.resize(2);
+  hand.regions[0].weights = {{4, 3}, {0, 1}};
+  hand.regions[1].position = PlanePoint(0.5, 0.5);
+  casting.recipes = {hand};
+  const auto crowd = cast_crowd(casting);
+  ASSERT_EQ(crowd.size(), 2U);
+  EXPECT_EQ(crowd[0].id, "mine");
+  EXPECT_FALSE(crowd[0].index);
+  EXPECT_EQ(crowd[0].target, 3);
+  EXPECT_THAT(crowd[0].regions[0].weights,
+              ::testing::ElementsAre(SourceWeight{0, 0.25}, SourceWeight{4, 0.75}));
+  EXPECT_FALSE(crowd[0].regions[0].position);
+  EXPECT_EQ(crowd[0].regions[1].weights,
+            weights_at(casting.anchors, 3, casting.sampling.sources, PlanePoint(0.5, 0.5),
+                       Normalization::kPartition, std::nullopt));
+  EXPECT_TRUE(same(crowd[1], cast_face(casting, 1)));
+
+  casting.recipes[0].regions[0].weights = {{4, 0}};
+  testing::expect_error(ExitCode::kBadData, {}, [&] { cast_crowd(casting); });
+}
+
+}  // namespace
+}  // namespace crowdface

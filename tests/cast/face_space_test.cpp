@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distances without meshes, held against meshes.
+#include "crowdface/cast/face_space.h"
+
+#include <cmath>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "crowdface/blend/blend.h"
+#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/mesh/alignment.h"
+#include "crowdface/plane/layout.h"
+
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::uint64_t kMaxLevel = 120;
+constexpr double kMmPerUnit = 10;
+
+/// Four bowls of 61 by 61 vertices that bulge differently, about 14 units wide, looking along +z.
+class FaceSpaceTest : public ::testing::Test {
+ protected:
+  static constexpr std::uint32_t kSide = 60;
+
+  FaceSpaceTest() {
+    faces_.topology = testing::grid_topology(kSide, kSide);
+    const Index count = faces_.topology.vertex_count;
+    for (std::uint64_t h = 0; h < 4; ++h) {
+      const Positions at = testing::random_positions(8, 50), size = testing::random_positions(8, h);
+      Positions positions(count, 3);
+      for (Index i = 0; i < count; ++i) {
+        const double s = 2. * static_cast<double>(i % (kSide + 1)) / kSide - 1;
+        const double t = 2. * static_cast<double>(i / (kSide + 1)) / kSide - 1;
+        double z = 6 - 3 * (s * s + t * t);
+        for (Index b = 0; b < 8; ++b) {
+          const double ds = s - at(b, 0), dt = t - at(b, 1);
+          z += 1.2 * size(b, 0) * std::exp(-8 * (ds * ds + dt * dt));
+        }
+        positions.row(i) << (7 + 0.4 * size(0, 1)) * s, 8 * t, z;
+      }
+      faces_.heads.push_back({std::string(1, static_cast<char>('a' + h)), positions});
+    }
+    regions_ = whole_head(faces_.topology);
+    adjacency_ = build_adjacency(faces_.topology);
+    smoothing_.emplace(adjacency_, Boundary::kFixed, OperatorKind::kUmbrella);
+    Positions mean = Positions::Zero(count, 3);
+    for (const Head& head : faces_.heads) mean += head.positions / 4;
+    samples_ = choose_face_samples(faces_.topology, find_components(adjacency_), mean, {2, 1}, 900);
+    for (const Head& head : faces_.heads) {
+      trajectories_.push_back(sample_trajectory(*smoothing_, head.positions, samples_, kMaxLevel));
+    }
+    space_.emplace(faces_, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit);
+    mean_z_ = mean.col(2).mean();
+    mean_ = mean;
+  }
+
+  std::vector<Recipe> crowd(std::uint64_t count) const {
+    Casting casting;
+    casting.name = "mob";
+    casting.count = count;
+    casting.anchors = circle_layout(4);
+    casting.region_names = {"all"};
+    casting.sampling.targets = {{0, 1}, {1, 1}, {2, 1}, {3, 1}};
+    casting.sampling.sources = {0, 1, 2, 3};
+    casting.sampling.regions.resize(1);
+    casting.sampling.regions[0].extrapolation = {0.8, 1.3};
+    casting.scale = {OperatorKind::kUmbrella, kMaxLevel, 2};
+    return cast_crowd(casting);
+  }
+
+  /// Rms distance over the face's area between two whole meshes, the second moved rigidly onto the
+  /// first, in millimetres.
+  double mesh_distance(const Positions& a, const Positions& b) const {
+    // The face: what lies in front of the head's middle; each vertex stands for a share of area.
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(a.rows());
+    for (Index f = 0; f < faces_.topology.face_count(); ++f) {
+      for (const std::uint32_t v : faces_.topology.face(f)) {
+        area(v) += face_area(f);
+      }
+    }
+    const double middle = (mean_.col(2).maxCoeff() + mean_.col(2).minCoeff()) / 2;
+    for (Index i = 0; i < a.rows(); ++i) {
+      if (mean_(i, 2) < middle) area(i) = 0;
+    }
+    const Positions moved = fit_similarity(b, a, ScaleFit::kRigid, area).apply(b);
+    const double squared = ((a - moved).rowwise().squaredNorm().array() * area.array()).sum();
+    return kMmPerUnit * std::sqrt(squared / area.sum());
+  }
+  double face_area(Index f) const {
+    const auto face = faces_.topology.face(f);
+    const Eigen::Vector3d d = (mean_.row(face[2]) - mean_.row(face[0])).transpose();
+    const Eigen::Vector3d e = (mean_.row(face[3]) - mean_.row(face[1])).transpose();
+    return d.cross(e).norm() / 2;
+  }
+
+  FaceSet faces_;
+  RegionWeights regions_;
+  Adjacency adjacency_;
+  std::optional<SmoothingOperator> smoothing_;
+  FaceSamples samples_;
+  std::vector<Trajectory> trajectories_;
+  std::optional<FaceSpace> space_;
+  Positions mean_;
+  double mean_z_ = 0;
+};
+
+TEST_F(FaceSpaceTest, DistancesAreThoseOfWholeMeshes) {
+  std::vector<Recipe> faces = crowd(6);
+  std::vector<FaceSpace::Place> places;
+  std::vector<Positions> as_built, unit;
+  for (Recipe recipe : faces) {
+    places.push_back(space_->place(recipe));
+    as_built.push_back(blend_exact(faces_, *smoothing_, regions_, recipe));
+    recipe.regions[0].extrapolation = 1;
+    unit.push_back(blend_exact(faces_, *smoothing_, regions_, recipe));
+  }
+  for (std::size_t a = 0; a < faces.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const double expected =
+          std::min(mesh_distance(as_built[a], as_built[b]), mesh_distance(unit[a], unit[b]));
+      EXPECT_NEAR(space_->distance(places[a], places[b]), expected, 0.05 * expected + 0.02);
+    }
+  }
+}
+
+TEST_F(FaceSpaceTest, DistancesOfHeadsAreThoseOfWholeMeshes) {
+  const Eigen::MatrixXd distances = space_->head_distances();
+  ASSERT_EQ(distances.rows(), 4);
+  for (Index a = 0; a < 4; ++a) {
+    EXPECT_EQ(distances(a, a), 0);
+    for (Index b = 0; b < a; ++b) {
+      EXPECT_EQ(distances(a, b), distances(b, a));
+      const double expected = mesh_distance(faces_.heads[static_cast<std::size_t>(a)].positions,
+                                            faces_.heads[static_cast<std::size_t>(b)].positions);
+      EXPECT_NEAR(distances(a, b), expected, 0.05 * expected);
+    }
+  }
+}
+
+TEST_F(FaceSpaceTest, TargetAloneLiesOnItsHead) {
+  Recipe recipe = crowd(1)[0];
+  recipe.target = 2;
+  recipe.regions[0].weights = {{2, 1}};
+  recipe.regions[0].extrapolation = 1;
+  EXPECT_LT(space_->distance(space_->place(recipe), space_->place_head(2)), 1e-3);
+  EXPECT_GT(space_->distance(space_->place(recipe), space_->place_head(1)), 1);
+}
+
+TEST_F(FaceSpaceTest, ExtrapolationAloneIsTheSamePerson) {
+  Recipe recipe = crowd(1)[0];
+  const auto place = [&](double e) {
+    recipe.regions[0].extrapolation = e;
+    return space_->place(recipe);
+  };
+  EXPECT_LT(space_->distance(place(0.8), place(1.3)), 1e-3);
+  EXPECT_GT((place(0.8).as_built - place(1.3).as_built).norm(), 1) << "though the meshes differ";
+}
+
+TEST_F(FaceSpaceTest, RigidMotionOfAHeadChangesNoDistance) {
+  FaceSet moved = faces_;
+  Similarity motion;
+  motion.rotation =
+      Eigen::AngleAxisd(0.1, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix();
+  motion.translation = {1, -2, 0.5};
+  moved.heads[1].positions = motion.apply(moved.heads[1].positions);
+  const FaceSpace space(moved, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit);
+  EXPECT_LT((space.head_distances() - space_->head_distances()).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
+  std::vector<Recipe> faces = crowd(40);
+  faces[20].regions = faces[7].regions;  // a twin
+  faces[20].target = faces[7].target;
+  space_->find_nearest(faces);
+  std::vector<FaceSpace::Place> places;
+  for (const Recipe& recipe : faces) places.push_back(space_->place(recipe));
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    ASSERT_TRUE(faces[i].nearest);
+    double head_mm = HUGE_VAL, crowd_mm = HUGE_VAL;
+    Index head = -1;
+    std::size_t crowd = i;
+    for (Index h = 0; h < 4; ++h) {
+      const double d = space_->distance(places[i], space_->place_head(h));
+      if (d < head_mm) head = h, head_mm = d;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const double d = space_->distance(places[i], places[j]);
+      if (d < crowd_mm) crowd = j, crowd_mm = d;
+    }
+    EXPECT_EQ(faces[i].nearest->head, head);
+    EXPECT_NEAR(faces[i].nearest->head_mm, head_mm, 1e-3);
+    EXPECT_EQ(faces[i].nearest->crowd.has_value(), i > 0);
+    if (i == 0) continue;
+    EXPECT_EQ(*faces[i].nearest->crowd, faces[crowd].id);
+    EXPECT_NEAR(faces[i].nearest->crowd_mm, crowd_mm, 1e-3);
+  }
+  EXPECT_EQ(faces[20].nearest->crowd, faces[7].id);
+  EXPECT_LT(faces[20].nearest->crowd_mm, 1e-3);
+}
+
+TEST_F(FaceSpaceTest, SamplesAreSpreadOverTheFront) {
+  EXPECT_EQ(samples_.size(), 900U);
+  EXPECT_TRUE(std::is_sorted(samples_.begin(), samples_.end()));
+  EXPECT_EQ(std::set<std::uint32_t>(samples_.begin(), samples_.end()).size(), samples_.size());
+  Index left = 0, front = 0;
+  for (const std::uint32_t v : samples_) {
+    left += mean_(v, 0) < 0 ? 1 : 0;
+    front += mean_(v, 2) > mean_.col(2).minCoeff() + 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(left), 450, 30);
+  EXPECT_EQ(front, 900);
+  EXPECT_EQ(samples_,
+            choose_face_samples(faces_.topology, find_components(adjacency_), mean_, {2, 1}, 900));
+}
+
+TEST_F(FaceSpaceTest, TrajectoriesAreTheLevels) {
+  const auto levels = trajectory_levels(kMaxLevel);
+  EXPECT_EQ(levels.front(), 0U);
+  EXPECT_EQ(levels.back(), kMaxLevel);
+  EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end()));
+  EXPECT_EQ(std::set<std::uint64_t>(levels.begin(), levels.end()).size(), levels.size());
+  const Positions& head = faces_.heads[0].positions;
+  ASSERT_EQ(trajectories_[0].rows(), static_cast<Index>(levels.size()));
+  for (const std::size_t l : {std::size_t{0}, std::size_t{5}, levels.size() - 1}) {
+    Positions smoothed = head;
+    for (std::uint64_t step = 0; step < levels[l]; ++step) {
+      Positions next = smoothed;
+      for (Index i = 0; i < head.rows(); ++i) {
+        if (adjacency_.boundary[static_cast<std::size_t>(i)]) continue;
+        next.row(i).setZero();
+        for (const std::uint32_t j : adjacency_.of(i)) next.row(i) += smoothed.row(j) / 4;
+      }
+      smoothed = next;
+    }
+    for (std::size_t s = 0; s < samples_.size(); ++s) {
+      for (Index c = 0; c < 3; ++c) {
+        EXPECT_NEAR(trajectories_[0](static_cast<Index>(l), static_cast<Index>(3 * s) + c),
+                    smoothed(samples_[s], c) - head(samples_[s], c), 1e-5);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands that read a config: check, init, plan, generate, blend, sheet, cache.
+#include <chrono>
+#include <thread>
+
+#include <signal.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/job/generate.h"
+
+#include "cli/program_test.h"
+#include "support/crowd_files.h"
+
+namespace crowdface::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+SmallCrowd three_regions() {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  return crowd;
+}
+
+TEST(Blend, RebuildsAFaceByteForByte) {
+  const SmallCrowdFolder folder(three_regions());
+  const std::string config = folder.config().string(), cache = folder.cache().string();
+  const std::string plan = (folder.out() / "plan.jsonl").string();
+  crowdface(0, {"generate", config, "--cache", cache, "--threads", "2"}, {"4 faces"});
+  const fs::path again = folder / "again.obj";
+  const auto blend = [&](int code, const std::string& id, std::vector<std::string> more,
+                         const std::vector<std::string>& phrases) {
+    std::vector<std::string> arguments = {"blend",    config,          "--cache", cache,
+                                          "--recipe", plan + "#" + id, "-o",      again.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    fs::remove(again);
+    crowdface(code, arguments, phrases);
+    EXPECT_EQ(fs::exists(again), code == 0);
+  };
+  blend(0, "mob_0003", {}, {});
+  EXPECT_EQ(read_text(again), read_text(folder.out() / "meshes/mob_0003.obj"));
+  blend(65, "mob_0033", {}, {"mob_0033", "did you mean mob_0003"});
+  blend(65, "mob_0003", {"--set", "smoothing.operator=lazy"}, {"other settings", "--any-settings"});
+  blend(0, "mob_0003", {"--set", "smoothing.operator=lazy", "--any-settings"}, {});
+  EXPECT_NE(read_text(again), read_text(folder.out() / "meshes/mob_0003.obj"));
+}
+
+TEST(Check, GoodConfigsPassAndNothingIsWritten) {
+  const SmallCrowdFolder folder(three_regions());
+  const auto before = crowd_files(folder.folder().path());
+  crowdface(0, {"check", folder.config().string()},
+            {"is fine", "4: ann, bob, cyd, dan", "119 vertices", "3 components", "60 iterations"});
+  EXPECT_EQ(crowd_files(folder.folder().path()), before);
+  EXPECT_FALSE(fs::exists(folder.out()));
+}
+
+TEST(Check, MasksAreRendered) {
+  const SmallCrowdFolder folder(three_regions());
+  crowdface(0, {"check", folder.config().string(), "--masks", (folder / "masks").string()});
+  const auto pictures = crowd_files(folder / "masks");
+  EXPECT_EQ(pictures.size(), 4U);
+  for (const char* name : {"region_1.png", "region_2.png", "region_3.png", "all.png"}) {
+    ASSERT_TRUE(pictures.contains(name));
+    EXPECT_EQ(pictures.at(name).substr(1, 3), "PNG");
+  }
+}
+
+TEST(Check, EveryProblemIsToldAndTheFirstKindSetsTheCode) {
+  const SmallCrowdFolder folder(three_regions());
+  const std::string config = folder.config().string();
+  // 64, 66 and 65 in one: a wrong key, a missing mask, a head that cannot be read.
+  std::string text = read_text(folder.config());
+  folder.folder().write("heads/bob.obj", "v 1 2 x\n");
+  fs::remove(folder / "mask_0.png");
+  folder.folder().write("config.yaml", text + "extra: 1\n" + "plane: {layout: circel}\n");
+  crowdface(64, {"check", config},
+            {"config.yaml:10:1", "extra", "config.yaml:11:17", "circle", "mask_0.png"});
+  // 66 and 65.
+  folder.folder().write("config.yaml", text);
+  crowdface(66, {"check", config}, {"config.yaml:4:", "mask_0.png"});
+  // 65 alone: every bad head.
+  folder.folder().write("heads/dan.obj", "v 1 2\n");
+  crowdface(65, {"check", config, "--set", "regions=none"}, {"bob.obj:1", "dan.obj:1"});
+  crowdface(66, {"check", (folder / "none.yaml").string()}, {"none.yaml"});
+}
+
+TEST(Init, WritesAConfigThatPasses) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const std::string heads = (folder / "heads").string(),
+                    config = (folder / "my/crowd.yaml").string();
+  fs::create_directories(folder / "my");
+  crowdface(0, {"init", heads, "-o", config}, {"4 heads"});
+  const std::string text = read_text(config);
+  EXPECT_THAT(text, ::testing::HasSubstr("units: cm"));
+  crowdface(0, {"check", config}, {"is fine"});
+  crowdface(64, {"init", heads, "-o", config}, {"--force"});
+  EXPECT_EQ(read_text(config), text);
+}
+
+TEST(Plan, BuildsNoMeshesAndKeepsTheCache) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const std::string cache = folder.cache().string();
+  crowdface(0, {"plan", folder.config().string(), "--cache", cache}, {"4 recipes"});
+  EXPECT_EQ(plan_lines(folder.out()).size(), 4U);
+  EXPECT_FALSE(fs::exists(folder.out() / "meshes"));
+  crowdface(0, {"cache", "--cache", cache}, {cache, "4 prepared heads"});
+  crowdface(0, {"cache", "--cache", cache, "--clear"}, {"4 entries removed"});
+  EXPECT_TRUE(fs::is_empty(folder.cache()));
+  const std::string log = (folder / "dry.log").string();
+  crowdface(0,
+            {"generate", folder.config().string(), "--cache", cache, "--dry-run", "--log-file", log,
+             "--out", (folder / "dry").string()},
+            {"dry run", "4 faces", "119 vertices"});
+  EXPECT_THAT(read_text(log), ::testing::HasSubstr("dry run"));
+  EXPECT_FALSE(fs::exists(folder / "dry"));
+}
+
+TEST(Sheet, IsRemadeIdentical) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, rows: 1, cell: 40}";
+  const SmallCrowdFolder folder(crowd);
+  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  const auto before = crowd_files(folder.out());
+  fs::remove_all(folder.out() / "sheets");
+  crowdface(0, {"sheet", folder.out().string()}, {"2 sheets"});
+  EXPECT_THAT(differing_files(before, crowd_files(folder.out())), ::testing::IsEmpty());
+  crowdface(66, {"sheet", (folder / "heads").string()}, {"config.yaml"});
+}
+
+TEST(Generate, InterruptedRunIs75AndItsRerunIsComplete) {
+  SmallCrowd crowd = three_regions();
+  crowd.count = 40;
+  crowd.contact_sheet = "{columns: 8, rows: 5, cell: 160}";
+  const SmallCrowdFolder folder(crowd);
+  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  const auto whole = crowd_files(folder.out());
+  fs::remove_all(folder.out());
+
+  const std::vector<std::string> command = {
+      "generate", folder.config().string(), "--cache", folder.cache().string(), "--threads", "2"};
+  const Outcome stopped = run_program(CROWDFACE_PROGRAM, command, [&](pid_t child) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!fs::exists(folder.out() / "meshes/mob_0001.obj") &&
+           std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ::kill(child, SIGTERM);
+  });
+  EXPECT_EQ(stopped.code, 75) << stopped.err;
+  EXPECT_THAT(stopped.err, ::testing::HasSubstr("run again"));
+  const auto part = crowd_files(folder.out());
+  EXPECT_FALSE(part.contains("report.json"));
+  for (const auto& [name, bytes] : part) {
+    ASSERT_TRUE(whole.contains(name)) << name << ": a temporary file was left";
+    EXPECT_EQ(bytes, whole.at(name)) << name;
+  }
+  crowdface(0, command);
+  EXPECT_THAT(differing_files(whole, crowd_files(folder.out())), ::testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace crowdface::testing

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/version.h"
+
+#include "cli/program_test.h"
+#include "support/crowd_files.h"
+
+namespace crowdface::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Usage, VersionAndHelpAreNoErrors) {
+  EXPECT_EQ(crowdface(0, {"--version"}).out, std::string("crowdface ") + kVersion + "\n");
+  crowdface(0, {"--help"},
+            {"generate", "prepare", "plan", "blend", "smooth", "sheet", "synth", "check", "init",
+             "cache", "75"});
+  for (const auto& [command, phrases] :
+       std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"generate", {"CONFIG", "--seed", "--count", "--out", "--set", "--force", "--dry-run"}},
+           {"prepare", {"CONFIG", "--cache"}},
+           {"plan", {"CONFIG", "--dry-run"}},
+           {"blend", {"--recipe", "PLAN.jsonl#ID", "--output"}},
+           {"smooth", {"--iterations", "--boundary", "--operator", "--plain"}},
+           {"sheet", {"CROWD_DIR"}},
+           {"synth", {"--vertices", "--seed", "--count"}},
+           {"check", {"--masks"}},
+           {"init", {"HEADS_DIR"}},
+           {"cache", {"--clear", "--cache"}}}) {
+    const Outcome help = crowdface(0, {command, "--help"}, phrases);
+    EXPECT_THAT(help.out,
+                ::testing::AllOf(::testing::HasSubstr("--threads"), ::testing::HasSubstr("--quiet"),
+                                 ::testing::HasSubstr("--log-file")));
+  }
+}
+
+TEST(Usage, WrongCommandLinesAre64) {
+  crowdface(64, {});
+  crowdface(64, {"generte", "x.yaml"}, {"generte"});
+  crowdface(64, {"generate", "x.yaml", "--colour"}, {"--colour"});
+  crowdface(64, {"generate"}, {"config"});
+}
+
+TEST(Usage, WrongNumbersAre64AndChangeNothing) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const std::string config = folder.config().string();
+  for (const auto& [option, value] :
+       std::vector<std::pair<std::string, std::string>>{{"--threads", "0"},
+                                                        {"--threads", "-1"},
+                                                        {"--threads", "abc"},
+                                                        {"--count", "2147483648"},
+                                                        {"--count", "18446744073709551616"},
+                                                        {"--seed", "-1"},
+                                                        {"--set", "crowd.cuont=3"}}) {
+    crowdface(64, {"generate", config, option + "=" + value}, {option});
+  }
+  crowdface(64,
+            {"smooth", folder.head("ann").string(), "--iterations=1e3", "-o",
+             (folder / "x.obj").string()},
+            {"--iterations", "1e3"});
+  EXPECT_FALSE(fs::exists(folder.out()));
+  EXPECT_FALSE(fs::exists(folder / "x.obj"));
+}
+
+}  // namespace
+}  // namespace crowdface::testing
