@@ -6,7 +6,7 @@ target_compile_options(crowdface_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees overlapping copies in std::string's operator+ where there are none (GCC bug 105651).
-  target_compile_options(crowdface_flags INTERFACE -Wno-restrict -Wno-unknown-warning-option)
+  target_compile_options(crowdface_flags INTERFACE -Wno-restrict)
 endif()
 if(CROWDFACE_WERROR)
   target_compile_options(crowdface_flags INTERFACE -Werror)
