@@ -26,7 +26,10 @@ TEST(Blend, RebuildsAFaceByteForByte) {
   const SmallCrowdFolder folder(three_regions());
   const std::string config = folder.config().string(), cache = folder.cache().string();
   const std::string plan = (folder.out() / "plan.jsonl").string();
-  crowdface(0, {"generate", config, "--cache", cache, "--threads", "2"}, {"4 faces"});
+  const std::string log = (folder / "own.log").string();
+  crowdface(0, {"generate", config, "--cache", cache, "--threads", "2", "--log-file", log},
+            {"4 faces"});
+  EXPECT_THAT(read_text(log), ::testing::HasSubstr("4 faces in")) << "beside the crowd's log";
   const fs::path again = folder / "again.obj";
   const auto blend = [&](int code, const std::string& id, std::vector<std::string> more,
                          const std::vector<std::string>& phrases) {

@@ -92,10 +92,12 @@ void write_uvs(const Bowl& bowl, Text& text) {
 /// Corners "v/vt/vn" of one face; `uv_shift` picks the copy of the texture coordinates.
 std::string face_line(const Bowl& bowl, const std::vector<int>& vertices, int uv_shift) {
   std::string line = "f";
-  const int grid = (bowl.columns + 1) * (bowl.rows + 1);
+  const int stride = bowl.columns + 1, grid = stride * (bowl.rows + 1);
   for (const int v : vertices) {
     line += concat(' ', v + 1);
-    if (bowl.uvs) line += concat('/', v % grid + uv_shift + 1);
+    const int e = v - grid;  // a corner of the eye takes one of the first four of two rows
+    const int uv = e < 0 ? v : e / 4 * stride + e % 4;
+    if (bowl.uvs) line += concat('/', uv + uv_shift + 1);
     if (bowl.normals) line += concat(bowl.uvs ? "/" : "//", v + 1);
   }
   return line;

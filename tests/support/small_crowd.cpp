@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 
 #include "support/crowd_files.h"
@@ -42,6 +43,7 @@ std::vector<std::string> SmallCrowd::region_names() const {
 }
 
 SmallCrowdFolder::SmallCrowdFolder(const SmallCrowd& crowd) {
+  set_log_level(LogLevel::kQuiet);
   names_ = write_bowls(folder_ / "heads", crowd.bowl, crowd.heads);
   const std::size_t images = (crowd.regions + 2) / 3;
   for (std::size_t image = 0; image < images; ++image) {

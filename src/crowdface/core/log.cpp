@@ -7,6 +7,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -17,7 +19,7 @@ namespace {
 struct Sinks {
   std::shared_ptr<spdlog::sinks::stderr_color_sink_mt> terminal =
       std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-  std::shared_ptr<spdlog::sinks::basic_file_sink_mt> file;
+  std::vector<std::shared_ptr<spdlog::sinks::basic_file_sink_mt>> files;
   LogLevel level = LogLevel::kNormal;
   std::shared_ptr<spdlog::logger> logger = std::make_shared<spdlog::logger>("crowdface", terminal);
 
@@ -48,22 +50,23 @@ void set_log_level(LogLevel level) {
 LogLevel log_level() { return sinks().level; }
 
 void add_log_file(const std::filesystem::path& path) {
-  close_log_file();
+  std::shared_ptr<spdlog::sinks::basic_file_sink_mt> file;
   try {
-    sinks().file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string());
+    file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string());
   } catch (const spdlog::spdlog_ex& error) {
     throw CannotCreate(concat(path.string(), ": log file cannot be opened: ", error.what()));
   }
-  sinks().file->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
-  sinks().file->set_level(spdlog::level::debug);
-  sinks().logger->sinks().push_back(sinks().file);
+  file->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+  file->set_level(spdlog::level::debug);
+  sinks().logger->sinks().push_back(file);
+  sinks().files.push_back(std::move(file));
 }
 
 void close_log_file() {
-  if (!sinks().file) return;
-  sinks().file->flush();
-  std::erase(sinks().logger->sinks(), sinks().file);
-  sinks().file.reset();
+  if (sinks().files.empty()) return;
+  sinks().files.back()->flush();
+  std::erase(sinks().logger->sinks(), sinks().files.back());
+  sinks().files.pop_back();
 }
 
 void log_debug(std::string_view text) { sinks().logger->log(spdlog::level::debug, view(text)); }

@@ -11,9 +11,9 @@ enum class LogLevel { kQuiet, kNormal, kVerbose };
 /// What reaches standard error; a log file always gets everything.
 void set_log_level(LogLevel level);
 LogLevel log_level();
-/// Also writes everything to this file (appended). \throws CannotCreate.
+/// Also writes everything to this file (appended), beside those added before. \throws CannotCreate.
 void add_log_file(const std::filesystem::path& path);
-/// Stops writing to the file.
+/// Stops writing to the file that was added last.
 void close_log_file();
 
 /// One line each; the text is used as it is.

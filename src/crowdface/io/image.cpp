@@ -93,7 +93,8 @@ void check_kind(const path& file, const OIIO::ImageSpec& spec) {
   }
 }
 
-void read_into(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc type, void* pixels) {
+void read_into(OIIO::ImageInput& input, const path& file, const OIIO::TypeDesc& type,
+               void* pixels) {
   if (!input.read_image(0, 0, 0, -1, type, pixels)) {
     refuse(file, concat("is damaged or cut short: ", input.geterror()));
   }
@@ -101,7 +102,7 @@ void read_into(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc type, v
 
 /// Integers as fractions of the largest: divided, not multiplied by a rounded 1/255.
 template <class T>
-void read_integers(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc type,
+void read_integers(OIIO::ImageInput& input, const path& file, const OIIO::TypeDesc& type,
                    std::vector<float>& out) {
   std::vector<T> values(out.size());
   read_into(input, file, type, values.data());
@@ -111,7 +112,7 @@ void read_integers(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc typ
   }
 }
 
-void read_pixels(OIIO::ImageInput& input, const path& file, OIIO::TypeDesc type,
+void read_pixels(OIIO::ImageInput& input, const path& file, const OIIO::TypeDesc& type,
                  std::vector<float>& out) {
   switch (type.basetype) {
     case OIIO::TypeDesc::UINT8:

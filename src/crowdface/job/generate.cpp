@@ -155,6 +155,8 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const CrowdDirectory directory{job.config.output.directory};
   open_directory(job, directory, options.replace);
   const CrowdLog log(directory.log());
+  // Said before there was a folder for the log; at this level they reach the file alone.
+  for (const std::string& warning : job.inputs.warnings) log_debug(warning);
   const Prepared prepared = timed(stages, "prepare", [&] {
     return prepare(job.config, job.inputs, job.smoothing, options.cache);
   });

@@ -57,7 +57,7 @@ class LineReader {
       recipe.family = text(json, "family");
     }
     recipe.target = head(text(json, "target"), "target");
-    recipe.attempt = static_cast<std::uint32_t>(whole(member(json, "attempt"), "attempt"));
+    recipe.attempt = attempt(member(json, "attempt"));
     const Json& regions = member(json, "regions");
     if (!regions.is_object() || regions.size() != names_.regions.size()) {
       fail("regions", concat("an object of ", names_.regions.size(), " regions"), regions.dump());
@@ -98,6 +98,12 @@ class LineReader {
   std::uint64_t whole(const Json& value, std::string_view key) const {
     if (!value.is_number_unsigned()) fail(key, "a whole number of zero or more", value.dump());
     return value.get<std::uint64_t>();
+  }
+
+  std::uint32_t attempt(const Json& value) const {
+    const std::uint64_t number = whole(value, "attempt");
+    if (number > UINT32_MAX) fail("attempt", "less than 2^32", value.dump());
+    return static_cast<std::uint32_t>(number);
   }
 
   Index head(const std::string& name, std::string_view key) const {

@@ -33,8 +33,9 @@ struct LoadedMask {
   double at(const UvSample& sample, std::size_t channel) const {
     const LoadedTile& tile = tiles.at(tiled ? sample.tile : kFirstTile);
     const int place = tiled ? sample.tile - kFirstTile : 0;
-    return sample_bilinear(tile.image, sample.u - place % 10, sample.v - place / 10,
-                           tile.channels[channel]);
+    const int column = place % 10;
+    const int row = place / 10;
+    return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
 };
 
@@ -134,6 +135,7 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
   const UvSamples samples = gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne);
   const std::set<int> used = tiles_of(samples);
   std::vector<LoadedMask> loaded;
+  loaded.reserve(masks.size());
   Problems problems;
   for (const MaskSource& mask : masks) loaded.push_back(load(mask, used, problems));
   problems.throw_if_any();

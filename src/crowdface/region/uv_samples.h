@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <set>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
@@ -16,7 +16,10 @@ struct UvSample {
   int tile = 0;  ///< UDIM number
   double u = 0;  ///< as in the file, not relative to the tile
   double v = 0;
-  auto operator<=>(const UvSample&) const = default;
+  bool operator==(const UvSample&) const = default;
+  bool operator<(const UvSample& other) const {
+    return std::tie(tile, u, v) < std::tie(other.tile, other.u, other.v);
+  }
 };
 
 /// The distinct places of every vertex: those of its corners, each value once (a value on the

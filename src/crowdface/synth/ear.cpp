@@ -45,7 +45,7 @@ double along(const std::array<double, kKnots>& values, double b) {
 Vector3d raised(const Vector2d& place, double height) {
   const double up = place.y() * (place.y() > 0 ? 2.9 : 3.0);
   const double back = place.x() * (place.x() > 0 ? 1.8 : 1.25) * (1 + 0.22 * place.y());
-  Vector3d guide(0, kEarCentre.y() + up, kEarCentre.z() - back - 0.2 * up);
+  Vector3d guide(0, ear_centre().y() + up, ear_centre().z() - back - 0.2 * up);
   const Vector3d skin = onto_skin({0, guide.y(), guide.z()}, {6.5, guide.y(), guide.z()});
   return skin + height * Vector3d(0.86, 0.0, -0.5);
 }
@@ -75,7 +75,7 @@ Vector3d on_ring(double around, double b) {
   const double from = std::max(b, kAttached);
   // At the front the ear joins the cheek without an overhang.
   const double reach = along(kReach, from) + front * 0.3 * smooth_step(0.5, 0.2, from);
-  const Vector3d ear = raised(reach * round, height_at(round, from));
+  Vector3d ear = raised(reach * round, height_at(round, from));
   if (b >= kAttached) return ear;
   const GuideRay ray = window_ray(window_of(Sheet::kEar), around);
   const Vector3d edge = onto_skin(ray.origin, ray.guide);

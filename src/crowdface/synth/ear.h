@@ -11,6 +11,8 @@ namespace crowdface::synth {
 Eigen::Vector3d ear_point(const Address& address);
 
 /// The middle of the ear on the head's side.
-inline const Eigen::Vector3d kEarCentre{6.9, -1.4, -1.1};
+inline Eigen::Vector3d ear_centre() {
+  return {6.9, -1.4, -1.1};
+}
 
 }  // namespace crowdface::synth

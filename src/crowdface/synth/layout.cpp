@@ -2,109 +2,20 @@
 #include "crowdface/synth/layout.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 
+#include "crowdface/synth/quad_counts.h"
 #include "crowdface/synth/unwrap.h"
 
 namespace crowdface::synth {
 namespace {
 
-// How many quads wide each lattice interval is in the smallest layout.
-constexpr std::array<double, kColumns - 1> kColumnWeights = {2, 3, 4, 5, 4, 5, 6, 5, 4, 5, 4, 3, 2};
-constexpr std::array<double, kRows - 1> kRowWeights = {4, 4, 7, 3, 3, 2, 5, 3, 3, 5, 5};
-
-constexpr std::array<Window, 4> kWindows = {{{Sheet::kEye, 2, 4, 2, 3},
-                                             {Sheet::kNostril, 1, 2, 4, 5},
-                                             {Sheet::kMouth, -3, 3, 6, 7},
-                                             {Sheet::kEar, 6, 7, 2, 5}}};
-
-/// Where the rings of a window lie: from one b to the next, how many in the smallest layout.
-struct RingSpan {
-  double from, to, weight;
-};
-const std::vector<RingSpan>& ring_spans(Sheet sheet) {
-  static const std::vector<RingSpan> eye = {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};
-  static const std::vector<RingSpan> nostril = {{0, 1, 4}, {1, 2, 2}};
-  static const std::vector<RingSpan> mouth = {{0, 1, 6}, {1, 2, 2}};
-  static const std::vector<RingSpan> ear = {{0, 1, 10}};
-  switch (sheet) {
-    case Sheet::kEye:
-      return eye;
-    case Sheet::kNostril:
-      return nostril;
-    case Sheet::kMouth:
-      return mouth;
-    default:
-      return ear;
-  }
-}
-
-int quads(double weight, double scale) {
-  return std::max(1, static_cast<int>(std::floor(weight * scale + 0.5)));
-}
-
-/// Whole numbers of quads in every lattice interval and ring span.
-struct Counts {
-  explicit Counts(double scale_in) : scale(scale_in) {
-    for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = quads(kColumnWeights[i], scale);
-    // The cap carries the face's columns over to the back: same counts, in reverse.
-    for (std::size_t i = 0; i < kFrontColumn; ++i) columns[12 - i] = columns[i];
-    for (std::size_t j = 0; j < rows.size(); ++j) rows[j] = quads(kRowWeights[j], scale);
-  }
-  int column(int k) const {
-    int sum = 0;
-    for (int i = 0; i < std::abs(k); ++i) sum += columns[static_cast<std::size_t>(i)];
-    return k < 0 ? -sum : sum;
-  }
-  int row(int k) const {
-    int sum = 0;
-    for (int j = 0; j < k; ++j) sum += rows[static_cast<std::size_t>(j)];
-    return sum;
-  }
-  /// b of every ring of a window after the rectangle itself.
-  std::vector<double> rings(Sheet sheet) const {
-    std::vector<double> out;
-    for (const RingSpan& span : ring_spans(sheet)) {
-      const int n = quads(span.weight, scale);
-      for (int i = 1; i <= n; ++i) out.push_back(span.from + (span.to - span.from) * i / n);
-    }
-    return out;
-  }
-  Index vertices() const {
-    const Index front = column(kFrontColumn), side = column(kBackColumn) - front;
-    const Index around = 2 * column(kColumns - 1);
-    Index sum = around * (row(kRows - 1) + 1) + (2 * front - 1) * (side - 1);
-    for (const Window& w : kWindows) {
-      const Index nx = column(w.column1) - column(w.column0), ny = row(w.row1) - row(w.row0);
-      Index piece = 2 * (nx + ny) * static_cast<Index>(rings(w.sheet).size());
-      if (w.sheet != Sheet::kEar) piece -= (nx - 1) * (ny - 1);
-      sum += w.sheet == Sheet::kMouth ? piece : 2 * piece;
-    }
-    return sum;
-  }
-
-  double scale;
-  std::array<int, kColumns - 1> columns{};
-  std::array<int, kRows - 1> rows{};
-};
-
-Counts nearest_counts(Index wanted) {
-  Counts best(0.5);
-  for (double scale = 0.5; scale < 40; scale *= 1.002) {
-    const Counts counts(scale);
-    if (std::abs(counts.vertices() - wanted) < std::abs(best.vertices() - wanted)) best = counts;
-    if (counts.vertices() > 2 * wanted) break;
-  }
-  return best;
-}
-
 /// Sews the pieces together.
 class Sewing {
  public:
-  explicit Sewing(const Counts& counts)
+  explicit Sewing(const QuadCounts& counts)
       : counts_(counts),
         front_(counts.column(kFrontColumn)),
         deep_(counts.column(kBackColumn) - front_),
@@ -118,7 +29,7 @@ class Sewing {
     row_units_.push_back(row_unit(kRows - 1));
     add_strip();
     add_cap();
-    for (const Window& window : kWindows) {
+    for (const Window& window : windows()) {
       add_rings(window, 1);
       if (window.sheet != Sheet::kMouth) add_rings(window, -1);
     }
@@ -178,7 +89,7 @@ class Sewing {
 
   void add_strip() {
     std::vector<Span> holes;
-    for (const Window& w : kWindows) {
+    for (const Window& w : windows()) {
       holes.push_back(span_of(w, 1));
       if (w.sheet != Sheet::kMouth) holes.push_back(span_of(w, -1));
     }
@@ -236,7 +147,8 @@ class Sewing {
       }
     }
     const auto at = [&](int i, int k) {
-      return cap[static_cast<std::size_t>(k * width + i + front_)];
+      return cap[static_cast<std::size_t>(k) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(i + front_)];
     };
     for (int k = 0; k < deep_; ++k) {
       for (int i = -front_; i < front_; ++i) {
@@ -314,7 +226,7 @@ class Sewing {
     }
   }
 
-  const Counts& counts_;
+  QuadCounts counts_;
   int front_, deep_, half_, rows_;  // quads: half the face, the side, half the head, rows
   std::vector<double> column_units_, row_units_;
   std::vector<Corner> strip_;
@@ -323,25 +235,6 @@ class Sewing {
 };
 
 }  // namespace
-
-double column_unit(int column) {
-  double sum = 0;
-  for (int i = 0; i < std::abs(column); ++i) sum += kColumnWeights[static_cast<std::size_t>(i)];
-  return column < 0 ? -sum : sum;
-}
-
-double row_unit(int row) {
-  double sum = 0;
-  for (int j = 0; j < row; ++j) sum += kRowWeights[static_cast<std::size_t>(j)];
-  return sum;
-}
-
-const Window& window_of(Sheet sheet) {
-  for (const Window& window : kWindows) {
-    if (window.sheet == sheet) return window;
-  }
-  return kWindows.back();
-}
 
 Index nearest_vertex_count(Index vertices) {
   return nearest_counts(vertices).vertices();

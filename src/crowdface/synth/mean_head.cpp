@@ -29,7 +29,7 @@ GuideRay eye_edge(const Vector2d& c) {
   const double y = (c.y() > 0 ? 0.62 : 0.48) * s + 0.07 * c.x() - 0.03;
   const double z = std::sqrt(std::max(0.0, kEyeRadius * kEyeRadius - x * x - y * y));
   // The ray runs nearly straight ahead: at the corners the skin lies before the ball.
-  return {kEyeCentre + 0.95 * Vector3d(x, y, 0), kEyeCentre + Vector3d(x, y, z + 0.12)};
+  return {eye_centre() + 0.95 * Vector3d(x, y, 0), eye_centre() + Vector3d(x, y, z + 0.12)};
 }
 
 GuideRay mouth_edge(const Vector2d& c) {
@@ -60,17 +60,17 @@ GuideRay edge_of(Sheet sheet, const Vector2d& circle) {
 
 /// From the lid's edge inward, over the lid's thickness, along the ball to the pupil.
 Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
-  const Vector3d spoke = edge - kEyeCentre;
-  const Vector3d foot = kEyeCentre + kEyeRadius / spoke.norm() *
-                                         Vector3d(0.985 * spoke.x(), 0.97 * spoke.y(), spoke.z());
+  const Vector3d spoke = edge - eye_centre();
+  const Vector3d foot = eye_centre() + kEyeRadius / spoke.norm() *
+                                           Vector3d(0.985 * spoke.x(), 0.97 * spoke.y(), spoke.z());
   if (b <= 1.2) return edge + (foot - edge) * ((b - 1) / 0.2);
   const double t = (b - 1.2) / 0.8;
-  const Vector2d rim(foot.x() - kEyeCentre.x(), foot.y());
+  const Vector2d rim(foot.x() - eye_centre().x(), foot.y());
   const Vector2d flat = rim + t * (0.2 * c - rim);
   const double r2 = kEyeRadius * kEyeRadius;
   // The iris is a shallow dish, as sculptors cut it.
   const double dish = 0.07 * smooth_step(0.6, 0.5, flat.norm());
-  return kEyeCentre +
+  return eye_centre() +
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);
 }
 
@@ -96,7 +96,7 @@ SkinPoint ring_skin(const Address& address) {
   const Vector2d circle = start / start.norm();
   const GuideRay inner = edge_of(address.sheet, circle);
   if (address.b >= 1) {
-    const SkinPoint edge = on_skin(inner);
+    SkinPoint edge = on_skin(inner);
     if (address.b == 1) return edge;
     return {into_opening(address.sheet, edge.position, circle, address.b), edge.normal, 0};
   }

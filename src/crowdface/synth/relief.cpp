@@ -35,7 +35,8 @@ struct Fold {
 };
 
 // clang-format off
-const std::array kFolds = {
+auto make_fold_list() {
+  return std::array{
     Fold{"lid_crease", {1.75, 0.40}, {3.1, 1.42}, {4.8, 0.42}, 0.17, 0.055, 1, 0.1, 0.3, 0},
     Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.06, 0.3, 0.5, 0.2, 0},
     Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.5}, 0.48, 0.13, 0.35, 0.5, 0.2, 0.6},
@@ -55,8 +56,14 @@ const std::array kFolds = {
     Fold{"chin_crease", {-1.8, -8.9}, {0, -8.35}, {1.8, -8.9}, 0.5, 0.07, 0.6, 0.1, 0.4, 0, false},
     Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.05, 0.3, 0.4, 0.3, 0, false},
     Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.05, 0.2, 0.4, 0.3, 0, false},
-};
+  };
+}
 // clang-format on
+
+const auto& fold_list() {
+  static const auto list = make_fold_list();
+  return list;
+}
 
 /// How coarse the skin is at a place: nose, cheeks and chin most, scalp least.
 double coarseness(const Vector3d& p) {
@@ -79,8 +86,8 @@ Relief::Relief(const Identity& identity, double edge_cm)
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
   const std::uint64_t seed = identity.seed(), index = identity.index();
   const double aged = identity.person().aged();
-  for (std::size_t i = 0; i < kFolds.size(); ++i) {
-    const Fold& fold = kFolds[i];
+  for (std::size_t i = 0; i < fold_list().size(); ++i) {
+    const Fold& fold = fold_list()[i];
     for (const double side : {1.0, -1.0}) {
       if (side < 0 && !fold.paired) continue;
       const std::string purpose = concat("synth/fold/", fold.name);
@@ -107,7 +114,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
 }
 
 void Relief::add_stroke(std::size_t which, double side, double depth) {
-  const Fold& fold = kFolds[which];
+  const Fold& fold = fold_list()[which];
   Stroke stroke{{}, fold.width, depth, fold.bulge * side, {0, 0}, {0, 0}};
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;

@@ -103,7 +103,7 @@ double skin_distance(const Vector3d& point) {
   d = melt(d, ellipsoid(p, {0, 0.6, 7.9}, {1.0, 2.4, 1.5}), 0.9);
   d = carve(d, ellipsoid(p, {3.2, -0.1, 9.7}, {1.8, 1.15, 2.2}), 0.8);
   d = carve(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
-  d = melt(d, (p - kEyeCentre).norm() - (kEyeRadius + 0.13), 0.35);
+  d = melt(d, (p - eye_centre()).norm() - (kEyeRadius + 0.13), 0.35);
   d = melt(d, nose(p), 0.6);
   // The groove between the lips runs out towards the corners.
   const double groove = 0.1 + 0.5 * smooth_step(1.5, 2.4, p.x());
@@ -113,11 +113,11 @@ double skin_distance(const Vector3d& point) {
 }
 
 Vector3d skin_normal(const Vector3d& point) {
-  constexpr double h = 1e-4;
+  constexpr double kStep = 1e-4;
   Vector3d gradient;
   for (int k = 0; k < 3; ++k) {
     Vector3d step = Vector3d::Zero();
-    step[k] = h;
+    step[k] = kStep;
     gradient[k] = skin_distance(point + step) - skin_distance(point - step);
   }
   const double length = gradient.norm();

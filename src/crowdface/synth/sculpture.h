@@ -17,7 +17,9 @@ Eigen::Vector3d skin_normal(const Eigen::Vector3d& point);
 Eigen::Vector3d onto_skin(const Eigen::Vector3d& origin, const Eigen::Vector3d& guide);
 
 /// The ball behind the lids: larger than an eye, as only its front shows.
-inline const Eigen::Vector3d kEyeCentre{3.12, 0, 6.75};
+inline Eigen::Vector3d eye_centre() {
+  return {3.12, 0, 6.75};
+}
 inline constexpr double kEyeRadius = 1.70;
 
 }  // namespace crowdface::synth
