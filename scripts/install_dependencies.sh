@@ -67,12 +67,12 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 apt() {
   "${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@" \
-    >"$log" 2>&1 </dev/null || {
-    tail -n 20 "$log" >&2
-    cannot "apt-get $1 failed (its last words are above)."
-  }
+    >>"$log" 2>&1 </dev/null
 }
-echo "installing ${#missing[@]} packages: ${missing[*]}"
+echo "installing ${missing[*]}"
 [ "${as_root[0]}" = env ] || "${as_root[@]}" true  # the password, before the output is hidden
-apt update
-apt install -y --no-install-recommends "${missing[@]}"
+apt update || true  # some other source may be out of reach; whether it matters, install finds out
+apt install -y --no-install-recommends "${missing[@]}" || {
+  tail -n 20 "$log" >&2
+  cannot "apt-get could not install them (its last words are above)."
+}

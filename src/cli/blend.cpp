@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "cli/commands.h"
-#include "cli/common_options.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/job/pipeline.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
 
 namespace crowdface::cli {
 namespace {

@@ -2,11 +2,12 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.h"
-#include "cli/common_options.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/head_cache.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
 
 namespace crowdface::cli {
 

@@ -2,14 +2,15 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.h"
-#include "cli/common_options.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/crowd_renders.h"
 #include "crowdface/job/pipeline.h"
 #include "crowdface/smooth/level_size.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
 
 namespace crowdface::cli {
 namespace {
@@ -24,8 +25,8 @@ void describe(const Job& job) {
       std::count(boundary.begin(), boundary.end(), true), " vertices on open rims\n",
       "edges       ", format_fixed(inputs.edge_length_mm, 3), " mm (rms, on the skin)\n",
       "smoothing   up to ", inputs.max_level, " iterations, a size of ",
-      format_fixed(size_of_iterations(job.smoothing.kind(), inputs.max_level,
-                                      inputs.edge_length_mm), 1),
+      format_fixed(
+          size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm), 1),
       " mm\n", "regions     ", join(job.names.regions), "\n", "faces       ",
       job.config.crowd.count, " sampled, ", job.config.recipes.size(), " by hand\n", "output      ",
       job.config.output.directory.string(), "\n");

@@ -65,7 +65,8 @@ std::filesystem::path ConfigOptions::cache_path() const {
 
 void WriteOptions::add_to(CLI::App& command) {
   command.add_flag("--force", force, "Replace another config's crowd in the output folder");
-  command.add_flag("--dry-run", dry_run, "Check everything, say what would be written, write nothing");
+  command.add_flag("--dry-run", dry_run,
+                   "Check everything, say what would be written, write nothing");
 }
 
 GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {

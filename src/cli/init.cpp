@@ -3,8 +3,6 @@
 #include <memory>
 #include <system_error>
 
-#include "cli/commands.h"
-#include "cli/common_options.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
@@ -12,22 +10,36 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/job/starter_config.h"
 
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
 namespace crowdface::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// As the config has it: any case, no hidden files (some systems put a "._head.obj" beside each).
+bool is_head(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  std::error_code ignored;
+  return ending == ".obj" && !path.filename().string().starts_with('.') &&
+         !fs::is_directory(path, ignored);
+}
+
 std::vector<fs::path> obj_files(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".obj") files.push_back(entry.path());
+    if (is_head(entry.path())) files.push_back(entry.path());
   }
   if (error) throw MissingInput(concat(folder.string(), ": ", error.message()));
   std::sort(files.begin(), files.end());
   if (files.size() < 2) {
-    throw MissingInput(concat(folder.string(), ": expected at least 2 OBJ files, found ",
-                              files.size()));
+    throw MissingInput(
+        concat(folder.string(), ": expected at least 2 OBJ files, found ", files.size()));
   }
   return files;
 }

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
-#include "cli/commands.h"
+#include <CLI/CLI.hpp>
+
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
+
+#include "cli/commands.h"
 
 namespace {
 
@@ -47,6 +51,19 @@ int run(const crowdface::cli::Run& command) {
   }
 }
 
+/// CLI11 says of a command it does not know only that one is required.
+void refuse_unknown_command(const CLI::App& program, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  const auto nearest = crowdface::nearest_word(argv[1], names);
+  throw crowdface::UsageError(
+      crowdface::concat("there is no command ", crowdface::quoted(argv[1]),
+                        nearest ? crowdface::concat("; did you mean ", *nearest, "?")
+                                : crowdface::concat("; expected one of ", crowdface::join(names))));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -65,6 +82,9 @@ int main(int argc, char** argv) {
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(
         [&chosen, command = std::move(command)] { chosen = command; });
+  }
+  if (const int code = run([&] { refuse_unknown_command(program, argc, argv); }); code != 0) {
+    return code;
   }
   try {
     program.parse(argc, argv);

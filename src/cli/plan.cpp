@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "crowdface/job/generate.h"
+
 #include "cli/commands.h"
 #include "cli/common_options.h"
-#include "crowdface/job/generate.h"
 
 namespace crowdface::cli {
 

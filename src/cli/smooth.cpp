@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "cli/commands.h"
-#include "cli/common_options.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/smooth/chebyshev.h"
 #include "crowdface/smooth/iterate.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
 
 namespace crowdface::cli {
 namespace {
@@ -22,8 +23,7 @@ struct Options {
 };
 
 void smooth_file(const Options& options) {
-  const std::uint64_t level =
-      whole_number("--iterations", options.iterations, 0, kMostIterations);
+  const std::uint64_t level = whole_number("--iterations", options.iterations, 0, kMostIterations);
   const ObjFile file = read_obj(options.in);
   const SmoothingOperator smoothing(
       build_adjacency(file.topology),
@@ -48,8 +48,7 @@ Run add_smooth(CLI::App& program) {
   command->add_option("-o,--output", options->out, "The mesh to write")
       ->required()
       ->type_name("OUT.obj");
-  command
-      ->add_option("--boundary", options->boundary, "Open rims stay (fixed) or move (free)")
+  command->add_option("--boundary", options->boundary, "Open rims stay (fixed) or move (free)")
       ->check(CLI::IsMember({"fixed", "free"}))
       ->capture_default_str();
   command

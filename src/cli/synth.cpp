@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "cli/commands.h"
-#include "cli/common_options.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
@@ -11,6 +9,9 @@
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/synth/synthetic_head.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
 
 namespace crowdface::cli {
 namespace {
@@ -67,13 +68,15 @@ Run add_synth(CLI::App& program) {
   command->add_option("--count", options->count, "How many heads")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--vertices", options->vertices, "About how many vertices each, 5000 to 1200000")
+  command
+      ->add_option("--vertices", options->vertices, "About how many vertices each, 5000 to 1200000")
       ->type_name("V")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Which heads; the same seed gives the same heads")
       ->type_name("S")
       ->capture_default_str();
-  command->add_option("--mask", options->mask, "Where the region mask goes (default: DIR/regions.png)")
+  command
+      ->add_option("--mask", options->mask, "Where the region mask goes (default: DIR/regions.png)")
       ->type_name("FILE");
   options->common.add_to(*command);
   return [options] {

@@ -2,6 +2,7 @@
 // Distances without meshes, held against meshes.
 #include "crowdface/cast/face_space.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -34,7 +35,8 @@ class FaceSpaceTest : public ::testing::Test {
       Positions positions(count, 3);
       for (Index i = 0; i < count; ++i) {
         const double s = 2. * static_cast<double>(i % (kSide + 1)) / kSide - 1;
-        const double t = 2. * static_cast<double>(i / (kSide + 1)) / kSide - 1;
+        const Index row = i / (kSide + 1);
+        const double t = 2. * static_cast<double>(row) / kSide - 1;
         double z = 6 - 3 * (s * s + t * t);
         for (Index b = 0; b < 8; ++b) {
           const double ds = s - at(b, 0), dt = t - at(b, 1);
@@ -176,8 +178,9 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
   faces[20].regions = faces[7].regions;  // a twin
   faces[20].target = faces[7].target;
   space_->find_nearest(faces);
-  std::vector<FaceSpace::Place> places;
-  for (const Recipe& recipe : faces) places.push_back(space_->place(recipe));
+  std::vector<FaceSpace::Place> places(faces.size());
+  std::transform(faces.begin(), faces.end(), places.begin(),
+                 [&](const Recipe& recipe) { return space_->place(recipe); });
   for (std::size_t i = 0; i < faces.size(); ++i) {
     ASSERT_TRUE(faces[i].nearest);
     double head_mm = HUGE_VAL, crowd_mm = HUGE_VAL;

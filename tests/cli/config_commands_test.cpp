@@ -53,16 +53,18 @@ TEST(Check, GoodConfigsPassAndNothingIsWritten) {
   const auto before = crowd_files(folder.folder().path());
   crowdface(0, {"check", folder.config().string()},
             {"is fine", "4: ann, bob, cyd, dan", "119 vertices", "3 components", "60 iterations"});
-  EXPECT_EQ(crowd_files(folder.folder().path()), before);
+  EXPECT_THAT(differing_files(crowd_files(folder.folder().path()), before), ::testing::IsEmpty());
   EXPECT_FALSE(fs::exists(folder.out()));
 }
 
 TEST(Check, MasksAreRendered) {
-  const SmallCrowdFolder folder(three_regions());
+  SmallCrowd crowd;
+  crowd.regions = 2;
+  const SmallCrowdFolder folder(crowd);
   crowdface(0, {"check", folder.config().string(), "--masks", (folder / "masks").string()});
   const auto pictures = crowd_files(folder / "masks");
-  EXPECT_EQ(pictures.size(), 4U);
-  for (const char* name : {"region_1.png", "region_2.png", "region_3.png", "all.png"}) {
+  EXPECT_EQ(pictures.size(), 3U);
+  for (const char* name : {"region_1.png", "region_2.png", "all.png"}) {
     ASSERT_TRUE(pictures.contains(name));
     EXPECT_EQ(pictures.at(name).substr(1, 3), "PNG");
   }
@@ -77,10 +79,10 @@ TEST(Check, EveryProblemIsToldAndTheFirstKindSetsTheCode) {
   fs::remove(folder / "mask_0.png");
   folder.folder().write("config.yaml", text + "extra: 1\n" + "plane: {layout: circel}\n");
   crowdface(64, {"check", config},
-            {"config.yaml:10:1", "extra", "config.yaml:11:17", "circle", "mask_0.png"});
+            {"config.yaml:9:1", "extra", "config.yaml:10:17", "circle", "mask_0.png", "bob.obj:1"});
   // 66 and 65.
   folder.folder().write("config.yaml", text);
-  crowdface(66, {"check", config}, {"config.yaml:4:", "mask_0.png"});
+  crowdface(66, {"check", config}, {"config.yaml:4:", "mask_0.png", "bob.obj:1"});
   // 65 alone: every bad head.
   folder.folder().write("heads/dan.obj", "v 1 2\n");
   crowdface(65, {"check", config, "--set", "regions=none"}, {"bob.obj:1", "dan.obj:1"});
@@ -92,6 +94,8 @@ TEST(Init, WritesAConfigThatPasses) {
   const std::string heads = (folder / "heads").string(),
                     config = (folder / "my/crowd.yaml").string();
   fs::create_directories(folder / "my");
+  fs::rename(folder.head("dan"), folder / "heads/dan.OBJ");
+  folder.folder().write("heads/._ann.obj", "what some systems put beside a file");
   crowdface(0, {"init", heads, "-o", config}, {"4 heads"});
   const std::string text = read_text(config);
   EXPECT_THAT(text, ::testing::HasSubstr("units: cm"));
@@ -132,8 +136,8 @@ TEST(Sheet, IsRemadeIdentical) {
 
 TEST(Generate, InterruptedRunIs75AndItsRerunIsComplete) {
   SmallCrowd crowd = three_regions();
-  crowd.count = 40;
-  crowd.contact_sheet = "{columns: 8, rows: 5, cell: 160}";
+  crowd.count = 16;
+  crowd.contact_sheet = "{columns: 8, rows: 2, cell: 128}";
   const SmallCrowdFolder folder(crowd);
   generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
   const auto whole = crowd_files(folder.out());
@@ -150,12 +154,12 @@ TEST(Generate, InterruptedRunIs75AndItsRerunIsComplete) {
     ::kill(child, SIGTERM);
   });
   EXPECT_EQ(stopped.code, 75) << stopped.err;
-  EXPECT_THAT(stopped.err, ::testing::HasSubstr("run again"));
+  EXPECT_THAT(stopped.err, ::testing::HasSubstr("run the same command again"));
   const auto part = crowd_files(folder.out());
   EXPECT_FALSE(part.contains("report.json"));
   for (const auto& [name, bytes] : part) {
     ASSERT_TRUE(whole.contains(name)) << name << ": a temporary file was left";
-    EXPECT_EQ(bytes, whole.at(name)) << name;
+    EXPECT_TRUE(bytes == whole.at(name)) << name << ": half done under its final name";
   }
   crowdface(0, command);
   EXPECT_THAT(differing_files(whole, crowd_files(folder.out())), ::testing::IsEmpty());

@@ -35,7 +35,8 @@ TEST(Usage, VersionAndHelpAreNoErrors) {
 
 TEST(Usage, WrongCommandLinesAre64) {
   crowdface(64, {});
-  crowdface(64, {"generte", "x.yaml"}, {"generte"});
+  crowdface(64, {"generte", "x.yaml"}, {"generte", "did you mean generate?"});
+  crowdface(64, {"x.yaml"}, {"x.yaml", "expected one of", "generate"});
   crowdface(64, {"generate", "x.yaml", "--colour"}, {"--colour"});
   crowdface(64, {"generate"}, {"config"});
 }

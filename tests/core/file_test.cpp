@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/file.h"
 
+#include <csignal>
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-
-#include <csignal>
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -17,8 +17,8 @@ using testing::read_text;
 using testing::TemporaryFolder;
 
 std::size_t entries_in(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder),
+                                                std::filesystem::directory_iterator()));
 }
 
 TEST(WriteFile, LeavesTheFileAndNothingElse) {
@@ -40,8 +40,7 @@ TEST(WriteFile, AFailedWriteKeepsTheOldFileAndLeavesNoOther) {
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   const std::string large(100000, 'x');
-  expect_error(ExitCode::kIoError, {"a: writing failed"},
-               [&] { write_file(folder / "a", large); });
+  expect_error(ExitCode::kIoError, {"a: writing failed"}, [&] { write_file(folder / "a", large); });
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old_handler);
   EXPECT_EQ(read_text(folder / "a"), "old");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/hash.h"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace crowdface {
 namespace {

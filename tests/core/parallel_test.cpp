@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/parallel.h"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace crowdface {
 namespace {
@@ -54,6 +56,30 @@ TEST(ParallelForEach, RunsNoSecondItemWhileOneWaitsForAnInnerLoop) {
     --depth;
   });
   EXPECT_EQ(deepest.load(), 1);
+}
+
+// TBB cancels the loops inside a loop's other items when one item throws, and these return as if
+// they were done: faces half built or half rendered were written when a run was interrupted.
+TEST(ParallelForEach, AnErrorInOneItemLeavesTheLoopsOfOthersWhole) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  std::atomic<int> blocks{0};
+  bool second_item_ran = false;
+  EXPECT_THROW(
+      parallel_for_each(2,
+                        [&](std::ptrdiff_t i) {
+                          if (i == 0) {
+                            while (blocks == 0 && std::chrono::steady_clock::now() < deadline) {
+                            }
+                            throw std::runtime_error("first item");
+                          }
+                          second_item_ran = true;
+                          parallel_blocks(200, 1, [&](std::ptrdiff_t, std::ptrdiff_t) {
+                            ++blocks;
+                            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                          });
+                        }),
+      std::runtime_error);
+  EXPECT_EQ(blocks, second_item_ran ? 200 : 0);
 }
 
 TEST(ThreadLimit, HoldsWhileItLives) {

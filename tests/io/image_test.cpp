@@ -30,9 +30,9 @@ class ImageFiles : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   template <class T>
-  path write(const std::string& name, int width, int height, int channels, OIIO::TypeDesc type,
-             const std::vector<T>& values) {
-    const path file = folder_ / name;
+  path write(const std::string& name, int width, int height, int channels,
+             const OIIO::TypeDesc& type, const std::vector<T>& values) {
+    path file = folder_ / name;
     OIIO::ImageSpec spec(width, height, channels, type);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     auto output = OIIO::ImageOutput::create(file.string());
@@ -43,7 +43,7 @@ class ImageFiles : public testing::Test {
   }
 
   path write_bytes(const std::string& name, std::string_view bytes) {
-    const path file = folder_ / name;
+    path file = folder_ / name;
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }
@@ -83,7 +83,7 @@ void expect_fractions(const Image& image, const std::vector<T>& values) {
 
 TEST_F(ImageFiles, EveryChannelCountOfPngComesBack) {
   for (int channels = 1; channels <= 4; ++channels) {
-    const auto bytes = counting_bytes(static_cast<std::size_t>(5 * 3 * channels));
+    const auto bytes = counting_bytes(std::size_t{15} * static_cast<std::size_t>(channels));
     const Image read = read_image(write("b.png", 5, 3, channels, OIIO::TypeDesc::UINT8, bytes));
     EXPECT_EQ(read.width, 5);
     EXPECT_EQ(read.height, 3);
@@ -107,6 +107,7 @@ TEST_F(ImageFiles, TiffComesBackInEveryType) {
 
 TEST_F(ImageFiles, ExrKeepsItsFloats) {
   std::vector<float> floats;
+  floats.reserve(30);
   for (int i = 0; i < 3 * 2 * 5; ++i) floats.push_back(0.1F * static_cast<float>(i) - 1);
   const Image five = read_image(write("five.exr", 3, 2, 5, OIIO::TypeDesc::FLOAT, floats));
   EXPECT_EQ(five.channels, 5);
@@ -128,7 +129,7 @@ TEST_F(ImageFiles, ColoursUnderAlphaZeroSurvive) {
 
 TEST_F(ImageFiles, PngInMemoryComesBackAndIsReproducible) {
   for (int channels = 1; channels <= 4; ++channels) {
-    const auto bytes = counting_bytes(static_cast<std::size_t>(31 * 17 * channels));
+    const auto bytes = counting_bytes(std::size_t{31 * 17} * static_cast<std::size_t>(channels));
     const std::string png = encode_png(31, 17, channels, bytes);
     EXPECT_EQ(png, encode_png(31, 17, channels, bytes));
     EXPECT_THAT(png, Not(HasSubstr("tIME")));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/obj_file.h"
 
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -25,7 +25,8 @@ TEST(ReadObj, KeepsQuadsNgonsOrderAndGroups) {
       "# comment\nmtllib a.mtl\no head\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0.5 0 1.0\n"
       "vt 0 0\nvt 1 0\nvt 1 1 0\nvt 0 1\nvt 0.5\nvn 0 0 1\n"
       "g left\ns 1\nusemtl skin\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"
-      "g right\nusemtl lips of rose\nf -4/-4/-1 -1/-1/-1 -3/-3/-1\nf 1/1/1 2/2/1 5/5/1 3/3/1 4/4/1\n");
+      "g right\nusemtl lips of rose\nf -4/-4/-1 -1/-1/-1 -3/-3/-1\nf 1/1/1 2/2/1 5/5/1 3/3/1 "
+      "4/4/1\n");
   EXPECT_EQ(file.topology.vertex_count, 5);
   EXPECT_EQ(file.topology.face_offsets, (std::vector<std::uint32_t>{0, 4, 7, 12}));
   EXPECT_EQ(file.topology.corner_vertices,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/obj_writer.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -26,10 +26,11 @@ TEST(WriteObjLike, ChangesNothingButThePositions) {
   Positions positions(4, 3);
   positions << 1, 2, 3, -4.25, 1e-7, 0.1, 7, 8, 9, -0.0, 1e6, 123456.789;
   write_obj_like(target, target.topology, positions, folder / "out.obj");
-  EXPECT_EQ(read_text(folder / "out.obj"),
-            "# made by hand\r\nmtllib a.mtl\r\no head\nv  1\t2 3 1.0 0.2 0.3\r\nv -4.25 1e-07 0.1   \n"
-            "vt 0 0\nv 7 8 9\ng eyes\nv 0 1e+06 123456.79\ns 2\nusemtl m\nf 1/1 2/1 3/1 4/1\n"
-            "# the end, without line end");
+  EXPECT_EQ(
+      read_text(folder / "out.obj"),
+      "# made by hand\r\nmtllib a.mtl\r\no head\nv  1\t2 3 1.0 0.2 0.3\r\nv -4.25 1e-07 0.1   \n"
+      "vt 0 0\nv 7 8 9\ng eyes\nv 0 1e+06 123456.79\ns 2\nusemtl m\nf 1/1 2/1 3/1 4/1\n"
+      "# the end, without line end");
 }
 
 TEST(WriteObjLike, GivesShortNumbersBackToTheLetter) {
@@ -45,8 +46,7 @@ TEST(WriteObjLike, GivesShortNumbersBackToTheLetter) {
 TEST(WriteObjLike, RecomputesNormalsThatFacesUse) {
   const TemporaryFolder folder;
   const ObjFile target = read_obj(folder.write(
-      "target.obj",
-      "v 0 0 0\nvn 0 0 1\nv 1 0 0\nvn 0.5 0.25 0.125\nv 0 1 0\nf 1//1 2//1 3//1\n"));
+      "target.obj", "v 0 0 0\nvn 0 0 1\nv 1 0 0\nvn 0.5 0.25 0.125\nv 0 1 0\nf 1//1 2//1 3//1\n"));
   Positions turned(3, 3);
   turned << 0, 0, 0, 0, 1, 0, 0, 0, 2;  // now in the plane x = 0
   write_obj_like(target, target.topology, turned, folder / "out.obj");

@@ -29,7 +29,8 @@ Bowls make_bowls() {
   for (std::uint64_t h = 0; h < 5; ++h) {
     Positions positions = 0.15 * testing::random_positions(169, h + 1);
     for (Index i = 0; i < 169; ++i) {
-      const double s = static_cast<double>(i % 13) / 6 - 1, t = static_cast<double>(i / 13) / 6 - 1;
+      const Index row = i / 13;
+      const double s = static_cast<double>(i % 13) / 6 - 1, t = static_cast<double>(row) / 6 - 1;
       positions.row(i) += Eigen::RowVector3d(7 * s, 9 * t, 6 - 4 * s * s - 3 * t * t);
     }
     bowls.faces.heads.push_back({std::string(1, static_cast<char>('a' + h)), positions});

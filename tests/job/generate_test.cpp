@@ -221,7 +221,7 @@ TEST(Generate, DryRunWritesNothing) {
   const auto before = crowd_files(folder.folder().path());
   generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, true});
   plan(folder.config(), {}, {folder.cache(), Replace::kRefuse, true});
-  EXPECT_EQ(crowd_files(folder.folder().path()), before);
+  EXPECT_THAT(differing_files(crowd_files(folder.folder().path()), before), ::testing::IsEmpty());
   EXPECT_FALSE(fs::exists(folder.out()));
   EXPECT_FALSE(fs::exists(folder.cache()));
 }
@@ -277,6 +277,40 @@ TEST(Generate, MaterialFilesComeAlong) {
   run(folder, "out");
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/bowl.mtl"), library);
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/textures/skin.png"), "not really an image");
+}
+
+// Heads of several folders may name different files alike; one crowd has room for one.
+TEST(Generate, MaterialFilesOfOneNameAreWarnedOf) {
+  SmallCrowd crowd;
+  crowd.bowl.materials = true;
+  crowd.count = 12;
+  const SmallCrowdFolder folder(crowd);
+  folder.folder().write("heads/bowl.mtl", "newmtl skin\n");
+  folder.folder().write("more/bowl.mtl", "newmtl other\n");
+  folder.folder().write("more/fay.obj", testing::bowl_text(crowd.bowl, 6));
+  const std::string faces =
+      "faces={files: [heads/ann.obj, heads/bob.obj, more/fay.obj], units: cm}";
+  run(folder, "out", {{faces}, {}, {}, {}});
+  EXPECT_EQ(testing::read_text(folder.out() / "meshes/bowl.mtl"), "newmtl skin\n");
+  const auto warnings = testing::read_json(folder.out() / "report.json").at("warnings");
+  ASSERT_EQ(warnings.size(), 1U) << warnings.dump();
+  EXPECT_THAT(warnings.dump(),
+              ::testing::AllOf(::testing::HasSubstr("bowl.mtl"), ::testing::HasSubstr("fay")));
+}
+
+// With --force the run would first remove the old crowd's meshes, its own input.
+TEST(Generate, HeadsAmongTheMeshesAreNotWrittenOver) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  run(folder, "out");
+  const auto before = crowd_files(folder.out());
+  const ConfigOverrides again = {{"faces={directory: out/meshes, units: cm}"}, {}, {}, {}};
+  for (const Replace replace : {Replace::kRefuse, Replace::kForce}) {
+    testing::expect_error(ExitCode::kUsage, {"out/meshes/mob_0001.obj", "--out"},
+                          [&] { run(folder, "out", again, replace); });
+    EXPECT_THAT(differing_files(crowd_files(folder.out()), before), ::testing::IsEmpty());
+  }
+  run(folder, "second", again);  // a crowd of the crowd, elsewhere
+  EXPECT_EQ(plan_lines(folder / "second").size(), 4U);
 }
 
 TEST(Generate, NoMeshesOnRequest) {

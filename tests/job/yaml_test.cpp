@@ -254,7 +254,8 @@ TEST_F(SetValue, RefusesAPathThroughAPlainValue) {
 }
 
 TEST_F(SetValue, RefusesBrokenValues) {
-  EXPECT_THAT(set("crowd.count=[1"), StartsWith("--set crowd.count=[1: in its value, column 1: a '[' is not"));
+  EXPECT_THAT(set("crowd.count=[1"),
+              StartsWith("--set crowd.count=[1: in its value, column 1: a '[' is not"));
   EXPECT_THAT(set("crowd.count=*x"), HasSubstr("aliases"));
   EXPECT_THAT(set("crowd.count=@"), HasSubstr("cannot start"));
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/mesh/adjacency.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "support/meshes.h"
 
@@ -27,7 +27,8 @@ TEST(Adjacency, OfAQuadHasEdgesButNoDiagonals) {
 }
 
 TEST(Adjacency, MatchesASlowSetOfEdges) {
-  const Topology topology = make_topology(9, {{0, 1, 2}, {2, 1, 3, 4}, {4, 3, 5, 6, 7}, {7, 0, 2, 4}});
+  const Topology topology =
+      make_topology(9, {{0, 1, 2}, {2, 1, 3, 4}, {4, 3, 5, 6, 7}, {7, 0, 2, 4}});
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = topology.face(f);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/mesh/alignment.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include "support/expect_error.h"
 #include "support/meshes.h"

@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-using testing::make_topology;
 using ::testing::HasSubstr;
+using testing::make_topology;
 
 TEST(FirstDifference, IsEmptyForEqualTopologies) {
   EXPECT_EQ(first_difference(testing::cube_topology(), testing::cube_topology()), "");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/plane/layout.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "crowdface/core/random.h"
 
@@ -14,7 +14,8 @@ TEST(CircleLayout, IsEvenAndRounded) {
   const auto anchors = circle_layout(5);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_NEAR(anchors[i].norm(), 1, 2e-9);
-    EXPECT_NEAR((anchors[i] - anchors[(i + 1) % 5]).norm(), 2 * std::sin(3.14159265358979 / 5), 2e-9);
+    EXPECT_NEAR((anchors[i] - anchors[(i + 1) % 5]).norm(), 2 * std::sin(3.14159265358979 / 5),
+                2e-9);
     EXPECT_EQ(anchors[i].x(), std::round(anchors[i].x() * 1e9) / 1e9);
   }
   EXPECT_EQ(anchors[0], PlanePoint(1, 0));
@@ -46,7 +47,8 @@ TEST(SimilarityLayout, RecoversPointsOfThePlaneUpToMotionAndScale) {
     radius = std::max(radius, anchors[a].norm());
     for (std::size_t b = 0; b < 5; ++b) {
       EXPECT_NEAR((anchors[a] - anchors[b]).norm(),
-                  scale * distances(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)), 1e-8);
+                  scale * distances(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)),
+                  1e-8);
     }
   }
   EXPECT_NEAR(radius, 1, 1e-8);

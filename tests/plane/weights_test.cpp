@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/plane/weights.h"
 
-#include <gtest/gtest.h>
-
 #include <numeric>
+
+#include <gtest/gtest.h>
 
 #include "support/expect_error.h"
 
@@ -42,8 +42,9 @@ TEST(InverseSquareWeights, SurviveTinyAndHugeDistances) {
 }
 
 TEST(InverseSquareWeights, NeedAnAnchor) {
-  testing::expect_error(ExitCode::kBadData, {"at least one"},
-                        [] { inverse_square_weights({}, {0, 0}); });
+  testing::expect_error(ExitCode::kBadData, {"at least one"}, [] {
+    inverse_square_weights({}, {0, 0});
+  });
 }
 
 }  // namespace

@@ -52,7 +52,9 @@ std::string message_of(const Strip& strip, const std::vector<MaskSource>& masks,
   return "accepted";
 }
 
-const Strip kThree({{0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}});
+Strip three() {
+  return Strip({{0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}});
+}
 
 TEST(SampleBilinear, TexelCentresAreExact) {
   Image image = image_of(4, 8, 1, {});
@@ -91,7 +93,7 @@ TEST(SampleBilinear, FirstRowLiesAtTheTop) {
 }
 
 TEST(RegionWeights, WholeHeadIsAllOnes) {
-  const auto weights = region_weights(kThree.topology, {}, {}, 1);
+  const auto weights = region_weights(three().topology, {}, {}, 1);
   EXPECT_EQ(weights.alpha, RegionWeights::Alpha::Ones(3, 1));
   EXPECT_EQ(weights.uncovered_vertices, 0);
 }
@@ -99,17 +101,18 @@ TEST(RegionWeights, WholeHeadIsAllOnes) {
 TEST(RegionWeights, ConstantMasksAreScaledToOne) {
   const MaskSource mask("m", image_of(1, 1, 3, {0.5F, 0.25F, 0.25F}));
   const MaskSource doubled("m", image_of(1, 1, 3, {1.0F, 0.5F, 0.5F}));
-  const auto weights = region_weights(kThree.topology, kThree.uvs, {mask}, 3);
+  const auto weights = region_weights(three().topology, three().uvs, {mask}, 3);
   for (Index i = 0; i < 3; ++i) {
     EXPECT_EQ(weights.alpha.row(i), Eigen::RowVector3d(0.5, 0.25, 0.25));
   }
-  EXPECT_EQ(region_weights(kThree.topology, kThree.uvs, {doubled}, 3).alpha, weights.alpha);
+  EXPECT_EQ(region_weights(three().topology, three().uvs, {doubled}, 3).alpha, weights.alpha);
 }
 
 TEST(RegionWeights, RowsSumToOne) {
   Image image = image_of(5, 4, 3, {});
   for (int i = 0; i < 60; ++i) image.pixels.push_back(static_cast<float>((i * 37) % 19) / 7);
   std::vector<std::array<double, 2>> places;
+  places.reserve(200);
   for (int i = 0; i < 200; ++i) places.push_back({0.137 * i - 5, 0.731 * i});
   const Strip strip(places);
   const auto weights = region_weights(strip.topology, strip.uvs, {MaskSource("m", image)}, 3);
@@ -147,22 +150,23 @@ TEST(RegionWeights, UncoveredVerticesGoToTheLastRegionAndAreCounted) {
 TEST(RegionWeights, ChannelsOfSeveralImagesMakeRegionsInOrder) {
   const MaskSource first("first", image_of(1, 1, 3, {1, 2, 3}));
   const MaskSource second("second", image_of(1, 1, 3, {4, 6, 100}));  // its third is left over
-  const auto weights = region_weights(kThree.topology, kThree.uvs, {first, second}, 5);
+  const auto weights = region_weights(three().topology, three().uvs, {first, second}, 5);
   EXPECT_TRUE(
       weights.alpha.row(2).isApprox(Eigen::Matrix<double, 1, 5>(1, 2, 3, 4, 6) / 16, 1e-15));
 }
 
 TEST(RegionWeights, AlphaIsIgnored) {
   const MaskSource mask("m", image_of(1, 1, 4, {0.5F, 0.25F, 0.25F, 0}, 3));
-  EXPECT_EQ(region_weights(kThree.topology, kThree.uvs, {mask}, 3).alpha.row(0),
+  EXPECT_EQ(region_weights(three().topology, three().uvs, {mask}, 3).alpha.row(0),
             Eigen::RowVector3d(0.5, 0.25, 0.25));
-  EXPECT_THAT(message_of(kThree, {mask}, 4), HasSubstr("4 regions, found 3"));
+  EXPECT_THAT(message_of(three(), {mask}, 4), HasSubstr("4 regions, found 3"));
 }
 
 TEST(RegionWeights, ThreadCountChangesNothing) {
   Image image = image_of(16, 16, 3, {});
   for (int i = 0; i < 768; ++i) image.pixels.push_back(static_cast<float>((i * 91) % 57) / 57);
   std::vector<std::array<double, 2>> places;
+  places.reserve(20000);
   for (int i = 0; i < 20000; ++i) places.push_back({0.618034 * i - 0.618034 * i / 1.7, 1e-4 * i});
   const Strip strip(places);
   const auto many = region_weights(strip.topology, strip.uvs, {MaskSource("m", image)}, 3);
@@ -173,12 +177,12 @@ TEST(RegionWeights, ThreadCountChangesNothing) {
 
 TEST(RegionWeights, ChannelCountsAreChecked) {
   const MaskSource grey("grey.png", image_of(1, 1, 1, {1}));
-  EXPECT_THAT(message_of(kThree, {grey}, 3),
+  EXPECT_THAT(message_of(three(), {grey}, 3),
               AllOf(HasSubstr("3 regions, found 1"), HasSubstr("grey.png (1)")));
-  EXPECT_THAT(message_of(kThree, {}, 2), HasSubstr("no image"));
-  EXPECT_THAT(message_of(kThree, {grey, MaskSource("extra.png", image_of(1, 1, 1, {1}))}, 1),
+  EXPECT_THAT(message_of(three(), {}, 2), HasSubstr("no image"));
+  EXPECT_THAT(message_of(three(), {grey, MaskSource("extra.png", image_of(1, 1, 1, {1}))}, 1),
               AllOf(HasSubstr("extra.png"), HasSubstr("left over")));
-  EXPECT_THAT(message_of(kThree, {grey}, 0), HasSubstr("at least one region"));
+  EXPECT_THAT(message_of(three(), {grey}, 0), HasSubstr("at least one region"));
 }
 
 class MaskFiles : public testing::Test {
@@ -242,9 +246,9 @@ TEST_F(MaskFiles, TilesMustAgreeInChannels) {
 }
 
 TEST_F(MaskFiles, MissingImageIsMissingInput) {
-  EXPECT_THROW(region_weights(kThree.topology, kThree.uvs, load_masks({path("none.png")}), 1),
+  EXPECT_THROW(region_weights(three().topology, three().uvs, load_masks({path("none.png")}), 1),
                Error);
-  EXPECT_THAT(message_of(kThree, load_masks({path("none.png")}), 1), HasSubstr("none.png"));
+  EXPECT_THAT(message_of(three(), load_masks({path("none.png")}), 1), HasSubstr("none.png"));
 }
 
 TEST_F(MaskFiles, SixteenBitsAreKept) {
@@ -255,7 +259,7 @@ TEST_F(MaskFiles, SixteenBitsAreKept) {
   ASSERT_TRUE(output->open(file, spec));
   const std::uint16_t pixel[] = {257, 65278};
   ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT16, pixel) && output->close());
-  const auto weights = region_weights(kThree.topology, kThree.uvs, {MaskSource(file)}, 2);
+  const auto weights = region_weights(three().topology, three().uvs, {MaskSource(file)}, 2);
   EXPECT_NEAR(weights.alpha(0, 0), 257.0 / 65535, 1e-9);
 }
 

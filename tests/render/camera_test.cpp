@@ -29,6 +29,7 @@ std::vector<Positions> two_heads() {
 
 std::vector<const Positions*> pointers(const std::vector<Positions>& heads) {
   std::vector<const Positions*> out;
+  out.reserve(heads.size());
   for (const Positions& head : heads) out.push_back(&head);
   return out;
 }

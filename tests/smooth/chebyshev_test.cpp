@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/chebyshev.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <tuple>
 
+#include <gtest/gtest.h>
+
 #include "crowdface/core/parallel.h"
 #include "crowdface/smooth/iterate.h"
+
 #include "support/expect_error.h"
 #include "support/meshes.h"
 
@@ -153,10 +154,10 @@ TEST_P(Filter, SeveralLevelsComeFromOnePass) {
   EXPECT_EQ(results[1], smooth(smoothing_, positions_, 90));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    AllOperators, Filter,
-    ::testing::Combine(::testing::Values(Boundary::kFixed, Boundary::kFree),
-                       ::testing::Values(OperatorKind::kUmbrella, OperatorKind::kLazy)));
+INSTANTIATE_TEST_SUITE_P(AllOperators, Filter,
+                         ::testing::Combine(::testing::Values(Boundary::kFixed, Boundary::kFree),
+                                            ::testing::Values(OperatorKind::kUmbrella,
+                                                              OperatorKind::kLazy)));
 
 TEST(FilterBits, DoNotDependOnTheThreadCount) {
   const Topology topology = grid_topology(150, 120);  // several blocks of rows

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/cubic_fit.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/QR>
+#include <gtest/gtest.h>
 
 #include "crowdface/smooth/chebyshev.h"
 #include "crowdface/smooth/iterate.h"
+
 #include "support/meshes.h"
 
 namespace crowdface {

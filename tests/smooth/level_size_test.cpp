@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/level_size.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
+#include <gtest/gtest.h>
+
 #include "crowdface/smooth/iterate.h"
+
 #include "support/expect_error.h"
 #include "support/meshes.h"
 

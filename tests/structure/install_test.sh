@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts in place is complete: the program runs from there, and a project of
 # its own finds the package, builds against every module and runs.
-#   install_test.sh SOURCE BUILD CXX_FLAGS
+#   install_test.sh SOURCE BUILD [CXX_FLAGS]
 set -euo pipefail
-source=$1 build=$2 flags=$3
+source=$1 build=$2 flags=${3-}
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 

@@ -29,7 +29,8 @@ reference::Point place(const Bowl& bowl, std::uint64_t person, int row, int colu
     const double ds = s - noise(b, 1, "bump"), dt = t - noise(b, 2, "bump");
     z += 0.9 * noise(person, b, "height") * std::exp(-5 * (ds * ds + dt * dt));
   }
-  const auto index = static_cast<std::uint64_t>(row * (bowl.columns + 1) + column);
+  const int vertex = row * (bowl.columns + 1) + column;
+  const auto index = static_cast<std::uint64_t>(vertex);
   z += 0.06 * noise(person, index, "pores");
   return {(7 + 0.3 * noise(person, 0, "width")) * s + 0.05 * noise(person, index, "x"),
           (8 + 0.3 * noise(person, 0, "length")) * t + 0.05 * noise(person, index, "y"), z};

@@ -37,8 +37,8 @@ inline Topology grid_topology(std::uint32_t columns, std::uint32_t rows) {
 
 /// A closed cube of 8 vertices and 6 quads, wound outwards.
 inline Topology cube_topology() {
-  return make_topology(8, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                           {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}});
+  return make_topology(
+      8, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}});
 }
 inline Positions cube_positions(double half = 1) {
   Positions p(8, 3);
@@ -51,8 +51,8 @@ inline Positions random_positions(Index rows, std::uint64_t seed) {
   Positions positions(rows, 3);
   for (Index i = 0; i < rows; ++i) {
     for (Index c = 0; c < 3; ++c) {
-      positions(i, c) = random_between(
-          {seed, static_cast<std::uint64_t>(i * 3 + c), "test/positions", 0}, -1, 1);
+      positions(i, c) =
+          random_between({seed, static_cast<std::uint64_t>(i * 3 + c), "test/positions", 0}, -1, 1);
     }
   }
   return positions;

@@ -144,17 +144,16 @@ Obj read_obj(const std::filesystem::path& path) {
 
 Filter make_filter(const Obj& mesh, bool fixed_boundary, bool lazy) {
   std::vector<std::set<std::size_t>> rings(mesh.vertices.size());
-  std::map<std::pair<std::size_t, std::size_t>, int> faces_of_edge;
+  // A face that runs along an edge both ways, as around a slit, is on both sides of it.
+  std::map<std::pair<std::size_t, std::size_t>, int> sides_of_edge;
   for (const auto& face : mesh.faces) {
-    std::set<std::pair<std::size_t, std::size_t>> edges;
     for (std::size_t c = 0; c < face.size(); ++c) {
       const std::size_t a = face[c], b = face[(c + 1) % face.size()];
       if (a == b) continue;
       rings[a].insert(b);
       rings[b].insert(a);
-      edges.insert({std::min(a, b), std::max(a, b)});
+      ++sides_of_edge[{std::min(a, b), std::max(a, b)}];
     }
-    for (const auto& edge : edges) ++faces_of_edge[edge];
   }
   Filter filter;
   filter.lazy = lazy;
@@ -163,8 +162,8 @@ Filter make_filter(const Obj& mesh, bool fixed_boundary, bool lazy) {
     filter.stays.push_back(ring.empty());
   }
   if (fixed_boundary) {
-    for (const auto& [edge, faces] : faces_of_edge) {
-      if (faces == 1) filter.stays[edge.first] = filter.stays[edge.second] = true;
+    for (const auto& [edge, sides] : sides_of_edge) {
+      if (sides == 1) filter.stays[edge.first] = filter.stays[edge.second] = true;
     }
   }
   return filter;

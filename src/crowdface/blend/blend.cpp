@@ -20,8 +20,8 @@ void require_fit(const FaceSet& faces, const RegionWeights& regions, const Recip
   const auto heads = static_cast<Index>(faces.heads.size());
   const auto require_head = [&](Index head) {
     if (head < 0 || head >= heads) {
-      throw InvalidInput(concat("recipe ", recipe.id, ": expected a head below ", heads,
-                                ", found ", head));
+      throw InvalidInput(
+          concat("recipe ", recipe.id, ": expected a head below ", heads, ", found ", head));
     }
   };
   require_head(recipe.target);
@@ -44,8 +44,8 @@ Columns target_less_sources(const FaceSet& faces, const Recipe& recipe) {
       auto columns = difference.block(begin, 3 * static_cast<Index>(k), end - begin, 3);
       columns.setZero();
       for (const SourceWeight& source : region.weights) {
-        columns += source.weight *
-                   positions_of(faces, source.head).middleRows(begin, end - begin);  // C̄_k
+        columns +=
+            source.weight * positions_of(faces, source.head).middleRows(begin, end - begin);  // C̄_k
       }
       columns = target.middleRows(begin, end - begin) - region.extrapolation * columns;
     }

@@ -30,7 +30,7 @@ struct RegionRecipe {
 
 /// The nearest neighbours of a face, for people to judge by.
 struct Nearest {
-  Index head = 0;                    ///< the input head nearest to it
+  Index head = 0;  ///< the input head nearest to it
   double head_mm = 0;
   std::optional<std::string> crowd;  ///< the nearest face before it in the plan
   double crowd_mm = 0;
@@ -42,18 +42,17 @@ struct Recipe {
   std::optional<std::uint64_t> index;  ///< from 1; none for a hand-written recipe
   std::optional<std::string> family;
   Index target = 0;
-  std::uint32_t attempt = 0;           ///< how many draws were thrown away before this one
-  std::vector<RegionRecipe> regions;   ///< one for each region
+  std::uint32_t attempt = 0;          ///< how many draws were thrown away before this one
+  std::vector<RegionRecipe> regions;  ///< one for each region
   std::optional<Nearest> nearest;
 };
 
 /// The weights ω̂ of a position (Eqs. 3 and 4).
-/// Partition: the target takes part as face 0 with its own detail, whether or not it is a source, and
-/// the weights sum to one. Printed: the target's ω_0 counts in the denominator only and is left out
-/// of the result, whose weights sum to less than one.
-/// \param anchors      #heads
-/// \param sources      heads that lend detail, ascending
-/// \param max_sources  keep only that many of the largest weights (of equals the first), then
+/// Partition: the target takes part as face 0 with its own detail, whether or not it is a source,
+/// and the weights sum to one. Printed: the target's ω_0 counts in the denominator only and is left
+/// out of the result, whose weights sum to less than one. \param anchors      #heads \param sources
+/// heads that lend detail, ascending \param max_sources  keep only that many of the largest weights
+/// (of equals the first), then
 ///                     normalise again; ω_0 of the printed formula always stays and is not counted
 std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
                                      const std::vector<Index>& sources, const PlanePoint& position,

@@ -22,8 +22,8 @@ class FaceDraws {
 
   std::array<double, 2> pair(std::string_view what, std::string_view region,
                              std::uint32_t lane = 0) const {
-    const std::string purpose = who_.empty() ? concat(what, '/', region)
-                                             : concat("recipe/", who_, '/', what, '/', region);
+    const std::string purpose =
+        who_.empty() ? concat(what, '/', region) : concat("recipe/", who_, '/', what, '/', region);
     return random_pair({seed_, index_, purpose, 0}, lane);
   }
   double unit(std::string_view what, std::string_view region) const {
@@ -99,8 +99,7 @@ void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScal
       break;
   }
   recipe.iterations = std::min(recipe.iterations, scale.max_level);
-  recipe.smoothness =
-      static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
+  recipe.smoothness = static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
 }
 
 void take_position(const Casting& casting, Index target, const PlanePoint& position,
@@ -148,8 +147,7 @@ Recipe cast_recipe(const Casting& casting, const HandRecipe& hand, const FaceDra
 }  // namespace
 
 std::uint64_t iterations_of(double smoothness, const LevelScale& scale) {
-  return static_cast<std::uint64_t>(
-      std::round(smoothness * static_cast<double>(scale.max_level)));
+  return static_cast<std::uint64_t>(std::round(smoothness * static_cast<double>(scale.max_level)));
 }
 
 std::string face_id(const std::string& crowd, std::uint64_t index) {

@@ -78,8 +78,8 @@ Trajectory sample_trajectory(const SmoothingOperator& smoothing, const Positions
   }
   std::size_t terms = 0;
   for (const ChebyshevSeries& one : series) terms = std::max(terms, one.size());
-  Columns sums = Columns::Zero(static_cast<Index>(series.size()),
-                               3 * static_cast<Index>(samples.size()));
+  Columns sums =
+      Columns::Zero(static_cast<Index>(series.size()), 3 * static_cast<Index>(samples.size()));
   chebyshev_recurrence(
       smoothing, positions, static_cast<Index>(terms),
       [&](Index k, Index begin, Index end, const double* block) {

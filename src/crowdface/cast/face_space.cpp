@@ -60,7 +60,8 @@ FaceSpace::FaceSpace(const FaceSet& faces, const RegionWeights& regions, FaceSam
 Positions FaceSpace::smoothed_difference(const RegionRecipe& region, Index target,
                                          double extrapolation) const {
   const auto upper = std::upper_bound(levels_.begin(), levels_.end(), region.iterations);
-  const Index high = std::min<Index>(upper - levels_.begin(), static_cast<Index>(levels_.size()) - 1);
+  const Index high =
+      std::min<Index>(upper - levels_.begin(), static_cast<Index>(levels_.size()) - 1);
   const Index low = std::max<Index>(high - 1, 0);
   const double from = std::sqrt(static_cast<double>(levels_[static_cast<std::size_t>(low)]));
   const double to = std::sqrt(static_cast<double>(levels_[static_cast<std::size_t>(high)]));
@@ -89,8 +90,8 @@ Positions FaceSpace::samples_of(const Recipe& recipe, bool unit_extrapolation) c
   Positions samples = heads_[static_cast<std::size_t>(recipe.target)];
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     const RegionRecipe& region = recipe.regions[k];
-    const Positions change = smoothed_difference(region, recipe.target,
-                                                 unit_extrapolation ? 1.0 : region.extrapolation);
+    const Positions change =
+        smoothed_difference(region, recipe.target, unit_extrapolation ? 1.0 : region.extrapolation);
     for (Index s = 0; s < samples.rows(); ++s) {
       const double alpha = alpha_(s, static_cast<Index>(k));
       for (Index c = 0; c < 3; ++c) samples(s, c) += alpha * change(s, c);  // Eq. 7

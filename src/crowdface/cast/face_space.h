@@ -15,8 +15,8 @@ namespace crowdface {
 /// matches pairwise alignment closely (design notes in docs/method.md).
 class FaceSpace {
  public:
-  /// One face: its samples in millimetres, aligned, as built and with every extrapolation factor set
-  /// to 1 (extrapolation alone does not make another person).
+  /// One face: its samples in millimetres, aligned, as built and with every extrapolation factor
+  /// set to 1 (extrapolation alone does not make another person).
   struct Place {
     Eigen::VectorXf as_built;
     Eigen::VectorXf unit;
@@ -42,7 +42,8 @@ class FaceSpace {
   void find_nearest(std::vector<Recipe>& crowd) const;
 
  private:
-  Positions smoothed_difference(const RegionRecipe& region, Index target, double extrapolation) const;
+  Positions smoothed_difference(const RegionRecipe& region, Index target,
+                                double extrapolation) const;
   Eigen::VectorXf aligned(const Positions& samples) const;
   Positions samples_of(const Recipe& recipe, bool unit_extrapolation) const;
 
@@ -50,7 +51,7 @@ class FaceSpace {
   Columns alpha_;                 ///< #S by #regions
   std::span<const Trajectory> trajectories_;
   std::vector<std::uint64_t> levels_;
-  Positions mean_;                ///< #S by 3
+  Positions mean_;  ///< #S by 3
   double mm_per_unit_;
 };
 

@@ -25,8 +25,8 @@ struct PositionDistribution {
     kFixed,    ///< always at `at`
   };
   Kind kind = Kind::kUniform;
-  std::optional<Eigen::Index> head;  ///< kAround: whose anchor; none: the face's own target's
-  double radius = 0;                 ///< kAround: in units of the plane
+  std::optional<Eigen::Index> head;    ///< kAround: whose anchor; none: the face's own target's
+  double radius = 0;                   ///< kAround: in units of the plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed
 };
 
@@ -56,10 +56,10 @@ struct WeightedHead {
 
 /// How sampled faces are drawn.
 struct SamplingOptions {
-  std::vector<WeightedHead> targets;   ///< heads that may be the target, with their frequency
-  std::vector<Eigen::Index> sources;   ///< heads whose details take part, ascending
+  std::vector<WeightedHead> targets;    ///< heads that may be the target, with their frequency
+  std::vector<Eigen::Index> sources;    ///< heads whose details take part, ascending
   std::vector<RegionSampling> regions;  ///< one for each region (one in all without regions)
-  std::optional<int> max_sources;      ///< keep only the largest weights of a position; none: all
+  std::optional<int> max_sources;       ///< keep only the largest weights of a position; none: all
 };
 
 /// A face spelled out by hand; what is left out is drawn as for a sampled face.

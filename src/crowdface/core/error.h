@@ -9,14 +9,14 @@ namespace crowdface {
 /// Exit codes of the program, after BSD sysexits where those fit.
 enum class ExitCode : int {
   kDone = 0,
-  kUnsatisfiable = 3,   ///< the constraints cannot be met
-  kUsage = 64,          ///< command line or config is wrong
-  kBadData = 65,        ///< an input file holds something unusable
-  kMissingInput = 66,   ///< an input file is missing or cannot be read
-  kBug = 70,            ///< our own mistake
-  kCannotCreate = 73,   ///< an output file or folder cannot be created
-  kIoError = 74,        ///< a read or write failed half-way
-  kInterrupted = 75,    ///< stopped by a signal; run again to resume
+  kUnsatisfiable = 3,  ///< the constraints cannot be met
+  kUsage = 64,         ///< command line or config is wrong
+  kBadData = 65,       ///< an input file holds something unusable
+  kMissingInput = 66,  ///< an input file is missing or cannot be read
+  kBug = 70,           ///< our own mistake
+  kCannotCreate = 73,  ///< an output file or folder cannot be created
+  kIoError = 74,       ///< a read or write failed half-way
+  kInterrupted = 75,   ///< stopped by a signal; run again to resume
 };
 
 /// Base of every exception crowdface throws. The message names the file, what was expected and what

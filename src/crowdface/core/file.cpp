@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/file.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cerrno>
 #include <system_error>
 #include <utility>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -19,7 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reason() { return std::generic_category().message(errno); }
+std::string reason() {
+  return std::generic_category().message(errno);
+}
 
 /// A file descriptor that closes itself.
 class Descriptor {
@@ -97,7 +99,8 @@ MappedFile::MappedFile(const fs::path& path) {
   const OpenedFile file = open_for_reading(path);
   if (file.size == 0) return;
   void* data = ::mmap(nullptr, file.size, PROT_READ, MAP_PRIVATE, file.descriptor.get(), 0);
-  if (data == MAP_FAILED) throw MissingInput(concat(path.string(), ": cannot be mapped: ", reason()));
+  if (data == MAP_FAILED)
+    throw MissingInput(concat(path.string(), ": cannot be mapped: ", reason()));
   data_ = static_cast<const char*>(data);
   size_ = file.size;
 }
@@ -120,8 +123,7 @@ void write_file(const fs::path& path, const std::vector<std::string_view>& piece
   fs::path temporary = path;
   temporary.replace_filename(
       concat(".", path.filename().string(), ".", ::getpid(), ".", serial++, ".tmp"));
-  Descriptor descriptor(
-      ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  Descriptor descriptor(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!descriptor.valid()) {
     throw CannotCreate(concat(path.string(), ": cannot be created: ", reason()));
   }

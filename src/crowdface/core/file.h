@@ -29,9 +29,9 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
-/// Writes a file so that it is either whole under its final name or not there at all: temporary file
-/// in the same folder, fsync, rename, fsync of the folder. The pieces are written one after the
-/// other. \throws CannotCreate, IoError; the temporary file is removed.
+/// Writes a file so that it is either whole under its final name or not there at all: temporary
+/// file in the same folder, fsync, rename, fsync of the folder. The pieces are written one after
+/// the other. \throws CannotCreate, IoError; the temporary file is removed.
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/hash.h"
 
-#include <xxhash.h>
-
 #include <bit>
 #include <new>
+
+#include <xxhash.h>
 
 namespace crowdface {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "digests are defined on little-endian");
 
-Digest to_digest(XXH128_hash_t hash) { return {hash.high64, hash.low64}; }
+Digest to_digest(XXH128_hash_t hash) {
+  return {hash.high64, hash.low64};
+}
 
 }  // namespace
 
@@ -47,14 +49,20 @@ Hasher& Hasher::add_raw(const void* bytes, std::size_t size) {
   if (size > 0) XXH3_128bits_update(state_->xxh, bytes, size);
   return *this;
 }
-Hasher& Hasher::add_integer(std::uint64_t value) { return add_raw(&value, sizeof value); }
+Hasher& Hasher::add_integer(std::uint64_t value) {
+  return add_raw(&value, sizeof value);
+}
 Hasher& Hasher::add(std::string_view text) {
   return add_integer(text.size()).add_raw(text.data(), text.size());
 }
-Hasher& Hasher::add(double value) { return add_integer(std::bit_cast<std::uint64_t>(value)); }
+Hasher& Hasher::add(double value) {
+  return add_integer(std::bit_cast<std::uint64_t>(value));
+}
 Hasher& Hasher::add(const Digest& digest) {
   return add_integer(digest.high).add_integer(digest.low);
 }
-Digest Hasher::digest() const { return to_digest(XXH3_128bits_digest(state_->xxh)); }
+Digest Hasher::digest() const {
+  return to_digest(XXH3_128bits_digest(state_->xxh));
+}
 
 }  // namespace crowdface

@@ -27,7 +27,9 @@ void catch_interrupts() {
   }
 }
 
-bool interrupted() { return signal_seen != 0; }
+bool interrupted() {
+  return signal_seen != 0;
+}
 
 void throw_if_interrupted() {
   if (interrupted()) {

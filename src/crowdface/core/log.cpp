@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/log.h"
 
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
-
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -36,7 +36,9 @@ Sinks& sinks() {
   return instance;
 }
 
-spdlog::string_view_t view(std::string_view text) { return {text.data(), text.size()}; }
+spdlog::string_view_t view(std::string_view text) {
+  return {text.data(), text.size()};
+}
 
 }  // namespace
 
@@ -47,7 +49,9 @@ void set_log_level(LogLevel level) {
                                                             : spdlog::level::info);
 }
 
-LogLevel log_level() { return sinks().level; }
+LogLevel log_level() {
+  return sinks().level;
+}
 
 void add_log_file(const std::filesystem::path& path) {
   std::shared_ptr<spdlog::sinks::basic_file_sink_mt> file;
@@ -69,9 +73,17 @@ void close_log_file() {
   sinks().files.pop_back();
 }
 
-void log_debug(std::string_view text) { sinks().logger->log(spdlog::level::debug, view(text)); }
-void log_info(std::string_view text) { sinks().logger->log(spdlog::level::info, view(text)); }
-void log_warning(std::string_view text) { sinks().logger->log(spdlog::level::warn, view(text)); }
-void log_error(std::string_view text) { sinks().logger->log(spdlog::level::err, view(text)); }
+void log_debug(std::string_view text) {
+  sinks().logger->log(spdlog::level::debug, view(text));
+}
+void log_info(std::string_view text) {
+  sinks().logger->log(spdlog::level::info, view(text));
+}
+void log_warning(std::string_view text) {
+  sinks().logger->log(spdlog::level::warn, view(text));
+}
+void log_error(std::string_view text) {
+  sinks().logger->log(spdlog::level::err, view(text));
+}
 
 }  // namespace crowdface

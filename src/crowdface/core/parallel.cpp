@@ -5,11 +5,71 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <vector>
 
 namespace crowdface {
+namespace {
+
+#ifdef __SANITIZE_THREAD__
+/// Debian's TBB is built without ThreadSanitizer, which therefore cannot see that the items of a
+/// loop happen after what stands before it and before what follows it. The items themselves stay
+/// unordered, so that a race between two of them is reported.
+class LoopOrder {
+ public:
+  LoopOrder() { __tsan_release(&before_); }
+  ~LoopOrder() { __tsan_acquire(&after_); }
+
+  class Item {
+   public:
+    explicit Item(LoopOrder& order) : order_(order) { __tsan_acquire(&order_.before_); }
+    ~Item() { __tsan_release(&order_.after_); }
+
+   private:
+    LoopOrder& order_;
+  };
+
+ private:
+  char before_ = 0, after_ = 0;
+};
+#else
+struct LoopOrder {
+  struct Item {
+    explicit Item(LoopOrder&) {}
+  };
+};
+#endif
+
+/// Keeps the first exception of a loop's items until the loop is over; items not begun by then are
+/// left out. An exception that TBB sees would cancel loops inside other items, ours as well as
+/// Embree's, and these would return half done as if all were well.
+class FirstError {
+ public:
+  template <class Body>
+  void guard(const Body& body) {
+    if (failed_) return;
+    try {
+      body();
+    } catch (...) {
+      if (!failed_.exchange(true)) error_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::atomic<bool> failed_ = false;
+  std::exception_ptr error_;
+};
+
+}  // namespace
 
 struct ThreadLimit::Control {
   explicit Control(std::size_t threads)
@@ -34,21 +94,28 @@ void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   if (count <= 0) return;
   const std::ptrdiff_t blocks = (count + block - 1) / block;
   if (blocks == 1) return body(0, count);
+  LoopOrder order;
+  FirstError error;
   // Isolated: a thread that waits for this loop must not begin another heavy item of an outer one.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
-      body(b * block, std::min(count, (b + 1) * block));
+      const LoopOrder::Item item(order);
+      error.guard([&] { body(b * block, std::min(count, (b + 1) * block)); });
     });
   });
+  error.rethrow();
 }
 
 void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body) {
   const tbb::blocked_range<std::ptrdiff_t> items(0, std::max<std::ptrdiff_t>(count, 0), 1);
+  LoopOrder order;
+  FirstError error;
   const auto run = [&](const tbb::blocked_range<std::ptrdiff_t>& range) {
-    for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) body(i);
+    const LoopOrder::Item item(order);
+    for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) error.guard([&] { body(i); });
   };
-  tbb::this_task_arena::isolate(
-      [&] { tbb::parallel_for(items, run, tbb::simple_partitioner()); });
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(items, run, tbb::simple_partitioner()); });
+  error.rethrow();
 }
 
 double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/progress.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <utility>
+
+#include <unistd.h>
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
@@ -27,7 +27,8 @@ std::string format_duration(double seconds) {
   return concat(whole / 3600, " h ", whole % 3600 / 60, " min");
 }
 
-Progress::Progress(std::string stage, std::size_t total) : stage_(std::move(stage)), total_(total) {}
+Progress::Progress(std::string stage, std::size_t total)
+    : stage_(std::move(stage)), total_(total) {}
 
 Progress::~Progress() {
   if (shown_ && on_terminal()) std::fputs("\r\033[K", stderr);

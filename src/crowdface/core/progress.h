@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Shows how far a stage is: done/total, rate, time left. On a terminal one line that renews itself,
-/// elsewhere a log line every ten seconds. Silent
-/// when the log is quiet. Any thread may step it.
+/// Shows how far a stage is: done/total, rate, time left. On a terminal one line that renews
+/// itself, elsewhere a log line every ten seconds. Silent when the log is quiet. Any thread may
+/// step it.
 class Progress {
  public:
   /// \param stage  what is being done, such as "reading heads".

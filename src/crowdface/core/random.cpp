@@ -20,17 +20,18 @@ std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane) {
   const std::uint64_t purpose = hash_bytes(key.purpose).low;
   const std::uint64_t attempt = std::uint64_t{key.attempt} << 16 | (lane & 0xffffU);
   const std::uint64_t mixed = purpose ^ attempt * 0x9E3779B97F4A7C15ULL;
-  const philox4x32_ctr_t counter = {{static_cast<std::uint32_t>(key.index),
-                                     static_cast<std::uint32_t>(key.index >> 32),
-                                     static_cast<std::uint32_t>(mixed),
-                                     static_cast<std::uint32_t>(mixed >> 32)}};
+  const philox4x32_ctr_t counter = {
+      {static_cast<std::uint32_t>(key.index), static_cast<std::uint32_t>(key.index >> 32),
+       static_cast<std::uint32_t>(mixed), static_cast<std::uint32_t>(mixed >> 32)}};
   const philox4x32_key_t philox_key = {
       {static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)}};
   const philox4x32_ctr_t bits = philox4x32(counter, philox_key);
   return {to_unit(bits[0], bits[1]), to_unit(bits[2], bits[3])};
 }
 
-double random_unit(const RandomKey& key, std::uint32_t lane) { return random_pair(key, lane)[0]; }
+double random_unit(const RandomKey& key, std::uint32_t lane) {
+  return random_pair(key, lane)[0];
+}
 
 double random_between(const RandomKey& key, double low, double high) {
   return low + (high - low) * random_unit(key);

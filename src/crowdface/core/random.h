@@ -18,7 +18,8 @@ struct RandomKey {
   std::uint32_t attempt = 0;  ///< how many draws of this face were thrown away before
 };
 
-/// Two independent numbers in [0, 1), multiples of 2⁻⁵³. `lane` (< 2¹⁶) numbers the pairs of one key.
+/// Two independent numbers in [0, 1), multiples of 2⁻⁵³. `lane` (< 2¹⁶) numbers the pairs of one
+/// key.
 std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane = 0);
 
 /// The first number of `random_pair`.

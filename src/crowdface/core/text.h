@@ -26,8 +26,12 @@ std::string format_fixed(double value, int decimals);
 /// `text` between double quotes, control characters and quotes escaped; long text is shortened.
 std::string quoted(std::string_view text);
 /// The same; without it, std::quoted would be chosen for strings.
-inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
-inline std::string quoted(const char* text) { return quoted(std::string_view(text)); }
+inline std::string quoted(const std::string& text) {
+  return quoted(std::string_view(text));
+}
+inline std::string quoted(const char* text) {
+  return quoted(std::string_view(text));
+}
 
 /// The candidate nearest to `word` by edit distance if it is near enough to be what was meant.
 std::optional<std::string> nearest_word(std::string_view word,
@@ -37,11 +41,21 @@ std::optional<std::string> nearest_word(std::string_view word,
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 namespace detail {
-inline void append(std::string& out, std::string_view text) { out += text; }
-inline void append(std::string& out, const std::string& text) { out += text; }
-inline void append(std::string& out, const char* text) { out += text; }
-inline void append(std::string& out, char c) { out += c; }
-inline void append(std::string& out, double value) { out += format_number(value); }
+inline void append(std::string& out, std::string_view text) {
+  out += text;
+}
+inline void append(std::string& out, const std::string& text) {
+  out += text;
+}
+inline void append(std::string& out, const char* text) {
+  out += text;
+}
+inline void append(std::string& out, char c) {
+  out += c;
+}
+inline void append(std::string& out, double value) {
+  out += format_number(value);
+}
 template <std::integral T>
 void append(std::string& out, T value) {
   char buffer[24];

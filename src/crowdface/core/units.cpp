@@ -34,8 +34,8 @@ std::string_view name_of(LengthUnit unit) {
 }
 
 std::optional<LengthUnit> parse_length_unit(std::string_view name) {
-  for (const LengthUnit unit : {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
-                                LengthUnit::kMetre, LengthUnit::kInch}) {
+  for (const LengthUnit unit :
+       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre, LengthUnit::kInch}) {
     if (name == name_of(unit)) return unit;
   }
   return std::nullopt;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/obj_file.h"
 
-#include <tiny_obj_loader.h>
-
 #include <istream>
 #include <map>
 #include <streambuf>
 #include <utility>
+
+#include <tiny_obj_loader.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -32,7 +32,9 @@ class NoMaterials : public tinyobj::MaterialReader {
   }
 };
 
-std::uint32_t to_index(int index) { return index < 0 ? kNoIndex : static_cast<std::uint32_t>(index); }
+std::uint32_t to_index(int index) {
+  return index < 0 ? kNoIndex : static_cast<std::uint32_t>(index);
+}
 
 bool all_none(const std::vector<std::uint32_t>& indices) {
   for (const std::uint32_t index : indices) {

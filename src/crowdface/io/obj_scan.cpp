@@ -13,18 +13,20 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostCorners = 255;     // the loader counts corners in a byte
-constexpr double kLargestCoordinate = 1e7;    // beyond, single precision keeps no tenth of a unit
+constexpr std::size_t kMostCorners = 255;   // the loader counts corners in a byte
+constexpr double kLargestCoordinate = 1e7;  // beyond, single precision keeps no tenth of a unit
 constexpr std::size_t kMostVertices = 1 << 26;
 
 /// Statements that carry no geometry we blend; they are copied through.
 constexpr std::array<std::string_view, 31> kOtherStatements = {
-    "g",     "s",    "o",      "usemtl", "mtllib",     "l",         "p",       "vp",
-    "cstype", "deg", "bmat",   "step",   "curv",       "curv2",     "surf",    "parm",
-    "trim",  "hole", "scrv",   "sp",     "end",        "con",       "mg",      "bevel",
-    "c_interp", "d_interp", "lod", "usemap", "maplib", "shadow_obj", "trace_obj"};
+    "g",        "s",        "o",    "usemtl", "mtllib", "l",          "p",        "vp",
+    "cstype",   "deg",      "bmat", "step",   "curv",   "curv2",      "surf",     "parm",
+    "trim",     "hole",     "scrv", "sp",     "end",    "con",        "mg",       "bevel",
+    "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj", "trace_obj"};
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
 
 /// Splits a line into its words without copying.
 void split(std::string_view line, std::vector<std::string_view>& words) {
@@ -218,8 +220,7 @@ class Scanner {
     check_index(word.substr(0, first), "vertex", total_.vertices, scan_.vertex_spans.size());
     if (first == word.npos) return 0;
     const bool has_normal = second != word.npos;
-    const std::string_view uv =
-        word.substr(first + 1, has_normal ? second - first - 1 : word.npos);
+    const std::string_view uv = word.substr(first + 1, has_normal ? second - first - 1 : word.npos);
     int form = 0;
     if (!uv.empty() || !has_normal) {
       check_index(uv, "texture coordinate", total_.uvs, static_cast<std::uint64_t>(uvs_seen_));

@@ -67,10 +67,9 @@ std::vector<Replacement> replacements(const ObjFile& target, const Positions& po
   all.reserve(target.vertex_spans.size() + target.normal_spans.size());
   std::size_t v = 0, n = 0;
   while (v < target.vertex_spans.size() || n < target.normal_spans.size()) {
-    const bool vertex_next =
-        n == target.normal_spans.size() ||
-        (v < target.vertex_spans.size() &&
-         target.vertex_spans[v].begin < target.normal_spans[n].begin);
+    const bool vertex_next = n == target.normal_spans.size() ||
+                             (v < target.vertex_spans.size() &&
+                              target.vertex_spans[v].begin < target.normal_spans[n].begin);
     if (vertex_next) {
       all.push_back({target.vertex_spans[v], &positions, static_cast<Index>(v)});
       ++v;
@@ -105,8 +104,8 @@ Positions normals_by_index(const ObjFile& target, const Topology& topology,
 
 void require_finite(const Positions& positions, Index vertices, const std::filesystem::path& path) {
   if (positions.rows() != vertices) {
-    throw InvalidInput(concat(path.string(), ": expected ", vertices, " positions, got ",
-                              positions.rows()));
+    throw InvalidInput(
+        concat(path.string(), ": expected ", vertices, " positions, got ", positions.rows()));
   }
   if (!positions.allFinite()) {
     throw InvalidInput(concat(path.string(), ": a position is not finite; nothing was written"));
@@ -114,8 +113,8 @@ void require_finite(const Positions& positions, Index vertices, const std::files
 }
 
 Digest write_blocks(const std::filesystem::path& path,
-                  const std::vector<std::vector<std::string>>& groups, std::string_view head,
-                  std::string_view tail) {
+                    const std::vector<std::vector<std::string>>& groups, std::string_view head,
+                    std::string_view tail) {
   std::vector<std::string_view> pieces = {head};
   for (const auto& group : groups) pieces.insert(pieces.end(), group.begin(), group.end());
   pieces.push_back(tail);

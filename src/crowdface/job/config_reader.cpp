@@ -67,8 +67,8 @@ void read_out(const std::string& text, ConfigDraft& draft) {
 
 }  // namespace
 
-std::optional<Config> read_config(const std::filesystem::path& file,
-                                  const ConfigOverrides& overrides, Problems& problems) {
+ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
+                                Problems& problems) {
   Complaints complaints;
   ConfigDraft draft(complaints);
   draft.config.file = file;
@@ -80,8 +80,15 @@ std::optional<Config> read_config(const std::filesystem::path& file,
   }
   if (overrides.out) read_out(*overrides.out, draft);
   complaints.tell(problems);
-  if (!complaints.empty()) return std::nullopt;
-  return std::move(draft.config);
+  const bool complete = complaints.empty();
+  return {std::move(draft.config), complete, draft.heads_known, draft.regions_known};
+}
+
+std::optional<Config> read_config(const std::filesystem::path& file,
+                                  const ConfigOverrides& overrides, Problems& problems) {
+  ConfigReading reading = read_config_parts(file, overrides, problems);
+  if (!reading.complete) return std::nullopt;
+  return std::move(reading.config);
 }
 
 }  // namespace crowdface

@@ -19,10 +19,21 @@ struct ConfigOverrides {
   std::optional<std::string> out;    ///< `--out`, relative to the working directory
 };
 
+/// What could be read of a config, whatever is wrong with the rest.
+struct ConfigReading {
+  Config config;               ///< to be used only as far as the flags go
+  bool complete = false;       ///< no problem at all
+  bool heads_known = false;    ///< faces.files and faces.names
+  bool regions_known = false;  ///< regions.names and regions.mask
+};
+
 /// Reads a config and checks all of it that can be checked without opening a mesh or an image.
 /// docs/config.md is the reference. Adds every problem, in the order of the file: 64 for what is
 /// wrong in the config, 66 for files and folders that are not there.
-/// \return nothing if there is any problem.
+ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
+                                Problems& problems);
+
+/// The same, for those who need all of it. \return nothing if there is any problem.
 std::optional<Config> read_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems);
 

@@ -19,8 +19,8 @@ struct ConfigDraft {
   Config config;
   Complaints& complaints;
   std::filesystem::path folder;  ///< of the config file; relative paths start there
-  /// After a complaint about the heads, tags or regions their names are not known, and names elsewhere
-  /// are not held against them.
+  /// After a complaint about the heads, tags or regions their names are not known, and names
+  /// elsewhere are not held against them.
   bool heads_known = false;
   bool tags_known = true;
   bool regions_known = false;

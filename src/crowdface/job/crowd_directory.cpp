@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/crowd_directory.h"
 
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"

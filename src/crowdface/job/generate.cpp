@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
@@ -53,7 +54,21 @@ class CrowdLog {
   CrowdLog& operator=(const CrowdLog&) = delete;
 };
 
+/// \throws UsageError if a head lies where this run writes meshes and removes those of an old
+/// crowd.
+void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory) {
+  const fs::path meshes = fs::weakly_canonical(directory.meshes());
+  for (const fs::path& head : job.config.faces.files) {
+    if (fs::weakly_canonical(head).parent_path() == meshes) {
+      throw UsageError(concat(directory.root.string(), ": the head ", head.string(),
+                              " lies among the meshes of this crowd; choose another folder with "
+                              "--out"));
+    }
+  }
+}
+
 void open_directory(const Job& job, const CrowdDirectory& directory, Replace replace) {
+  refuse_to_write_over_heads(job, directory);
   open_crowd_directory(directory, effective_config(job.config, directory.root), replace);
 }
 
@@ -112,8 +127,8 @@ std::vector<FaceFiles> build_faces(const Job& job, const Prepared& prepared,
     const Positions positions = build_face(job, prepared, recipe);
     if (job.config.output.obj) {
       const ObjFile& target = job.inputs.files[static_cast<std::size_t>(recipe.target)];
-      const Digest digest = write_obj_like(target, job.inputs.faces.topology, positions,
-                                           directory.mesh(recipe.id));
+      const Digest digest =
+          write_obj_like(target, job.inputs.faces.topology, positions, directory.mesh(recipe.id));
       files[static_cast<std::size_t>(i)].mesh_digest = digest.hex();
     }
     if (renders != nullptr) write_file(directory.render(recipe.id), renders->render_png(positions));
@@ -141,8 +156,8 @@ void tell_dry_run(const Job& job) {
   bytes = bytes / job.inputs.files.size() * (config.output.obj ? faces : 0);
   log_info(concat("dry run: ", faces, " faces of ", job.inputs.faces.topology.vertex_count,
                   " vertices, about ", format_fixed(static_cast<double>(bytes) / 1e6, 1),
-                  " MB of meshes, ", config.output.contact_sheet ? faces : 0,
-                  " renders into ", config.output.directory.string(), "; nothing was written"));
+                  " MB of meshes, ", config.output.contact_sheet ? faces : 0, " renders into ",
+                  config.output.directory.string(), "; nothing was written"));
 }
 
 }  // namespace
@@ -173,14 +188,14 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const auto& sheet = job.config.output.contact_sheet;
   std::unique_ptr<CrowdRenders> renders;
   if (sheet) renders = std::make_unique<CrowdRenders>(job.config, *sheet, job.inputs);
-  const std::vector<FaceFiles> files = timed(stages, "build", [&] {
-    return build_faces(job, prepared, directory, renders.get(), crowd);
-  });
+  const std::vector<FaceFiles> files = timed(
+      stages, "build", [&] { return build_faces(job, prepared, directory, renders.get(), crowd); });
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {
-      return write_sheets(directory, *sheet, sheet_title(job.config, crowd.size()), ids_of(crowd),
-                          [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
+      return write_sheets(
+          directory, *sheet, sheet_title(job.config, crowd.size()), ids_of(crowd),
+          [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
     });
   }
   write_file(directory.report(), format_report(job, crowd_cast, files, pages, warnings));
@@ -216,11 +231,9 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   for (const PlanLine& line : read_plan(directory.plan(), job.names)) ids.push_back(line.recipe.id);
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
   const CrowdRenders renders(job.config, sheet, job.inputs);
-  const std::size_t pages =
-      write_sheets(directory, sheet, sheet_title(job.config, ids.size()), ids,
-                   [&](std::size_t i) {
-                     return renders.render(read_obj(directory.mesh(ids[i])).positions);
-                   });
+  const std::size_t pages = write_sheets(
+      directory, sheet, sheet_title(job.config, ids.size()), ids,
+      [&](std::size_t i) { return renders.render(read_obj(directory.mesh(ids[i])).positions); });
   log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
 }
 

@@ -9,9 +9,9 @@
 namespace crowdface {
 
 struct GenerateOptions {
-  std::filesystem::path cache;          ///< folder of prepared heads
-  Replace replace = Replace::kRefuse;   ///< what to do about another config's crowd in the folder
-  bool dry_run = false;                 ///< say what would be written, and write nothing
+  std::filesystem::path cache;         ///< folder of prepared heads
+  Replace replace = Replace::kRefuse;  ///< what to do about another config's crowd in the folder
+  bool dry_run = false;                ///< say what would be written, and write nothing
 };
 
 /// The whole job: read, prepare, cast, blend, write, render, report. Nothing is written before all

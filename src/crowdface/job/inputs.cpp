@@ -20,25 +20,43 @@ namespace {
 constexpr int kBlendVersion = 1;
 constexpr double kUvTolerance = 1e-4;
 
+/// Heads that could be read; the others are problems.
 std::vector<ObjFile> read_heads(const Config& config, Problems& problems) {
   const std::size_t count = config.faces.files.size();
-  std::vector<ObjFile> files(count);
+  std::vector<std::optional<ObjFile>> files(count);
   std::vector<std::optional<Error>> errors(count);
-  Progress progress("reading heads", count);
-  parallel_for_each(static_cast<Index>(count), [&](Index h) {
-    throw_if_interrupted();
-    const auto i = static_cast<std::size_t>(h);
-    try {
-      files[i] = read_obj(config.faces.files[i]);
-    } catch (const Error& error) {
-      errors[i] = error;
-    }
-    progress.step();
-  });
-  for (const auto& error : errors) {
-    if (error) problems.add(*error);
+  {
+    Progress progress("reading heads", count);
+    parallel_for_each(static_cast<Index>(count), [&](Index h) {
+      throw_if_interrupted();
+      const auto i = static_cast<std::size_t>(h);
+      try {
+        files[i] = read_obj(config.faces.files[i]);
+      } catch (const Error& error) {
+        errors[i] = error;
+      }
+      progress.step();
+    });
   }
-  return files;
+  std::vector<ObjFile> read;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (errors[i]) problems.add(*errors[i]);
+    if (files[i]) read.push_back(std::move(*files[i]));
+  }
+  return read;
+}
+
+/// Opens the mask images as far as that goes without texture coordinates, which alone tell the UDIM
+/// tiles in use.
+void check_masks(const Config& config, Problems& problems) {
+  for (const MaskSource& mask : load_masks(config.regions.mask)) {
+    if (mask.tiled()) continue;
+    try {
+      mask.read(0);
+    } catch (const Error& error) {
+      problems.add(error);
+    }
+  }
 }
 
 /// The first texture coordinate that differs from the first head's; empty if none does.
@@ -129,12 +147,19 @@ void warn(Inputs& inputs, std::string text) {
 
 }  // namespace
 
+void check_inputs(const ConfigReading& reading, Problems& problems) {
+  if (reading.heads_known) compare_with_first(read_heads(reading.config, problems), problems);
+  if (reading.regions_known) check_masks(reading.config, problems);
+}
+
 std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
   Inputs inputs;
   inputs.files = read_heads(config, problems);
-  if (!problems.empty()) return std::nullopt;
   compare_with_first(inputs.files, problems);
-  if (!problems.empty()) return std::nullopt;
+  if (!problems.empty()) {
+    check_masks(config, problems);
+    return std::nullopt;
+  }
 
   inputs.materials = face_materials(inputs.files[0]);
   inputs.faces = take_faces(config, inputs.files);

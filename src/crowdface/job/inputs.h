@@ -8,7 +8,7 @@
 #include "crowdface/core/hash.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/io/obj_file.h"
-#include "crowdface/job/config.h"
+#include "crowdface/job/config_reader.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/region/region_weights.h"
 #include "crowdface/smooth/smoothing_operator.h"
@@ -31,10 +31,14 @@ struct Inputs {
   std::vector<std::string> warnings;  ///< in a fixed order; also logged
 };
 
-/// Reads heads (in parallel) and masks and checks them. Every problem is added, a file at a time;
-/// warnings are logged and kept.
+/// Reads heads (in parallel) and masks and checks them. Every problem is added; warnings are logged
+/// and kept.
 /// \return nothing if there is any problem.
 std::optional<Inputs> load_inputs(const Config& config, Problems& problems);
+
+/// Only adds the problems of the heads and masks that a config names, as far as it is known: what a
+/// user should hear together with what is wrong in the config.
+void check_inputs(const ConfigReading& reading, Problems& problems);
 
 /// The hash of what a mesh depends on beside its recipe: topology, heads, masks, and the smoothing
 /// settings. Each recipe of a plan carries it.

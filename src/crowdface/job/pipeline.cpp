@@ -73,17 +73,21 @@ std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& hea
 
 std::optional<Job> load_job(const std::filesystem::path& config_file,
                             const ConfigOverrides& overrides, Problems& problems) {
-  std::optional<Config> config = read_config(config_file, overrides, problems);
-  if (!config) return std::nullopt;
-  std::optional<Inputs> inputs = load_inputs(*config, problems);
+  ConfigReading reading = read_config_parts(config_file, overrides, problems);
+  if (!reading.complete) {
+    check_inputs(reading, problems);
+    return std::nullopt;
+  }
+  Config& config = reading.config;
+  std::optional<Inputs> inputs = load_inputs(config, problems);
   if (!inputs) return std::nullopt;
-  check_levels(*config, *inputs, problems);
+  check_levels(config, *inputs, problems);
   if (!problems.empty()) return std::nullopt;
-  const SmoothingOperator smoothing(inputs->adjacency, config->smoothing.boundary,
-                                    config->smoothing.operator_kind);
-  const PlanNames names = {config->faces.names, config->region_names()};
-  const Digest settings = settings_digest(*config, *inputs);
-  return Job{std::move(*config), std::move(*inputs), smoothing, names, settings};
+  const SmoothingOperator smoothing(inputs->adjacency, config.smoothing.boundary,
+                                    config.smoothing.operator_kind);
+  const PlanNames names = {config.faces.names, config.region_names()};
+  const Digest settings = settings_digest(config, *inputs);
+  return Job{std::move(config), std::move(*inputs), smoothing, names, settings};
 }
 
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
@@ -19,7 +20,9 @@ const std::string& name_at(const std::vector<std::string>& names, Index i) {
 }
 
 /// Distances are for reading: four decimals, a tenth of a micrometre.
-double rounded_mm(double mm) { return std::round(mm * 1e4) / 1e4; }
+double rounded_mm(double mm) {
+  return std::round(mm * 1e4) / 1e4;
+}
 
 template <class T>
 Json or_null(const std::optional<T>& value) {
@@ -72,8 +75,8 @@ class LineReader {
  private:
   [[noreturn]] void fail(std::string_view field, std::string_view expected,
                          std::string_view found) const {
-    throw InvalidInput(concat(place_, ": ", field, ": expected ", expected, ", found ",
-                              found.substr(0, 80)));
+    throw InvalidInput(
+        concat(place_, ": ", field, ": expected ", expected, ", found ", found.substr(0, 80)));
   }
 
   const Json& member(const Json& json, const std::string& key) const {
@@ -117,7 +120,8 @@ class LineReader {
     RegionRecipe result;
     if (const Json& position = member(json, "position"); !position.is_null()) {
       if (!position.is_array() || position.size() != 2) fail("position", "[x, y]", position.dump());
-      result.position = PlanePoint(number(position[0], "position"), number(position[1], "position"));
+      result.position =
+          PlanePoint(number(position[0], "position"), number(position[1], "position"));
     }
     const Json& weights = member(json, "weights");
     if (!weights.is_object()) fail("weights", "an object", weights.dump());
@@ -209,7 +213,8 @@ std::string format_csv(const std::vector<Recipe>& crowd, const PlanNames& names)
       header.push_back(csv_field(concat(region, '_', column)));
     }
   }
-  for (const char* column : {"nearest_face", "nearest_face_mm", "nearest_crowd", "nearest_crowd_mm"}) {
+  for (const char* column :
+       {"nearest_face", "nearest_face_mm", "nearest_crowd", "nearest_crowd_mm"}) {
     header.emplace_back(column);
   }
   std::string table = join(header, ",") + "\r\n";

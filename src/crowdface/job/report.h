@@ -14,8 +14,8 @@ struct FaceFiles {
   std::string mesh_digest;  ///< of the OBJ's bytes; empty if none was written
 };
 
-/// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no time
-/// and no machine: the same inputs give the same bytes.
+/// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no
+/// time and no machine: the same inputs give the same bytes.
 std::string format_report(const Job& job, const Cast& cast, const std::vector<FaceFiles>& files,
                           std::size_t sheets, const std::vector<std::string>& warnings);
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/mesh/alignment.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"

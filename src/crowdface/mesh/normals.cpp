@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/mesh/normals.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include <Eigen/Geometry>
 
 namespace crowdface {
 
-Eigen::Vector3d face_area_vector(const Topology& topology, Index face,
-                                 const Positions& positions) {
+Eigen::Vector3d face_area_vector(const Topology& topology, Index face, const Positions& positions) {
   const auto vertices = topology.face(face);
   // Relative to the first corner, so that a mesh far from the origin loses no digits.
   const Eigen::Vector3d origin = positions.row(vertices[0]);

@@ -6,7 +6,8 @@
 namespace crowdface {
 
 /// #V by 3 unit normals: the sum of the normals of the faces around a vertex, each weighted by its
-/// area (Newell's method for polygons, so quads need not be flat). (0, 0, 1) where the sum vanishes.
+/// area (Newell's method for polygons, so quads need not be flat). (0, 0, 1) where the sum
+/// vanishes.
 Positions vertex_normals(const Topology& topology, const Positions& positions);
 
 /// Twice the vector area of one face (Newell's method): its direction is the face's normal, its

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace crowdface {
 
@@ -23,8 +24,8 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 /// Face f owns the corners [face_offsets[f], face_offsets[f + 1]).
 struct Topology {
   Index vertex_count = 0;
-  std::vector<std::uint32_t> corner_vertices;    ///< #C, each < vertex_count
-  std::vector<std::uint32_t> corner_uvs;         ///< #C rows of the UVs or kNoIndex; or empty
+  std::vector<std::uint32_t> corner_vertices;     ///< #C, each < vertex_count
+  std::vector<std::uint32_t> corner_uvs;          ///< #C rows of the UVs or kNoIndex; or empty
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1, ascending
 
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }

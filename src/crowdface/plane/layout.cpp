@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/plane/layout.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/Eigenvalues>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"

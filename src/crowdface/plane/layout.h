@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "crowdface/plane/weights.h"
 
@@ -29,8 +30,9 @@ std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances);
 /// the points coincide or lie on a line.
 std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points);
 
-/// The point of a convex polygon that three uniform numbers in [0, 1) stand for, uniform by area (by
-/// length on a segment): `pick` chooses the triangle of the fan, `a` and `b` the place in it.
-PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick, double a, double b);
+/// The point of a convex polygon that three uniform numbers in [0, 1) stand for, uniform by area
+/// (by length on a segment): `pick` chooses the triangle of the fan, `a` and `b` the place in it.
+PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick, double a,
+                            double b);
 
 }  // namespace crowdface

@@ -55,6 +55,7 @@ Image MaskSource::read(int tile) const {
 
 std::vector<MaskSource> load_masks(const std::vector<std::string>& paths) {
   std::vector<MaskSource> masks;
+  masks.reserve(paths.size());
   for (const std::string& path : paths) masks.emplace_back(path);
   return masks;
 }

@@ -44,11 +44,12 @@ double tile_step(double coordinate, double polygon_mean);
 /// 0 ≤ row < 900.
 int tile_number(double column, double row);
 
-/// A vertex in no face has no place.
-/// \throws InvalidInput if a vertex that faces use has no texture coordinate at any of its corners,
-/// a
-///         coordinate is not finite, or it lies outside all UDIM tiles (if `tiled`).
-enum class Tiles { kOne, kUdim };  ///< with kOne, every sample's tile is 1001
+/// One picture for all coordinates (every sample's tile is 1001), or UDIM tiles.
+enum class Tiles { kOne, kUdim };
+
+/// The places of every vertex; a vertex in no face has none.
+/// \throws InvalidInput if a vertex of a face has no texture coordinate at any of its corners, a
+///         coordinate is not finite, or it lies outside all UDIM tiles (where there are tiles).
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles);
 
 /// The tiles that some sample lies in.

@@ -75,7 +75,7 @@ std::vector<PlacedEye> place_eyes(const Eyeballs& eyeballs, const std::vector<fl
 }
 
 Light eye_albedo(const PlacedEye& eye, const Eigen::Vector3f& gaze, const Eigen::Vector3f& point) {
-  const Light white = albedo_of(SurfaceKind::kEye);
+  Light white = albedo_of(SurfaceKind::kEye);
   const Eigen::Vector3f from_centre = point - eye.centre;
   const float ahead = from_centre.dot(gaze);
   if (ahead <= 0 || eye.radius <= 0) return white;

@@ -48,8 +48,10 @@ SamplingPattern::SamplingPattern(int samples_per_side, int sky_rays) {
   for (int s = 0; s < samples; ++s) {
     // No two samples share a row or a column of the fine grid (Kensler 2013, "Correlated
     // multi-jittered sampling", canonical arrangement).
-    const auto i = static_cast<float>(s % samples_per_side);
-    const auto j = static_cast<float>(s / samples_per_side);
+    const int column = s % samples_per_side;
+    const int row = s / samples_per_side;
+    const auto i = static_cast<float>(column);
+    const auto j = static_cast<float>(row);
     places.emplace_back((i + (j + 0.5F) / side) / side, (j + (i + 0.5F) / side) / side);
     lamp.push_back(disc_point(s, samples));
     // Strided, so that the rays of one sample alone are spread out too.

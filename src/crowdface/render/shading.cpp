@@ -38,12 +38,22 @@ struct Lamp {
   Light colour;
 };
 
-const Lamp kKey = {Eigen::Vector3f(-0.62F, 0.62F, 0.62F).normalized(), {1.55F, 1.49F, 1.39F}};
-const Lamp kFill = {Eigen::Vector3f(0.85F, 0.05F, 0.55F).normalized(), {0.15F, 0.165F, 0.185F}};
-const Lamp kRimRight = {Eigen::Vector3f(0.80F, 0.35F, -0.50F).normalized(), {0.62F, 0.65F, 0.71F}};
-const Lamp kRimLeft = {Eigen::Vector3f(-0.85F, 0.25F, -0.55F).normalized(), {0.25F, 0.26F, 0.28F}};
-const Light kSkyAbove = {0.29F, 0.30F, 0.315F};
-const Light kSkyBelow = {0.10F, 0.093F, 0.086F};
+struct Studio {
+  Lamp key, fill, rim_right, rim_left;
+  Light sky_above, sky_below;
+};
+
+const Studio& studio() {
+  static const Studio lamps = {
+      .key = {Eigen::Vector3f(-0.62F, 0.62F, 0.62F).normalized(), {1.55F, 1.49F, 1.39F}},
+      .fill = {Eigen::Vector3f(0.85F, 0.05F, 0.55F).normalized(), {0.15F, 0.165F, 0.185F}},
+      .rim_right = {Eigen::Vector3f(0.80F, 0.35F, -0.50F).normalized(), {0.62F, 0.65F, 0.71F}},
+      .rim_left = {Eigen::Vector3f(-0.85F, 0.25F, -0.55F).normalized(), {0.25F, 0.26F, 0.28F}},
+      .sky_above = {0.29F, 0.30F, 0.315F},
+      .sky_below = {0.10F, 0.093F, 0.086F}};
+  return lamps;
+}
+
 constexpr float kPi = 3.14159265358979F;
 
 /// Diffuse light with the terminator moved to a cosine of −wrap, total energy kept.
@@ -103,25 +113,29 @@ Light albedo_of(SurfaceKind kind) {
 }
 
 Eigen::Vector3f key_direction() {
-  return kKey.direction;
+  return studio().key.direction;
 }
 
 Light shade(const ShadePoint& point) {
+  const Studio& lamps = studio();
   const Material material = material_of(point.kind);
   const Eigen::Vector3f& n = point.normal;
   const Light open = with_bounces(point.sky, point.albedo);
 
-  Light diffuse = kKey.colour * wrapped(n.dot(kKey.direction), material.wrap) * point.key;
-  diffuse += kFill.colour * wrapped(n.dot(kFill.direction), material.wrap) * open;
-  diffuse += kRimRight.colour * std::max(n.dot(kRimRight.direction), 0.0F) * point.sky;
-  diffuse += kRimLeft.colour * std::max(n.dot(kRimLeft.direction), 0.0F) * point.sky;
-  diffuse += (kSkyBelow + (kSkyAbove - kSkyBelow) * (0.5F + 0.5F * n.y())) * open;
+  Light diffuse = lamps.key.colour * wrapped(n.dot(lamps.key.direction), material.wrap) * point.key;
+  diffuse += lamps.fill.colour * wrapped(n.dot(lamps.fill.direction), material.wrap) * open;
+  diffuse += lamps.rim_right.colour * std::max(n.dot(lamps.rim_right.direction), 0.0F) * point.sky;
+  diffuse += lamps.rim_left.colour * std::max(n.dot(lamps.rim_left.direction), 0.0F) * point.sky;
+  diffuse += (lamps.sky_below + (lamps.sky_above - lamps.sky_below) * (0.5F + 0.5F * n.y())) * open;
 
-  Light gloss = kKey.colour * highlight(n, point.to_eye, kKey.direction, material) * point.key;
+  Light gloss =
+      lamps.key.colour * highlight(n, point.to_eye, lamps.key.direction, material) * point.key;
   const float soft = point.sky * point.sky;
-  gloss += kFill.colour * highlight(n, point.to_eye, kFill.direction, material) * soft;
-  gloss += kRimRight.colour * highlight(n, point.to_eye, kRimRight.direction, material) * soft;
-  gloss += kRimLeft.colour * highlight(n, point.to_eye, kRimLeft.direction, material) * soft;
+  gloss += lamps.fill.colour * highlight(n, point.to_eye, lamps.fill.direction, material) * soft;
+  gloss += lamps.rim_right.colour *
+           highlight(n, point.to_eye, lamps.rim_right.direction, material) * soft;
+  gloss +=
+      lamps.rim_left.colour * highlight(n, point.to_eye, lamps.rim_left.direction, material) * soft;
 
   const Light light = point.albedo * diffuse + gloss;
   return point.inside ? Light(light * 0.3F) : light;

@@ -14,7 +14,6 @@ constexpr std::array<std::array<float, 3>, 6> kPalette = {{{0.84F, 0.37F, 0.00F}
                                                            {0.80F, 0.47F, 0.65F},
                                                            {0.90F, 0.62F, 0.00F},
                                                            {0.34F, 0.71F, 0.91F}}};
-const Eigen::RowVector3f kClay = {0.80F, 0.78F, 0.76F};
 
 }  // namespace
 
@@ -33,10 +32,11 @@ VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha) {
 
 VertexColours mask_colours(const Eigen::Ref<const Eigen::VectorXd>& mask,
                            const Eigen::Vector3f& colour) {
+  const Eigen::RowVector3f clay(0.80F, 0.78F, 0.76F);
   VertexColours colours(mask.size(), 3);
   for (Eigen::Index i = 0; i < mask.size(); ++i) {
     const float share = static_cast<float>(std::clamp(mask[i], 0.0, 1.0));
-    colours.row(i) = (1 - share) * kClay + share * colour.transpose();
+    colours.row(i) = (1 - share) * clay + share * colour.transpose();
   }
   return colours;
 }

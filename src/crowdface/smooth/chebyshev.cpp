@@ -48,9 +48,8 @@ void next_step(const SmoothingOperator& smoothing, const double* now, double* pr
 
 /// The recurrence for up to twelve columns.
 template <int kColumns>
-void recurrence(
-    const SmoothingOperator& smoothing, const Columns& x, Index terms,
-    const std::function<void(Index, Index, Index, const double*)>& visit) {
+void recurrence(const SmoothingOperator& smoothing, const Columns& x, Index terms,
+                const std::function<void(Index, Index, Index, const double*)>& visit) {
   Columns previous = x, now(x.rows(), x.cols());
   for (Index k = 0; k < terms; ++k) {
     throw_if_interrupted();
@@ -68,8 +67,8 @@ void recurrence(
 }
 
 /// Runs of at most twelve columns of x, each handed to `body(first_column, columns)`.
-void for_each_column_run(
-    const Columns& x, const std::function<void(Index first, const Columns& columns)>& body) {
+void for_each_column_run(const Columns& x,
+                         const std::function<void(Index first, const Columns& columns)>& body) {
   for (Index first = 0; first < x.cols();) {
     const Index count = detail::columns_at_a_time(x.cols() - first);
     if (first == 0 && count == x.cols()) {
@@ -119,9 +118,8 @@ void chebyshev_recurrence(const SmoothingOperator& smoothing, const Columns& x, 
                           const std::function<void(Index, Index, Index, const double*)>& visit) {
   require_columns(smoothing, x);
   if (x.cols() > 12) throw InvalidInput(concat("at most 12 columns at a time, got ", x.cols()));
-  detail::with_column_count(x.cols(), [&]<int kColumns>() {
-    recurrence<kColumns>(smoothing, x, terms, visit);
-  });
+  detail::with_column_count(
+      x.cols(), [&]<int kColumns>() { recurrence<kColumns>(smoothing, x, terms, visit); });
 }
 
 std::vector<Columns> filter_many(const SmoothingOperator& smoothing, const Columns& x,
@@ -129,19 +127,20 @@ std::vector<Columns> filter_many(const SmoothingOperator& smoothing, const Colum
   require_columns(smoothing, x);
   std::vector<Columns> results(series.size(), Columns::Zero(x.rows(), x.cols()));
   for_each_column_run(x, [&](Index first, const Columns& columns) {
-    chebyshev_recurrence(
-        smoothing, columns, longest(series), [&](Index k, Index begin, Index end, const double* t) {
-          for (std::size_t o = 0; o < series.size(); ++o) {
-            const double a =
-                k < static_cast<Index>(series[o].size()) ? series[o][static_cast<std::size_t>(k)] : 0;
-            if (a == 0) continue;
-            for (Index i = begin; i < end; ++i) {
-              double* out = results[o].data() + i * x.cols() + first;
-              const double* row = t + (i - begin) * columns.cols();
-              for (Index c = 0; c < columns.cols(); ++c) out[c] += a * row[c];
-            }
-          }
-        });
+    chebyshev_recurrence(smoothing, columns, longest(series),
+                         [&](Index k, Index begin, Index end, const double* t) {
+                           for (std::size_t o = 0; o < series.size(); ++o) {
+                             const double a = k < static_cast<Index>(series[o].size())
+                                                  ? series[o][static_cast<std::size_t>(k)]
+                                                  : 0;
+                             if (a == 0) continue;
+                             for (Index i = begin; i < end; ++i) {
+                               double* out = results[o].data() + i * x.cols() + first;
+                               const double* row = t + (i - begin) * columns.cols();
+                               for (Index c = 0; c < columns.cols(); ++c) out[c] += a * row[c];
+                             }
+                           }
+                         });
   });
   for (std::size_t o = 0; o < series.size(); ++o) {
     const double sum = sum_of(series[o]);
@@ -163,20 +162,20 @@ Columns filter_each(const SmoothingOperator& smoothing, const Columns& x,
   for_each_column_run(x, [&](Index first, const Columns& columns) {
     const Index heads = columns.cols() / 3;
     const auto* run = series.data() + first / 3;
-    chebyshev_recurrence(
-        smoothing, columns, longest({run, run + heads}),
-        [&](Index k, Index begin, Index end, const double* t) {
-          for (Index g = 0; g < heads; ++g) {
-            const double a =
-                k < static_cast<Index>(run[g].size()) ? run[g][static_cast<std::size_t>(k)] : 0;
-            if (a == 0) continue;
-            for (Index i = begin; i < end; ++i) {
-              double* out = result.data() + i * x.cols() + first + 3 * g;
-              const double* row = t + (i - begin) * columns.cols() + 3 * g;
-              for (int c = 0; c < 3; ++c) out[c] += a * row[c];
-            }
-          }
-        });
+    chebyshev_recurrence(smoothing, columns, longest({run, run + heads}),
+                         [&](Index k, Index begin, Index end, const double* t) {
+                           for (Index g = 0; g < heads; ++g) {
+                             const double a = k < static_cast<Index>(run[g].size())
+                                                  ? run[g][static_cast<std::size_t>(k)]
+                                                  : 0;
+                             if (a == 0) continue;
+                             for (Index i = begin; i < end; ++i) {
+                               double* out = result.data() + i * x.cols() + first + 3 * g;
+                               const double* row = t + (i - begin) * columns.cols() + 3 * g;
+                               for (int c = 0; c < 3; ++c) out[c] += a * row[c];
+                             }
+                           }
+                         });
   });
   for (Index i = 0; i < x.rows(); ++i) {
     if (!smoothing.neighbours(i).empty()) continue;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/cubic_fit.h"
 
-#include <Eigen/QR>
 #include <cmath>
+
+#include <Eigen/QR>
 
 #include "crowdface/smooth/chebyshev.h"
 

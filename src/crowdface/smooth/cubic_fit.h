@@ -20,8 +20,8 @@ struct CubicFit {
   std::array<Field, kRank> fields;  ///< c_p, #V by 3 each, in the positions' unit
 };
 
-/// The levels the fit uses: round(L_max·(j/40)²) for j = 0 … 40, each once: dense at the start, where
-/// fine detail goes, as the paper has it.
+/// The levels the fit uses: round(L_max·(j/40)²) for j = 0 … 40, each once: dense at the start,
+/// where fine detail goes, as the paper has it.
 std::vector<std::uint64_t> cubic_fit_levels(std::uint64_t max_level);
 
 /// Fits one head. The levels are combined while the Chebyshev recurrence runs; none is stored.

@@ -9,8 +9,8 @@ namespace crowdface {
 
 Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::uint64_t level) {
   if (values.rows() != smoothing.vertex_count()) {
-    throw InvalidInput(concat("smoothing expects ", smoothing.vertex_count(), " rows, got ",
-                              values.rows()));
+    throw InvalidInput(
+        concat("smoothing expects ", smoothing.vertex_count(), " rows, got ", values.rows()));
   }
   // On purpose the plainest code: what the fast filter is compared with.
   Columns now = values, next(values.rows(), values.cols());
@@ -22,8 +22,7 @@ Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::
           double mean = 0;
           for (const std::uint32_t n : ring) mean += now(n, c);
           mean = ring.empty() ? now(i, c) : mean / static_cast<double>(ring.size());  // Eq. 1
-          next(i, c) =
-              smoothing.kind() == OperatorKind::kLazy ? 0.5 * (now(i, c) + mean) : mean;
+          next(i, c) = smoothing.kind() == OperatorKind::kLazy ? 0.5 * (now(i, c) + mean) : mean;
         }
       }
     });

@@ -17,7 +17,8 @@ inline constexpr double kWavelengthPerSigma = 5.336446256636997;
 /// \throws InvalidInput if an argument is not positive or the result would exceed 10⁹.
 std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_length);
 
-/// The inverse: the half-amplitude wavelength of `level` iterations, in the unit of the edge length.
+/// The inverse: the half-amplitude wavelength of `level` iterations, in the unit of the edge
+/// length.
 double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length);
 
 }  // namespace crowdface

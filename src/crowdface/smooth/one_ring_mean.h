@@ -8,9 +8,9 @@
 
 namespace crowdface::detail {
 
-/// Eq. 1 for rows [begin, end): hands `use(row, mean)` the mean of each row's neighbours, C numbers;
-/// a row that does not move is its own mean. Neighbours are added in ascending order, so that the
-/// bits depend on nothing but the values.
+/// Eq. 1 for rows [begin, end): hands `use(row, mean)` the mean of each row's neighbours, C
+/// numbers; a row that does not move is its own mean. Neighbours are added in ascending order, so
+/// that the bits depend on nothing but the values.
 template <int kColumns, class Use>
 void for_each_mean(const SmoothingOperator& smoothing, const double* values, Index begin, Index end,
                    const Use& use) {
@@ -31,8 +31,8 @@ void for_each_mean(const SmoothingOperator& smoothing, const double* values, Ind
   }
 }
 
-/// Calls `body.template operator()<C>()` with the number of columns as a constant, so that the inner
-/// loops unroll. Columns come in threes, the coordinates of a vertex.
+/// Calls `body.template operator()<C>()` with the number of columns as a constant, so that the
+/// inner loops unroll. Columns come in threes, the coordinates of a vertex.
 template <class Body>
 void with_column_count(Index columns, const Body& body) {
   switch (columns) {
@@ -48,6 +48,8 @@ void with_column_count(Index columns, const Body& body) {
 }
 
 /// How many columns `with_column_count` takes at a time of `left`.
-inline Index columns_at_a_time(Index left) { return left >= 12 ? 12 : left; }
+inline Index columns_at_a_time(Index left) {
+  return left >= 12 ? 12 : left;
+}
 
 }  // namespace crowdface::detail

@@ -37,7 +37,7 @@ class SmoothingOperator {
 
  private:
   OperatorKind kind_;
-  std::vector<std::uint32_t> offsets_;     ///< #V + 1
+  std::vector<std::uint32_t> offsets_;  ///< #V + 1
   std::vector<std::uint32_t> neighbours_;
 };
 
