@@ -64,10 +64,13 @@ TEST(WeightsAt, HeadsAtOneAnchorShare) {
 }
 
 TEST(WeightsAt, MostSourcesKeepTheLargestAndNormaliseAgain) {
-  expect_weights(weights_at(kAnchors, 1, kAll, kOrigin, kPartition, 2), {{0, 0.8}, {1, 0.2}});
+  // The target's ω_0 = 1/16 always stays and is not counted.
+  const double with_target = 1 + 1. / 4 + 1. / 16;
+  expect_weights(weights_at(kAnchors, 3, kAll, kOrigin, kPartition, 2),
+                 {{0, 1 / with_target}, {1, 1. / 4 / with_target}, {3, 1. / 16 / with_target}});
+  expect_weights(weights_at(kAnchors, 1, kAll, kOrigin, kPartition, 1), {{0, 0.8}, {1, 0.2}});
   expect_weights(weights_at(kAnchors, 1, kAll, kOrigin, kPartition, 99),
                  weights_at(kAnchors, 1, kAll, kOrigin, kPartition, std::nullopt));
-  // ω_0 = 1/16 stays and is not counted.
   const double sum = 1 + 1. / 4 + 1. / 16;
   expect_weights(weights_at(kAnchors, 3, kAll, kOrigin, kPrinted, 2),
                  {{0, 1 / sum}, {1, 1. / 4 / sum}});
@@ -75,7 +78,9 @@ TEST(WeightsAt, MostSourcesKeepTheLargestAndNormaliseAgain) {
 
 TEST(WeightsAt, OfEqualWeightsTheFirstIsKept) {
   const std::vector<PlanePoint> anchors = {{3, 0}, {0, 1}, {1, 0}, {0, -1}};
-  expect_weights(weights_at(anchors, 0, kAll, kOrigin, kPartition, 2), {{1, 0.5}, {2, 0.5}});
+  const double sum = 1. / 9 + 2;
+  expect_weights(weights_at(anchors, 0, kAll, kOrigin, kPartition, 2),
+                 {{0, 1. / 9 / sum}, {1, 1 / sum}, {2, 1 / sum}});
 }
 
 TEST(WeightsAt, FarAndNearAnchorsStayFinite) {

@@ -311,6 +311,11 @@ struct Wrong {
   const char* phrase;
 };
 
+/// Names a case in test lists; without it they would show addresses.
+void PrintTo(const Wrong& wrong, std::ostream* out) {
+  *out << wrong.text;
+}
+
 class WrongConfig : public ConfigTest, public testing::WithParamInterface<Wrong> {
  protected:
   void SetUp() override {

@@ -296,11 +296,17 @@ std::map<std::string, double> weights_at(
   std::stable_sort(weights.begin(), weights.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   double denominator = 0;  // Eq. 3, from i = 0
-  if (printed) {
-    for (const auto& [name, w] : weights) denominator += name == target ? w : 0;
-    std::erase_if(weights, [&](const auto& entry) { return entry.first == target; });
-  }
+  // The target's own weight always stays and is not counted.
+  const auto own = std::find_if(weights.begin(), weights.end(),
+                                [&](const auto& entry) { return entry.first == target; });
+  const std::pair<std::string, double> omega_0 = *own;
+  weights.erase(own);
   if (most && weights.size() > *most) weights.resize(*most);
+  if (printed) {
+    denominator += omega_0.second;
+  } else {
+    weights.push_back(omega_0);
+  }
   for (const auto& [name, w] : weights) denominator += w;
   std::map<std::string, double> result;
   for (const auto& [name, w] : weights) {

@@ -41,16 +41,22 @@ std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Ind
   const std::vector<double> omega = inverse_square_weights(taking_part, position);  // Eq. 4
 
   std::vector<SourceWeight> weights;
-  double omega_0 = 0;
+  SourceWeight omega_0{target, 0};
   for (std::size_t i = 0; i < heads.size(); ++i) {
-    if (normalization == Normalization::kPrinted && heads[i] == target) {
-      omega_0 = omega[i];
+    if (heads[i] == target) {
+      omega_0.weight = omega[i];
     } else {
       weights.push_back({heads[i], omega[i]});
     }
   }
   if (max_sources) keep_largest(weights, static_cast<std::size_t>(*max_sources));
-  divide_by_sum(weights, omega_0);  // ω̂_i = ω_i / Σ_{i=0}^n ω_i, the quotient of Eq. 3
+  const bool takes_part = normalization == Normalization::kPartition;
+  if (takes_part) {
+    const auto after = std::find_if(weights.begin(), weights.end(),
+                                    [&](const auto& source) { return source.head > target; });
+    weights.insert(after, omega_0);
+  }
+  divide_by_sum(weights, takes_part ? 0 : omega_0.weight);  // ω̂_i, the quotient of Eq. 3
   std::erase_if(weights, [](const SourceWeight& source) { return source.weight == 0; });
   return weights;
 }

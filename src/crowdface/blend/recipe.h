@@ -50,10 +50,11 @@ struct Recipe {
 /// The weights ω̂ of a position (Eqs. 3 and 4).
 /// Partition: the target takes part as face 0 with its own detail, whether or not it is a source,
 /// and the weights sum to one. Printed: the target's ω_0 counts in the denominator only and is left
-/// out of the result, whose weights sum to less than one. \param anchors      #heads \param sources
-/// heads that lend detail, ascending \param max_sources  keep only that many of the largest weights
-/// (of equals the first), then
-///                     normalise again; ω_0 of the printed formula always stays and is not counted
+/// out of the result, whose weights sum to less than one.
+/// \param anchors      #heads
+/// \param sources      heads that lend detail, ascending
+/// \param max_sources  keep only that many of the largest weights beside the target's (of equals
+///                     the first), then normalise again; ω_0 always stays and is not counted
 std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
                                      const std::vector<Index>& sources, const PlanePoint& position,
                                      Normalization normalization, std::optional<int> max_sources);

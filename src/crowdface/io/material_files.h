@@ -19,9 +19,9 @@ struct MaterialFiles {
 };
 
 /// The material files that a mesh names and the textures that those name. A file that is missing is
-/// a warning, not an error; so is a path that leads out of the mesh's folder, which is not
-/// followed. \param mesh       path of the OBJ file. \param libraries  the arguments of its
-/// `mtllib` lines; each may name several files.
+/// a warning, not an error; so is a path that leads out of the mesh's folder, which is not followed.
+/// \param mesh       path of the OBJ file.
+/// \param libraries  the arguments of its `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
                                   const std::vector<std::string>& libraries);
 

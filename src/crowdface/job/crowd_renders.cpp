@@ -15,11 +15,15 @@
 namespace crowdface {
 namespace {
 
+/// Of a bust, shoulders may leave the picture: it is for judging faces.
+constexpr double kCutBelow = 0.22;
+
 std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
                                  const Inputs& inputs) {
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
-  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views);
+  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views,
+                     {.cut_below = kCutBelow});
 }
 
 std::vector<SurfaceKind> surface_kinds(const std::vector<std::string>& materials) {
@@ -42,7 +46,8 @@ void remove_pages_from(const CrowdDirectory& directory, std::size_t page) {
 CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& sheet,
                            const Inputs& inputs)
     : cameras_(fit_to_heads(config, sheet, inputs)),
-      renderer_(inputs.faces.topology, RenderOptions{.size_px = sheet.cell},
+      renderer_(inputs.faces.topology,
+                RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
                 surface_kinds(inputs.materials)) {}
 
 Rgb8Image CrowdRenders::render(const Positions& positions, const VertexColours* colours) const {

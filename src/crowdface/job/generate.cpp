@@ -2,6 +2,7 @@
 #include "crowdface/job/generate.h"
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -160,18 +161,9 @@ void tell_dry_run(const Job& job) {
                   config.output.directory.string(), "; nothing was written"));
 }
 
-}  // namespace
-
-void generate(const fs::path& config_file, const ConfigOverrides& overrides,
-              const GenerateOptions& options) {
-  StageSeconds stages;
-  const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
-  if (options.dry_run) return tell_dry_run(job);
-  const CrowdDirectory directory{job.config.output.directory};
-  open_directory(job, directory, options.replace);
-  const CrowdLog log(directory.log());
-  // Said before there was a folder for the log; at this level they reach the file alone.
-  for (const std::string& warning : job.inputs.warnings) log_debug(warning);
+/// Everything after the inputs are checked and the folder is ready.
+void fill_directory(const Job& job, const CrowdDirectory& directory, const GenerateOptions& options,
+                    StageSeconds& stages) {
   const Prepared prepared = timed(stages, "prepare", [&] {
     return prepare(job.config, job.inputs, job.smoothing, options.cache);
   });
@@ -203,6 +195,26 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   log_info(concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ",
                   directory.root.string(),
                   pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : ""));
+}
+
+}  // namespace
+
+void generate(const fs::path& config_file, const ConfigOverrides& overrides,
+              const GenerateOptions& options) {
+  StageSeconds stages;
+  const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
+  if (options.dry_run) return tell_dry_run(job);
+  const CrowdDirectory directory{job.config.output.directory};
+  open_directory(job, directory, options.replace);
+  const CrowdLog log(directory.log());
+  // Said before there was a folder for the log; at this level they reach the file alone.
+  for (const std::string& warning : job.inputs.warnings) log_debug(warning);
+  try {
+    fill_directory(job, directory, options, stages);
+  } catch (const std::exception& error) {
+    log_debug(error.what());  // `main` says it aloud, when this log is closed
+    throw;
+  }
 }
 
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,

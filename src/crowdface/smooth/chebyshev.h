@@ -27,8 +27,9 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level,
 /// Computes T_0(W) x, T_1(W) x, … T_{terms − 1}(W) x and shows each block of rows as soon as it is
 /// made: `visit(k, begin, end, block)`, `block` being the rows [begin, end) of T_k(W) x one after
 /// the other. Calls for different blocks come from different threads; the ks of one block come in
-/// order. \param x  #V by C, C a multiple of 3. \throws InvalidInput if the row count is not the
-/// operator's or C is no multiple of 3.
+/// order.
+/// \param x  #V by C, C a multiple of 3, at most 12.
+/// \throws InvalidInput if the row count is not the operator's or C is none of these.
 void chebyshev_recurrence(
     const SmoothingOperator& smoothing, const Columns& x, Index terms,
     const std::function<void(Index k, Index begin, Index end, const double* block)>& visit);
