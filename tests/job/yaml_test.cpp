@@ -77,6 +77,11 @@ struct Malformed {
   const char* phrase;
 };
 
+/// Names a case in test lists; without it they would show addresses.
+void PrintTo(const Malformed& malformed, std::ostream* out) {
+  *out << malformed.place;
+}
+
 class MalformedYaml : public testing::TestWithParam<Malformed> {};
 
 TEST_P(MalformedYaml, IsToldWithItsPlace) {
