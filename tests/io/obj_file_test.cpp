@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/obj_file.h"
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,11 @@ const std::vector<Malformed> kMalformed = {
     {"old_mac", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", {}},
     {"nul_byte", kTriangle + std::string("f 1 2 3 \0\n", 10), {":4:"}},
 };
+
+/// Names a case in test lists; without it they would show addresses.
+void PrintTo(const Malformed& malformed, std::ostream* out) {
+  *out << malformed.name;
+}
 
 class MalformedObj : public ::testing::TestWithParam<Malformed> {};
 

@@ -6,6 +6,7 @@
 
 #include "crowdface/mesh/normals.h"
 #include "crowdface/smooth/chebyshev.h"
+#include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
 namespace {
@@ -59,14 +60,7 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
 }
 
 std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level) {
-  std::vector<std::uint64_t> levels;
-  for (int j = 0; j <= kTrajectorySteps; ++j) {
-    const double share = static_cast<double>(j) / kTrajectorySteps;
-    const auto level =
-        static_cast<std::uint64_t>(std::round(static_cast<double>(max_level) * share * share));
-    if (levels.empty() || level != levels.back()) levels.push_back(level);
-  }
-  return levels;
+  return levels_dense_at_start(max_level, kTrajectorySteps);
 }
 
 Trajectory sample_trajectory(const SmoothingOperator& smoothing, const Positions& positions,

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/cubic_fit.h"
 
-#include <cmath>
-
 #include <Eigen/QR>
 
 #include "crowdface/smooth/chebyshev.h"
+#include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
 
 std::vector<std::uint64_t> cubic_fit_levels(std::uint64_t max_level) {
   constexpr int kSteps = 40;
-  std::vector<std::uint64_t> levels;
-  for (int j = 0; j <= kSteps; ++j) {
-    const double share = static_cast<double>(j) / kSteps;
-    const auto level =
-        static_cast<std::uint64_t>(std::round(static_cast<double>(max_level) * share * share));
-    if (levels.empty() || level != levels.back()) levels.push_back(level);
-  }
-  return levels;
+  return levels_dense_at_start(max_level, kSteps);
 }
 
 std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64_t max_level) {

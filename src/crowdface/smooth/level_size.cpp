@@ -35,4 +35,15 @@ double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_le
   return kWavelengthPerSigma * edge_length * std::sqrt(variance);
 }
 
+std::vector<std::uint64_t> levels_dense_at_start(std::uint64_t max_level, int steps) {
+  std::vector<std::uint64_t> levels;
+  for (int j = 0; j <= steps; ++j) {
+    const double share = static_cast<double>(j) / steps;
+    const auto level =
+        static_cast<std::uint64_t>(std::round(static_cast<double>(max_level) * share * share));
+    if (levels.empty() || level != levels.back()) levels.push_back(level);
+  }
+  return levels;
+}
+
 }  // namespace crowdface

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "crowdface/smooth/smoothing_operator.h"
 
@@ -20,5 +21,9 @@ std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_len
 /// The inverse: the half-amplitude wavelength of `level` iterations, in the unit of the edge
 /// length.
 double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length);
+
+/// The levels round(max_level·(j/steps)²) for j = 0 … steps, each once: dense at the start, where fine
+/// detail goes.
+std::vector<std::uint64_t> levels_dense_at_start(std::uint64_t max_level, int steps);
 
 }  // namespace crowdface
