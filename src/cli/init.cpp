@@ -46,13 +46,13 @@ std::vector<fs::path> obj_files(const fs::path& folder) {
 
 /// The unit in which the mesh is as tall as a head, with or without neck and shoulders.
 LengthUnit guess_unit(double height) {
-  constexpr double kTypicalHeight_mm = 280;
+  constexpr double kTypicalHeightMm = 280;
   LengthUnit best = LengthUnit::kCentimetre;
   double best_ratio = 1e300;
   for (const LengthUnit unit :
        {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre}) {
     const double mm = std::max(height * mm_per(unit), 1e-9);
-    const double ratio = std::max(mm / kTypicalHeight_mm, kTypicalHeight_mm / mm);
+    const double ratio = std::max(mm / kTypicalHeightMm, kTypicalHeightMm / mm);
     if (ratio < best_ratio) {
       best_ratio = ratio;
       best = unit;

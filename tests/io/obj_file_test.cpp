@@ -89,7 +89,7 @@ const std::vector<Malformed> kMalformed = {
     {"byte_order_mark", "\xEF\xBB\xBF" + kTriangle + "f 1 2 3\n", {":1:", "byte-order mark"}},
     {"empty", "", {"no vertex"}},
     {"no_faces", kTriangle, {"no face"}},
-    {"binary", std::string("\x7f\x45\x4c\x46\x00\x01\x02\n v\n", 12), {":1:"}},
+    {"binary", std::string("\x7f\x45\x4c\x46\x00\x01\x02\n v\n", 11), {":1:"}},
     {"words", "this is no mesh\nat all\n", {":1:", "OBJ statement", "\"this\""}},
     {"unknown_statement", kTriangle + "face 1 2 3\n", {":4:", "OBJ statement", "\"face\""}},
     {"continued_line", kTriangle + "f 1 2 \\\n3\n", {":4:", "continued"}},

@@ -54,7 +54,7 @@ Index draw_target(const SamplingOptions& sampling, const FaceDraws& draws) {
 PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region) {
   for (std::uint32_t lane = 0; lane < 64; ++lane) {
     const auto [u, v] = draws.pair("position", region, lane);
-    const PlanePoint point(2 * u - 1, 2 * v - 1);
+    PlanePoint point(2 * u - 1, 2 * v - 1);
     if (point.x() * point.x() + point.y() * point.y() <= 1) return point;
   }
   return PlanePoint::Zero();

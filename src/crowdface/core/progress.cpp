@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/progress.h"
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -21,7 +22,7 @@ bool on_terminal() {
 
 std::string format_duration(double seconds) {
   if (seconds < 9.95) return concat(format_fixed(seconds, 1), " s");
-  const auto whole = static_cast<long long>(seconds + 0.5);
+  const auto whole = std::llround(seconds);
   if (whole < 60) return concat(whole, " s");
   if (whole < 3600) return concat(whole / 60, " min ", whole % 60, " s");
   return concat(whole / 3600, " h ", whole % 3600 / 60, " min");
