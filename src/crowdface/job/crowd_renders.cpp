@@ -67,7 +67,8 @@ std::size_t write_sheets(const CrowdDirectory& directory, const Config::ContactS
                          const std::string& title, const std::vector<std::string>& ids,
                          const std::function<Rgb8Image(std::size_t)>& picture) {
   make_directories(directory.sheets());
-  const auto per_page = static_cast<std::size_t>(sheet.columns * sheet.rows);
+  const std::size_t per_page =
+      static_cast<std::size_t>(sheet.columns) * static_cast<std::size_t>(sheet.rows);
   const std::size_t pages = (ids.size() + per_page - 1) / per_page;
   Progress progress("contact sheets", pages);
   for (std::size_t page = 0; page < pages; ++page) {
