@@ -7,6 +7,7 @@
 #include "crowdface/synth/ear.h"
 #include "crowdface/synth/guide.h"
 #include "crowdface/synth/sculpture.h"
+#include "crowdface/synth/smooth_step.h"
 #include "crowdface/synth/unwrap.h"
 
 namespace crowdface::synth {
@@ -14,11 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 /// The edge of an opening as a ray, for a direction on the unit circle (x outward, y up).
 GuideRay eye_edge(const Vector2d& c) {

@@ -5,16 +5,12 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/synth/layout.h"
+#include "crowdface/synth/smooth_step.h"
 #include "crowdface/synth/synthetic_head.h"
 #include "crowdface/synth/unwrap.h"
 
 namespace crowdface {
 namespace {
-
-double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 std::uint8_t to_byte(double x) {
   return static_cast<std::uint8_t>(std::floor(255 * x + 0.5));
@@ -34,8 +30,8 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   std::vector<std::uint8_t> out;
   for (int row = 0; row < size; ++row) {
     const double v = 1 - (row + 0.5) / size;
-    const auto top = to_byte(smooth_step(upper - half, upper + half, v));
-    const auto bottom = to_byte(smooth_step(lower + half, lower - half, v));
+    const auto top = to_byte(synth::smooth_step(upper - half, upper + half, v));
+    const auto bottom = to_byte(synth::smooth_step(lower + half, lower - half, v));
     for (int column = 0; column < size; ++column) {
       out.push_back(top);
       out.push_back(static_cast<std::uint8_t>(255 - top - bottom));

@@ -7,17 +7,13 @@
 
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
+#include "crowdface/synth/smooth_step.h"
 
 namespace crowdface::synth {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 double bump(double x) {
   const double q = 1 - x * x;

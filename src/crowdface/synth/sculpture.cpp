@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/synth/smooth_step.h"
+
 namespace crowdface::synth {
 namespace {
 
@@ -31,11 +33,6 @@ double melt(double a, double b, double k) {
 }
 double carve(double a, double b, double k) {
   return -melt(-a, b, k);
-}
-
-double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
 }
 
 double skull(const Vector3d& p) {

@@ -9,11 +9,6 @@
 
 namespace crowdface {
 
-struct SyntheticHeadOptions {
-  Index vertices = 20000;  ///< wanted size, 5,000 … 1,200,000; the layout gives the nearest it can
-  std::uint64_t seed = 1;
-};
-
 /// Synthetic human heads in one quad-only topology: skull, brows, lids, nose, lips, ears, jaw and
 /// neck, of both sexes and several ages. One component; six open boundaries (pupils, mouth,
 /// nostrils, neck). The layout is hand-made here, no scan is part of it.
