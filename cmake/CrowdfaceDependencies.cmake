@@ -14,4 +14,5 @@ set_property(TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTOR
 find_package(embree 3 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -13,13 +13,13 @@ packages=(
   g++ cmake ninja-build pkg-config
   # libraries, see cmake/CrowdfaceDependencies.cmake
   libeigen3-dev libtbb-dev libtinyobjloader-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
-  libspdlog-dev libxxhash-dev librandom123-dev libembree-dev
+  libspdlog-dev libxxhash-dev librandom123-dev libembree-dev libhwy-dev
   # OpenImageIO's CMake package insists on its command-line tools
   libopenimageio-dev openimageio-tools
   # the labels of contact sheets
   fonts-dejavu-core
-  # tests
-  libgtest-dev libgmock-dev
+  # tests and benchmarks
+  libgtest-dev libgmock-dev libbenchmark-dev
 )
 case "${1-}" in
   "") ;;

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds and runs the benchmarks at full size. Compare figures within one run only: each benchmark
+# stands beside its baseline, and the counters named "ratio…" relate the two.
+#
+#   scripts/bench.sh                    all of them
+#   scripts/bench.sh SUBJECT [OPTION …] one program, such as: scripts/bench.sh core --benchmark_filter=Hash
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install_dependencies.sh
+scripts/build.sh release
+if [ $# -gt 0 ]; then
+  subject=$1
+  shift
+  exec "build/release/bin/crowdface_${subject}_bench" "$@"
+fi
+for program in build/release/bin/crowdface_*_bench; do
+  echo "== $(basename "$program")"
+  "$program"
+done
