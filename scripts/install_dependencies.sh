@@ -19,7 +19,7 @@ packages=(
   # the labels of contact sheets
   fonts-dejavu-core
   # tests and benchmarks
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev
 )
 case "${1-}" in
   "") ;;

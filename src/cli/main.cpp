@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -9,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/instruction_set.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
@@ -93,5 +95,10 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
   crowdface::catch_interrupts();
-  return run(chosen);
+  return run([&] {
+    if (const char* set = std::getenv("CROWDFACE_INSTRUCTION_SET")) {  // NOLINT(concurrency-mt-unsafe): at start
+      crowdface::use_instruction_set(set);
+    }
+    chosen();
+  });
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
-#include "crowdface/smooth/chebyshev.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/iterate.h"
 
 #include "cli/commands.h"
@@ -22,17 +25,49 @@ struct Options {
   bool plain = false;
 };
 
+/// "500,2500" as levels, each once.
+std::vector<std::uint64_t> levels_of(const std::string& text) {
+  std::vector<std::uint64_t> levels;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    levels.push_back(
+        whole_number("--iterations", text.substr(begin, comma - begin), 0, kMostIterations));
+    if (std::count(levels.begin(), levels.end(), levels.back()) > 1) {
+      throw UsageError(concat("--iterations: ", levels.back(), " is named twice"));
+    }
+    begin = comma + 1;
+  }
+  return levels;
+}
+
+/// Where a level goes: OUT.obj itself, or OUT_500.obj beside its like if there are several.
+std::filesystem::path output_of(const Options& options, std::uint64_t level, bool alone) {
+  const std::filesystem::path path = options.out;
+  if (alone) return path;
+  return path.parent_path() /
+         concat(path.stem().string(), '_', level, path.extension().string());
+}
+
 void smooth_file(const Options& options) {
-  const std::uint64_t level = whole_number("--iterations", options.iterations, 0, kMostIterations);
+  const std::vector<std::uint64_t> levels = levels_of(options.iterations);
   const ObjFile file = read_obj(options.in);
   const SmoothingOperator smoothing(
       build_adjacency(file.topology),
       options.boundary == "free" ? Boundary::kFree : Boundary::kFixed,
       options.operator_kind == "lazy" ? OperatorKind::kLazy : OperatorKind::kUmbrella);
-  const Positions result = options.plain ? Positions(iterate(smoothing, file.positions, level))
-                                         : smooth(smoothing, file.positions, level);
-  write_obj_like(file, file.topology, result, options.out);
-  log_info(concat(options.in, " smoothed by ", level, " iterations: ", options.out));
+  std::vector<Positions> results;
+  if (options.plain) {
+    for (const std::uint64_t level : levels) {
+      results.emplace_back(iterate(smoothing, file.positions, level));
+    }
+  } else {
+    results = smooth(ChebyshevFilter(smoothing, file.positions), file.positions, levels);
+  }
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    const auto path = output_of(options, levels[l], levels.size() == 1);
+    write_obj_like(file, file.topology, results[l], path);
+    log_info(concat(options.in, " smoothed by ", levels[l], " iterations: ", path.string()));
+  }
 }
 
 }  // namespace
@@ -42,9 +77,10 @@ Run add_smooth(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("smooth", "Laplacian smoothing on its own: S_L of one mesh (Eq. 1)");
   command->add_option("input", options->in, "The mesh")->required()->type_name("IN.obj");
-  command->add_option("--iterations", options->iterations, "How often the one-ring mean is taken")
+  command->add_option("--iterations", options->iterations, "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
+                  "and go to OUT_500.obj, OUT_2500.obj")
       ->required()
-      ->type_name("L");
+      ->type_name("L[,L...]");
   command->add_option("-o,--output", options->out, "The mesh to write")
       ->required()
       ->type_name("OUT.obj");

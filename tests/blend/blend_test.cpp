@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/iterate.h"
 
 #include "support/expect_error.h"
@@ -26,9 +27,28 @@ class Blend : public ::testing::Test {
     two_.alpha.col(1) = 1 - two_.alpha.col(0).array();
   }
 
-  SmoothingOperator filter(Boundary boundary = Boundary::kFixed,
-                           OperatorKind kind = OperatorKind::kUmbrella) const {
+  SmoothingOperator smoothing(Boundary boundary = Boundary::kFixed,
+                              OperatorKind kind = OperatorKind::kUmbrella) const {
     return {build_adjacency(faces_.topology), boundary, kind};
+  }
+  ChebyshevFilter filter(Boundary boundary = Boundary::kFixed,
+                         OperatorKind kind = OperatorKind::kUmbrella) const {
+    return {smoothing(boundary, kind), head(0)};
+  }
+  std::vector<CubicFit> cubic_fits(std::uint64_t max_level) const {
+    std::vector<CubicFit> fits;
+    for (const Head& h : faces_.heads) fits.push_back(fit_cubic(filter(), h.positions, max_level));
+    return fits;
+  }
+  static std::vector<HeadLevels> levels_of(const std::vector<CubicFit>& fits) {
+    std::vector<HeadLevels> levels;
+    for (const CubicFit& fit : fits) {
+      levels.push_back({CubicFit::kRank, fit.fields, [&fit](std::uint64_t level) {
+                          const auto basis = cubic_basis(level, fit.max_level);
+                          return std::vector<double>(basis.begin(), basis.end());
+                        }});
+    }
+    return levels;
   }
   const Positions& head(std::size_t h) const { return faces_.heads[h].positions; }
   static Positions level(const SmoothingOperator& smoothing, const Positions& x, std::uint64_t l) {
@@ -73,30 +93,30 @@ TEST_F(Blend, LevelZeroGivesTheTargetToTheBit) {
 TEST_F(Blend, TwoFacesFollowEquation2) {
   for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
     for (const Boundary boundary : {Boundary::kFixed, Boundary::kFree}) {
-      const SmoothingOperator smoothing = filter(boundary, kind);
+      const SmoothingOperator w = smoothing(boundary, kind);
       const Positions expected =
-          level(smoothing, head(0), 13) + head(2) - level(smoothing, head(2), 13);
+          level(w, head(0), 13) + head(2) - level(w, head(2), 13);
       const Recipe transfer = recipe(0, {region({{2, 1}}, 13)});
-      EXPECT_LT(difference(blend_exact(faces_, smoothing, one_, transfer), expected), 1e-7);
+      EXPECT_LT(difference(blend_exact(faces_, filter(boundary, kind), one_, transfer), expected), 1e-7);
     }
   }
 }
 
 TEST_F(Blend, RegionsFollowEquation7) {
-  const SmoothingOperator smoothing = filter();
+  const SmoothingOperator w = smoothing();
   const std::vector<RegionRecipe> regions = {region({{0, 0.5}, {1, 0.2}, {2, 0.3}}, 5, 0.9),
                                              region({{1, 1}}, 40, 1.3)};
   Positions expected = Positions::Zero(head(0).rows(), 3);
   for (Index k = 0; k < 2; ++k) {
     const RegionRecipe& r = regions[static_cast<std::size_t>(k)];
-    Positions face = level(smoothing, head(0), r.iterations);
+    Positions face = level(w, head(0), r.iterations);
     for (const SourceWeight& source : r.weights) {
       const Positions& c = head(static_cast<std::size_t>(source.head));
-      face += r.extrapolation * source.weight * (c - level(smoothing, c, r.iterations));
+      face += r.extrapolation * source.weight * (c - level(w, c, r.iterations));
     }
     expected += two_.alpha.col(k).asDiagonal() * face;
   }
-  EXPECT_LT(difference(blend_exact(faces_, smoothing, two_, recipe(0, regions)), expected), 1e-7);
+  EXPECT_LT(difference(blend_exact(faces_, filter(), two_, recipe(0, regions)), expected), 1e-7);
 }
 
 TEST_F(Blend, OrderOfSourcesChangesNothing) {
@@ -120,13 +140,13 @@ TEST_F(Blend, ExtrapolationIsLinear) {
   };
   EXPECT_LT(difference(face(1.5), face(0) + 1.5 * (face(1) - face(0))), 1e-10);
   EXPECT_LT(difference(face(-2), face(0) - 2 * (face(1) - face(0))), 1e-10);
-  EXPECT_LT(difference(face(0), level(filter(), head(0), 30)), 1e-7) << "no detail: B^L";
+  EXPECT_LT(difference(face(0), level(smoothing(), head(0), 30)), 1e-7) << "no detail: B^L";
 }
 
 TEST_F(Blend, NoWeightsLeaveTheSmoothedTarget) {
   // The printed formula with m on the target.
   EXPECT_LT(difference(blend_exact(faces_, filter(), one_, recipe(0, {region({}, 25)})),
-                       level(filter(), head(0), 25)),
+                       level(smoothing(), head(0), 25)),
             1e-7);
 }
 
@@ -144,9 +164,7 @@ TEST_F(Blend, FixedRimKeepsTheTargetsBits) {
 }
 
 TEST_F(Blend, CubicFollowsItsFormula) {
-  const SmoothingOperator smoothing = filter();
-  std::vector<CubicFit> fits;
-  for (const Head& h : faces_.heads) fits.push_back(fit_cubic(smoothing, h.positions, 50));
+  const std::vector<CubicFit> fits = cubic_fits(50);
   const std::vector<RegionRecipe> regions = {region({{0, 0.5}, {1, 0.2}, {2, 0.3}}, 5, 0.9),
                                              region({{1, 1}}, 50, 1.3)};
   Positions expected = Positions::Zero(head(0).rows(), 3);
@@ -160,22 +178,22 @@ TEST_F(Blend, CubicFollowsItsFormula) {
     }
     expected += two_.alpha.col(k).asDiagonal() * face;
   }
-  EXPECT_LT(difference(blend_cubic(faces_, fits, two_, recipe(0, regions)), expected), 1e-11);
+  EXPECT_LT(difference(blend_levels(faces_, levels_of(fits), two_, recipe(0, regions)), expected), 1e-11);
 }
 
 TEST_F(Blend, CubicTargetAloneGivesTheTarget) {
-  std::vector<CubicFit> fits;
-  for (const Head& h : faces_.heads) fits.push_back(fit_cubic(filter(), h.positions, 50));
+  const std::vector<CubicFit> fits = cubic_fits(50);
   const Recipe alone = recipe(1, {region({{1, 1}}, 20)});
-  EXPECT_LT(difference(blend_cubic(faces_, fits, one_, alone), head(1)), 1e-13);
+  EXPECT_EQ(blend_levels(faces_, levels_of(fits), one_, alone), head(1)) << "to the bit";
 }
 
 TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
   const auto refuse = [&](const Recipe& bad, const RegionWeights& regions) {
     testing::expect_error(ExitCode::kBadData, {},
                           [&] { blend_exact(faces_, filter(), regions, bad); });
-    std::vector<CubicFit> fits(3, fit_cubic(filter(), head(0), 5));
-    testing::expect_error(ExitCode::kBadData, {}, [&] { blend_cubic(faces_, fits, regions, bad); });
+    const std::vector<CubicFit> fits = cubic_fits(5);
+    testing::expect_error(ExitCode::kBadData, {},
+                          [&] { blend_levels(faces_, levels_of(fits), regions, bad); });
   };
   refuse(recipe(0, {region({{1, 1}}, 3)}), two_);
   refuse(recipe(3, {region({{1, 1}}, 3)}), one_);
@@ -186,10 +204,11 @@ TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
   refuse(recipe(0, {region({{1, 1}}, 3)}), shorter);
 }
 
-TEST_F(Blend, CubicNeedsAFitForEachHead) {
-  const std::vector<CubicFit> fits(2, fit_cubic(filter(), head(0), 5));
+TEST_F(Blend, LevelsAreNeededForEachHead) {
+  std::vector<CubicFit> fits = cubic_fits(5);
+  fits.pop_back();
   testing::expect_error(ExitCode::kBadData, {}, [&] {
-    blend_cubic(faces_, fits, one_, recipe(0, {region({{1, 1}}, 3)}));
+    blend_levels(faces_, levels_of(fits), one_, recipe(0, {region({{1, 1}}, 3)}));
   });
 }
 

@@ -48,12 +48,14 @@ class FaceSpaceTest : public ::testing::Test {
     }
     regions_ = whole_head(faces_.topology);
     adjacency_ = build_adjacency(faces_.topology);
-    smoothing_.emplace(adjacency_, Boundary::kFixed, OperatorKind::kUmbrella);
+    filter_.emplace(SmoothingOperator(adjacency_, Boundary::kFixed, OperatorKind::kUmbrella),
+                    faces_.heads[0].positions);
     Positions mean = Positions::Zero(count, 3);
     for (const Head& head : faces_.heads) mean += head.positions / 4;
     samples_ = choose_face_samples(faces_.topology, find_components(adjacency_), mean, {2, 1}, 900);
     for (const Head& head : faces_.heads) {
-      trajectories_.push_back(sample_trajectory(*smoothing_, head.positions, samples_, kMaxLevel));
+      const NodeFields fields = filter_nodes(*filter_, nodes_, head.positions);
+      trajectories_.push_back(sample_trajectory(*filter_, nodes_, fields, samples_));
     }
     space_.emplace(faces_, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit);
     mean_z_ = mean.col(2).mean();
@@ -102,7 +104,8 @@ class FaceSpaceTest : public ::testing::Test {
   FaceSet faces_;
   RegionWeights regions_;
   Adjacency adjacency_;
-  std::optional<SmoothingOperator> smoothing_;
+  std::optional<ChebyshevFilter> filter_;
+  LevelNodes nodes_{OperatorKind::kUmbrella, kMaxLevel};
   FaceSamples samples_;
   std::vector<Trajectory> trajectories_;
   std::optional<FaceSpace> space_;
@@ -116,9 +119,9 @@ TEST_F(FaceSpaceTest, DistancesAreThoseOfWholeMeshes) {
   std::vector<Positions> as_built, unit;
   for (Recipe recipe : faces) {
     places.push_back(space_->place(recipe));
-    as_built.push_back(blend_exact(faces_, *smoothing_, regions_, recipe));
+    as_built.push_back(blend_exact(faces_, *filter_, regions_, recipe));
     recipe.regions[0].extrapolation = 1;
-    unit.push_back(blend_exact(faces_, *smoothing_, regions_, recipe));
+    unit.push_back(blend_exact(faces_, *filter_, regions_, recipe));
   }
   for (std::size_t a = 0; a < faces.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {

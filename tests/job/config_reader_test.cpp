@@ -28,7 +28,8 @@ TEST_F(ReadConfig, DefaultsAreThoseOfTheReference) {
   EXPECT_THAT(config->region_names(), ElementsAre("all"));
   EXPECT_EQ(config->smoothing.max_size_mm, 240);
   EXPECT_FALSE(config->smoothing.max_iterations);
-  EXPECT_EQ(config->smoothing.levels, Levels::kExact);
+  EXPECT_EQ(config->smoothing.levels, Levels::kBasis);
+  EXPECT_EQ(config->smoothing.tolerance_mm, 0.05);
   EXPECT_EQ(config->plane.layout, Layout::kCircle);
   ASSERT_EQ(config->sampling.regions.size(), 1u);
   EXPECT_EQ(config->sampling.regions[0].smoothness.range, (Range{0.2, 0.8}));
@@ -165,7 +166,7 @@ TEST_F(ReadConfig, EveryProblemOfAFileIsToldInItsOrder) {
       read("schema: 2\n"
            "crowd: {name: ../x, count: -1, sede: 3}\n"
            "faces: {directory: heads, unit: cm}\n"
-           "smoothing: {operator: lasy, levels: basis}\n"
+           "smoothing: {operator: lasy, levels: base}\n"
            "sampling:\n"
            "  smoothness: 1.5\n"
            "  smoothness: 0.5\n"
@@ -181,9 +182,8 @@ TEST_F(ReadConfig, EveryProblemOfAFileIsToldInItsOrder) {
       "c.yaml:3:27: unknown key \"unit\" in faces; did you mean \"units\"?\n"
       "c.yaml:4:23: smoothing.operator: expected umbrella or lazy, found \"lasy\"; did you mean "
       "\"lazy\"?\n"
-      "c.yaml:4:37: smoothing.levels: \"basis\" is not available in this version; expected exact "
-      "or "
-      "cubic\n"
+      "c.yaml:4:37: smoothing.levels: expected basis, exact or cubic, found \"base\"; did you mean "
+      "\"basis\"?\n"
       "c.yaml:6:15: sampling.smoothness: expected a number from 0 to 1, found \"1.5\"\n"
       "c.yaml:7:3: the key \"smoothness\" stands here a second time; first in line 6\n"
       "c.yaml:8:1: unknown key \"outptu\"; did you mean \"output\"?");
@@ -276,7 +276,7 @@ TEST_F(ReadConfig, SetAndOptionsOverrideTheFile) {
 TEST_F(ReadConfig, OverridesPassTheSameChecks) {
   ConfigOverrides overrides;
   overrides.set = {"crowd.cuont=5", "sampling.smoothness=[0.5, 0.1]", "plane.layout=circel",
-                   "smoothing.tolerance=1 mm", "crowd.name="};
+                   "parts=auto", "crowd.name="};
   overrides.count = "1e3";
   overrides.seed = "-1";
   overrides.out = "";
@@ -286,7 +286,7 @@ TEST_F(ReadConfig, OverridesPassTheSameChecks) {
   EXPECT_THAT(told(), HasSubstr("--set sampling.smoothness=[0.5, 0.1]: sampling.smoothness: "
                                 "expected [low, high]"));
   EXPECT_THAT(told(), HasSubstr("did you mean \"circle\"?"));
-  EXPECT_THAT(told(), HasSubstr("smoothing.tolerance: not available in this version"));
+  EXPECT_THAT(told(), HasSubstr("parts: \"auto\" is not available in this version"));
   EXPECT_THAT(told(), HasSubstr("--set crowd.name=: crowd.name: no value"));
   EXPECT_THAT(told(), HasSubstr("--count 1e3: crowd.count: expected a whole number"));
   EXPECT_THAT(told(), HasSubstr("--seed -1: crowd.seed: expected a whole number"));
@@ -362,8 +362,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"smoothing: {max_iterations: 99999999999999999999}", "5:29", "whole number"},
         Wrong{"smoothing: {boundary: fix}", "5:23", "did you mean \"fixed\"?"},
         Wrong{"smoothing: {operator: [lazy]}", "5:23", "found a list of 1"},
-        Wrong{"smoothing: {levels: basis}", "5:21", "not available in this version"},
-        Wrong{"smoothing: {tolerance: 1 mm}", "5:13", "not available in this version"},
+        Wrong{"smoothing: {levels: bases}", "5:21", "did you mean \"basis\"?"},
+        Wrong{"smoothing: {tolerance: 0.05}", "5:24", "mm, cm, m or in?"},
+        Wrong{"smoothing: {tolerance: 0.001 mm}", "5:24", "at least 0.005 mm"},
+        Wrong{"smoothing: {tolerance: -1 mm}", "5:24", "expected a length"},
         Wrong{"smoothing: [max_size]", "5:12", "expected a mapping with the keys max_size"},
         Wrong{"smoothing:", "5:1", "no value"}, Wrong{"smoothing: ~", "5:1", "no value"},
         Wrong{"smoothing:\n  levels:\n", "6:3", "smoothing.levels: no value"}));
@@ -488,6 +490,7 @@ TEST_F(ReadConfig, NoKeyTakesAValueOfAnotherKind) {
       "smoothing: {boundary: ",
       "smoothing: {operator: ",
       "smoothing: {levels: ",
+      "smoothing: {tolerance: ",
       "blending: {normalization: ",
       "plane: {layout: ",
       "plane: {anchors: {bob: ",

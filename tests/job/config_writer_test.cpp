@@ -56,6 +56,7 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.smoothing.boundary, b.smoothing.boundary);
   EXPECT_EQ(a.smoothing.operator_kind, b.smoothing.operator_kind);
   EXPECT_EQ(a.smoothing.levels, b.smoothing.levels);
+  EXPECT_EQ(a.smoothing.tolerance_mm, b.smoothing.tolerance_mm);
   EXPECT_EQ(a.blending.normalization, b.blending.normalization);
   EXPECT_EQ(a.plane.layout, b.plane.layout);
   EXPECT_EQ(a.plane.anchors, b.plane.anchors);
@@ -128,7 +129,8 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  max_size: 240 mm\n"
             "  boundary: fixed\n"
             "  operator: umbrella\n"
-            "  levels: exact\n"
+            "  levels: basis\n"
+            "  tolerance: 0.05 mm\n"
             "blending:\n"
             "  normalization: partition\n"
             "parts: none\n"
@@ -165,7 +167,7 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "faces: {directory: heads, units: in, up: -Z, front: x, align: rigid,\n"
       "        tags: {ann: [old, thin], 'null': [old], 007: ['yes']}}\n"
       "regions: {names: [face, no, low], mask: [mask.png, tiles.<UDIM>.png]}\n"
-      "smoothing: {max_size: 12.34567890123 cm, boundary: free, operator: lazy, levels: cubic}\n"
+      "smoothing: {max_size: 12.34567890123 cm, boundary: free, operator: lazy, levels: cubic, tolerance: 0.125 mm}\n"
       "plane: {layout: similarity, anchors: {ann: [0.1, -1e-7], 'null': [1e5, "
       "0.30000000000000004]}}\n"
       "sampling:\n"

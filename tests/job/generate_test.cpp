@@ -86,6 +86,16 @@ TEST(Generate, CubicLevelsMatchALeastSquaresFit) {
   expect_crowd_is_right(crowd);
 }
 
+TEST(Generate, BasisLevelsMatchThePlainMethodWithinTheirTolerance) {
+  for (const char* kind : {"umbrella", "lazy"}) {
+    SmallCrowd crowd;
+    crowd.levels = "basis";
+    crowd.regions = 3;
+    crowd.operator_kind = kind;
+    expect_crowd_is_right(crowd);
+  }
+}
+
 TEST(Generate, ManyIterationsMatchThePlainMethod) {
   SmallCrowd crowd;
   crowd.smoothing_limit = "max_iterations: 9000";

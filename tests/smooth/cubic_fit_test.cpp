@@ -4,7 +4,6 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
-#include "crowdface/smooth/chebyshev.h"
 #include "crowdface/smooth/iterate.h"
 
 #include "support/meshes.h"
@@ -39,10 +38,12 @@ TEST(CubicFit, EqualsLeastSquaresOverStoredLevels) {
     data.row(l) = moved.reshaped<Eigen::RowMajor>().transpose();
   }
   const Eigen::MatrixXd expected = design.colPivHouseholderQr().solve(data);
-  const CubicFit fit = fit_cubic(smoothing, positions, kMaxLevel);
+  const CubicFit fit = fit_cubic(ChebyshevFilter(smoothing, positions), positions, kMaxLevel);
   for (Index p = 0; p < 4; ++p) {
     const Eigen::VectorXd found =
-        fit.fields[static_cast<std::size_t>(p)].cast<double>().reshaped<Eigen::RowMajor>();
+        Eigen::Map<const Eigen::VectorXf>(fit.fields.data() + p * positions.size(),
+                                          positions.size())
+            .cast<double>();
     EXPECT_LT((found - expected.row(p).transpose()).cwiseAbs().maxCoeff(), 2e-6) << p;
   }
 }
@@ -52,7 +53,7 @@ TEST(CubicFit, IsExactWhereFourLevelsAreAll) {
   const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFree,
                                     OperatorKind::kLazy);
   const Positions positions = testing::random_positions(topology.vertex_count, 2);
-  const CubicFit fit = fit_cubic(smoothing, positions, 3);
+  const CubicFit fit = fit_cubic(ChebyshevFilter(smoothing, positions), positions, 3);
   for (std::uint64_t level = 0; level <= 3; ++level) {
     EXPECT_LT((evaluate(fit, positions, level) - iterate(smoothing, positions, level))
                   .cwiseAbs()
@@ -66,7 +67,7 @@ TEST(CubicFit, LeavesFixedVerticesWhereTheyAre) {
   const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
   const Positions positions = testing::random_positions(topology.vertex_count, 3);
-  const Positions moved = evaluate(fit_cubic(smoothing, positions, 100), positions, 60);
+  const Positions moved = evaluate(fit_cubic(ChebyshevFilter(smoothing, positions), positions, 100), positions, 60);
   for (Index i = 0; i < positions.rows(); ++i) {
     if (smoothing.neighbours(i).empty()) {
       EXPECT_LT((moved.row(i) - positions.row(i)).norm(), 1e-12);

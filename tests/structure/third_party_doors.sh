@@ -25,6 +25,8 @@ door 'tbb/|oneapi/tbb' 'crowdface/core/[a-z_]*\.cpp'
 door 'spdlog/' 'crowdface/core/[a-z_]*\.cpp'
 door 'xxhash' 'crowdface/core/[a-z_]*\.cpp'
 door 'Random123/' 'crowdface/core/[a-z_]*\.cpp'
+door 'hwy/' 'crowdface/core/fused_lanes-inl\.h' 'crowdface/core/[a-z_]*\.cpp' \
+  'crowdface/smooth/[a-z_]*_kernels\.cpp' 'crowdface/blend/[a-z_]*_kernels\.cpp'
 door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/[a-z_]*\.cpp' 'crowdface/render/[a-z_]*\.cpp'
 door 'embree' 'crowdface/render/[a-z_]*\.cpp'

@@ -4,7 +4,6 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
-#include "crowdface/smooth/chebyshev.h"
 
 namespace crowdface {
 namespace {
@@ -53,17 +52,29 @@ Columns target_less_sources(const FaceSet& faces, const Recipe& recipe) {
   return difference;
 }
 
+/// How much of S̃_L X − X each head X adds in a region: the target 1 (B̃^L − B), each source −e·ω̂
+/// (D̃, Eq. 5). Where a head is both they are added first, so that the target blended with itself
+/// leaves no trace.
+std::vector<double> head_shares(Index target, const RegionRecipe& region, std::size_t heads) {
+  std::vector<double> shares(heads, 0.0);
+  shares[static_cast<std::size_t>(target)] = 1;
+  for (const SourceWeight& source : region.weights) {
+    shares[static_cast<std::size_t>(source.head)] -= region.extrapolation * source.weight;
+  }
+  return shares;
+}
+
 }  // namespace
 
-Positions blend_exact(const FaceSet& faces, const SmoothingOperator& smoothing,
+Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe) {
   require_fit(faces, regions, recipe);
   const Columns difference = target_less_sources(faces, recipe);
   std::vector<ChebyshevSeries> series;
   for (const RegionRecipe& region : recipe.regions) {
-    series.push_back(power_series(smoothing.kind(), region.iterations));
+    series.push_back(power_series(filter.kind(), region.iterations));
   }
-  const Columns smoothed = filter_each(smoothing, difference, series);
+  const Columns smoothed = filter_each(filter, difference, series);
   Positions result = positions_of(faces, recipe.target);
   parallel_blocks(result.rows(), kRowBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
@@ -78,38 +89,35 @@ Positions blend_exact(const FaceSet& faces, const SmoothingOperator& smoothing,
   return result;
 }
 
-Positions blend_cubic(const FaceSet& faces, std::span<const CubicFit> fits,
-                      const RegionWeights& regions, const Recipe& recipe) {
+Positions blend_levels(const FaceSet& faces, std::span<const HeadLevels> levels,
+                       const RegionWeights& regions, const Recipe& recipe) {
   require_fit(faces, regions, recipe);
-  if (fits.size() != faces.heads.size()) {
+  if (levels.size() != faces.heads.size()) {
     throw InvalidInput(concat("recipe ", recipe.id, ": expected fitted levels of ",
-                              faces.heads.size(), " heads, found ", fits.size()));
+                              faces.heads.size(), " heads, found ", levels.size()));
   }
   Positions result = positions_of(faces, recipe.target);
-  const auto add_head = [&](Index head, double factor, Index k, std::uint64_t level, Index begin,
-                            Index end) {
-    const CubicFit& fit = fits[static_cast<std::size_t>(head)];
-    const auto basis = cubic_basis(level, fit.max_level);
-    for (std::size_t p = 0; p < CubicFit::kRank; ++p) {
-      for (Index i = begin; i < end; ++i) {
-        const double share = regions.alpha(i, k) * (factor * basis[p]);
-        for (Index c = 0; c < 3; ++c) {
-          result(i, c) += share * static_cast<double>(fit.fields[p](i, c));
+  for (std::size_t r = 0; r < recipe.regions.size(); ++r) {
+    const RegionRecipe& region = recipe.regions[r];
+    const std::vector<double> shares = head_shares(recipe.target, region, levels.size());
+    for (std::size_t h = 0; h < shares.size(); ++h) {
+      if (shares[h] == 0) continue;
+      const HeadLevels& fitted = levels[h];
+      const std::vector<double> functions = fitted.functions(region.iterations);
+      parallel_blocks(result.rows(), kRowBlock, [&](Index begin, Index end) {
+        for (std::size_t p = 0; p < functions.size(); ++p) {
+          const float* field = fitted.fields.data() + static_cast<Index>(p) * result.size();
+          for (Index i = begin; i < end; ++i) {
+            const double share =
+                regions.alpha(i, static_cast<Index>(r)) * (shares[h] * functions[p]);
+            for (Index c = 0; c < 3; ++c) {
+              result(i, c) += share * static_cast<double>(field[3 * i + c]);
+            }
+          }
         }
-      }
+      });
     }
-  };
-  parallel_blocks(result.rows(), kRowBlock, [&](Index begin, Index end) {
-    for (std::size_t r = 0; r < recipe.regions.size(); ++r) {
-      const RegionRecipe& region = recipe.regions[r];
-      const auto k = static_cast<Index>(r);
-      add_head(recipe.target, 1, k, region.iterations, begin, end);  // B̃^L − B
-      for (const SourceWeight& source : region.weights) {
-        const double factor = -region.extrapolation * source.weight;  // D̃, Eq. 5
-        add_head(source.head, factor, k, region.iterations, begin, end);
-      }
-    }
-  });
+  }
   return result;
 }
 

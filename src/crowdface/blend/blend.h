@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "crowdface/blend/recipe.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/region/region_weights.h"
-#include "crowdface/smooth/cubic_fit.h"
-#include "crowdface/smooth/smoothing_operator.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 
 namespace crowdface {
 
@@ -21,13 +23,21 @@ namespace crowdface {
 /// \param regions  α, #V by #regions, rows summing to one; as many regions as the recipe has.
 /// \return         #V by 3, in the heads' unit.
 /// \throws InvalidInput if recipe, regions and face set do not fit together.
-Positions blend_exact(const FaceSet& faces, const SmoothingOperator& smoothing,
+Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe);
 
-/// The same from the paper's cubic levels (Eqs. 5–7 with S̃): A = B + Σ_k α_k Σ_p φ_p(L_k)·
-/// (c_p(B) − e_k Σ_i ω̂_ki c_p(C_i)), since C − S̃_L C = −Σ_p φ_p c_p(C).
-/// \param fits  one for each head of the face set.
-Positions blend_cubic(const FaceSet& faces, std::span<const CubicFit> fits,
-                      const RegionWeights& regions, const Recipe& recipe);
+/// The levels of a head as fields: S̃_L x = x + Σ_p φ_p(L)·c_p, fitted once (LevelBasis, or the
+/// paper's CubicFit).
+struct HeadLevels {
+  Index rank = 0;
+  std::span<const float> fields;  ///< rank times #V by 3: all of c_0, then all of c_1, …
+  std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
+};
+
+/// The same from fitted levels (Eqs. 5–7 with S̃): A = B + Σ_k α_k ( Σ_p φ_p(L_k) c_p(B) −
+/// e_k Σ_i ω̂_ki Σ_p φ_p(L_k) c_p(C_i) ), since C − S̃_L C = −Σ_p φ_p c_p(C).
+/// \param levels  one for each head of the face set.
+Positions blend_levels(const FaceSet& faces, std::span<const HeadLevels> levels,
+                       const RegionWeights& regions, const Recipe& recipe);
 
 }  // namespace crowdface

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "crowdface/mesh/normals.h"
-#include "crowdface/smooth/chebyshev.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -63,33 +62,25 @@ std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level) {
   return levels_dense_at_start(max_level, kTrajectorySteps);
 }
 
-Trajectory sample_trajectory(const SmoothingOperator& smoothing, const Positions& positions,
-                             const FaceSamples& samples, std::uint64_t max_level) {
-  std::vector<ChebyshevSeries> series;
-  for (const std::uint64_t level : trajectory_levels(max_level)) {
-    series.push_back(power_series(smoothing.kind(), level));
-    series.back()[0] -= 1;  // − x = − T_0(W) x
-  }
-  std::size_t terms = 0;
-  for (const ChebyshevSeries& one : series) terms = std::max(terms, one.size());
-  Columns sums =
-      Columns::Zero(static_cast<Index>(series.size()), 3 * static_cast<Index>(samples.size()));
-  chebyshev_recurrence(
-      smoothing, positions, static_cast<Index>(terms),
-      [&](Index k, Index begin, Index end, const double* block) {
-        const auto first = std::lower_bound(samples.begin(), samples.end(), begin);
-        const auto last = std::lower_bound(first, samples.end(), end);
-        for (std::size_t l = 0; l < series.size(); ++l) {
-          if (k >= static_cast<Index>(series[l].size())) continue;
-          const double a = series[l][static_cast<std::size_t>(k)];
-          for (auto sample = first; sample != last; ++sample) {
-            double* sum = &sums(static_cast<Index>(l), 3 * (sample - samples.begin()));
-            const double* value = block + (static_cast<Index>(*sample) - begin) * 3;
-            for (int c = 0; c < 3; ++c) sum[c] += a * value[c];
-          }
+Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
+                             const NodeFields& fields, const FaceSamples& samples) {
+  const std::vector<std::uint64_t> levels = trajectory_levels(nodes.max_level());
+  Trajectory trajectory = Trajectory::Zero(static_cast<Index>(levels.size()),
+                                           3 * static_cast<Index>(samples.size()));
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    const std::vector<double> weights = nodes.weights(levels[l]);
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+      const std::uint32_t row = filter.row_of_vertex()[samples[s]];
+      for (Index c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (std::size_t n = 0; n < weights.size(); ++n) {
+          sum += weights[n] * static_cast<double>(fields.displacements[n][row].value[c]);
         }
-      });
-  return sums.cast<float>();
+        trajectory(static_cast<Index>(l), 3 * static_cast<Index>(s) + c) = static_cast<float>(sum);
+      }
+    }
+  }
+  return trajectory;
 }
 
 }  // namespace crowdface

@@ -6,8 +6,7 @@
 
 #include "crowdface/core/units.h"
 #include "crowdface/mesh/adjacency.h"
-#include "crowdface/smooth/columns.h"
-#include "crowdface/smooth/smoothing_operator.h"
+#include "crowdface/smooth/level_basis.h"
 
 namespace crowdface {
 
@@ -29,8 +28,8 @@ std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level);
 /// numbers each, for the levels of `trajectory_levels`.
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The trajectory of one head, all levels from one pass of the filter.
-Trajectory sample_trajectory(const SmoothingOperator& smoothing, const Positions& positions,
-                             const FaceSamples& samples, std::uint64_t max_level);
+/// The trajectory of one head, from what the filter says at the nodes.
+Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
+                             const NodeFields& fields, const FaceSamples& samples);
 
 }  // namespace crowdface

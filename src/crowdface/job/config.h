@@ -26,6 +26,7 @@ enum class Align {
 
 /// How the levels of smoothing are represented.
 enum class Levels {
+  kBasis,  ///< fields fitted to each head, as many as a tolerance needs
   kExact,  ///< every level by the filter itself
   kCubic,  ///< the paper's cubic in L per vertex (§5.1)
 };
@@ -61,7 +62,8 @@ struct Config {
     std::optional<std::uint64_t> max_iterations;  ///< overrides max_size_mm
     Boundary boundary = Boundary::kFixed;
     OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< key `operator`
-    Levels levels = Levels::kExact;
+    Levels levels = Levels::kBasis;
+    double tolerance_mm = 0.05;  ///< of `levels: basis`, at any vertex and level
   } smoothing;
 
   struct Blending {

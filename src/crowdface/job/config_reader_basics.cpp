@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t kMaxCount = 1'000'000;
 constexpr double kMaxSizeMm = 10'000;
+constexpr double kLeastToleranceMm = 0.005;
 
 void read_anchors(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
@@ -154,7 +155,8 @@ void read_crowd(const YamlNode* node, ConfigDraft& draft) {
 
 void read_smoothing(const YamlNode* node, ConfigDraft& draft) {
   Config::Smoothing& smoothing = draft.config.smoothing;
-  const MapReader map(node, {"max_size", "max_iterations", "boundary", "operator", "levels"},
+  const MapReader map(node, {"max_size", "max_iterations", "boundary", "operator", "levels",
+                             "tolerance"},
                       draft.complaints);
   draft.largest_size_mm = smoothing.max_size_mm;
   if (const YamlNode* size = map.find("max_size")) {
@@ -180,8 +182,17 @@ void read_smoothing(const YamlNode* node, ConfigDraft& draft) {
         read_choice(*kind, choices, draft.complaints).value_or(OperatorKind::kUmbrella);
   }
   if (const YamlNode* levels = map.find("levels")) {
-    const Choices<Levels> choices = {{"exact", Levels::kExact}, {"cubic", Levels::kCubic}};
-    smoothing.levels = read_choice(*levels, choices, draft.complaints).value_or(Levels::kExact);
+    const Choices<Levels> choices = {
+        {"basis", Levels::kBasis}, {"exact", Levels::kExact}, {"cubic", Levels::kCubic}};
+    smoothing.levels = read_choice(*levels, choices, draft.complaints).value_or(Levels::kBasis);
+  }
+  if (const YamlNode* tolerance = map.find("tolerance")) {
+    const auto length = read_length_mm(*tolerance, kMaxSizeMm, draft.complaints);
+    if (length && *length < kLeastToleranceMm) {
+      draft.complaints.expected(*tolerance, concat("a length of at least ", kLeastToleranceMm,
+                                                   " mm, what single precision can hold"));
+    }
+    if (length) smoothing.tolerance_mm = *length;
   }
 }
 

@@ -20,8 +20,6 @@ constexpr std::array kNotBuilt = {
     NotBuilt{"diversity", ""},
     NotBuilt{"families", ""},
     NotBuilt{"parts", "auto"},
-    NotBuilt{"smoothing.tolerance", ""},
-    NotBuilt{"smoothing.levels", "basis"},
     NotBuilt{"output.meshes", "ply"},
     NotBuilt{"output.meshes", "glb"},
     NotBuilt{"output.meshes", "points"},

@@ -136,7 +136,8 @@ class Writer {
     if (smoothing.max_iterations) line("  max_iterations: ", *smoothing.max_iterations);
     line("  boundary: ", smoothing.boundary == Boundary::kFixed ? "fixed" : "free");
     line("  operator: ", smoothing.operator_kind == OperatorKind::kUmbrella ? "umbrella" : "lazy");
-    line("  levels: ", smoothing.levels == Levels::kExact ? "exact" : "cubic");
+    line("  levels: ", levels_name(smoothing.levels));
+    line("  tolerance: ", mm(smoothing.tolerance_mm));
     line("blending:");
     line("  normalization: ",
          config_.blending.normalization == Normalization::kPartition ? "partition" : "printed");
@@ -147,6 +148,18 @@ class Writer {
     for (const auto& [index, anchor] : config_.plane.anchors) {
       line("    ", head_key(index), ": ", flow_point(anchor));
     }
+  }
+
+  static std::string_view levels_name(Levels levels) {
+    switch (levels) {
+      case Levels::kExact:
+        return "exact";
+      case Levels::kCubic:
+        return "cubic";
+      case Levels::kBasis:
+        break;
+    }
+    return "basis";
   }
 
   static std::string_view layout_name(Layout layout) {

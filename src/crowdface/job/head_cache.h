@@ -19,23 +19,24 @@ std::filesystem::path cache_directory();
 struct HeadCacheShape {
   Index vertices = 0;
   Index samples = 0;
-  Index levels = 0;  ///< rows of the trajectory
+  Index trajectory_levels = 0;  ///< rows of the trajectory
+  Index nodes = 0;              ///< of `levels: basis`
   std::uint64_t max_level = 0;
-  bool fitted = false;
+  Levels levels = Levels::kBasis;
 };
 
 /// The file of a head's entry: its key in hexadecimal and ".cfhead". docs/cache-format.md specifies
 /// the bytes.
 std::filesystem::path cache_entry(const std::filesystem::path& cache, const Digest& key);
 
-/// Reads an entry. \return nothing if there is none.
+/// Reads an entry, whose fields stay in the file, mapped. \return nothing if there is none.
 /// \throws InvalidInput if it is damaged, of another version or of another shape.
 std::optional<PreparedHead> read_cached_head(const std::filesystem::path& cache, const Digest& key,
                                              const HeadCacheShape& shape);
 
 /// Writes an entry. \throws CannotCreate, IoError.
 void write_cached_head(const std::filesystem::path& cache, const Digest& key,
-                       const PreparedHead& head);
+                       const HeadCacheShape& shape, const PreparedHead& head);
 
 /// The entries of a cache and their sizes.
 struct CacheContents {

@@ -17,7 +17,7 @@ namespace crowdface {
 namespace {
 
 /// Raised whenever a change of the code alters the bytes of a mesh.
-constexpr int kBlendVersion = 1;
+constexpr int kBlendVersion = 2;
 constexpr double kUvTolerance = 1e-4;
 
 /// Heads that could be read; the others are problems.
@@ -198,8 +198,9 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   hasher.add(static_cast<int>(config.smoothing.boundary))
       .add(static_cast<int>(config.smoothing.operator_kind))
       .add(static_cast<int>(config.smoothing.levels));
-  // Only the fitted levels depend on L_max; exact ones do not.
-  if (config.smoothing.levels == Levels::kCubic) hasher.add(inputs.max_level);
+  // Only fitted levels depend on L_max; exact ones do not.
+  if (config.smoothing.levels != Levels::kExact) hasher.add(inputs.max_level);
+  if (config.smoothing.levels == Levels::kBasis) hasher.add(config.smoothing.tolerance_mm);
   return hasher.digest();
 }
 

@@ -2,36 +2,54 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "crowdface/blend/blend.h"
 #include "crowdface/cast/face_samples.h"
 #include "crowdface/job/config.h"
 #include "crowdface/job/inputs.h"
-#include "crowdface/smooth/cubic_fit.h"
+#include "crowdface/smooth/level_basis.h"
 
 namespace crowdface {
 
-/// What is computed once per head and kept: how the samples move under smoothing and, with
-/// `levels: cubic`, the fitted levels.
+/// Fitted levels of one head, as they are kept. The fields may lie in a mapped file of the cache,
+/// so that they cost no memory of ours.
+struct StoredLevels {
+  Index rank = 0;
+  std::span<const float> fields;      ///< rank times #V by 3: all of c_0, then all of c_1, …
+  std::shared_ptr<const void> owner;  ///< of the fields
+  Eigen::MatrixXd mixing;             ///< `levels: basis`: #nodes by rank, see LevelBasis
+  BasisError error;                   ///< `levels: basis`
+};
+
+/// What is computed once per head and kept: how the samples move under smoothing and, unless the
+/// levels are exact, the fitted levels.
 struct PreparedHead {
   std::uint64_t max_level = 0;
   Trajectory trajectory;
-  std::optional<CubicFit> fit;
+  StoredLevels levels;
 };
 
 /// All heads, ready for casting and blending.
 struct Prepared {
   FaceSamples samples;
-  std::vector<Trajectory> trajectories;  ///< #heads
-  std::vector<CubicFit> fits;            ///< #heads with `levels: cubic`, else empty
-  std::size_t from_cache = 0;            ///< how many heads the cache had
+  std::vector<Trajectory> trajectories;     ///< #heads
+  std::vector<StoredLevels> levels;         ///< #heads; without fields with `levels: exact`
+  std::shared_ptr<const LevelNodes> nodes;  ///< that `mixing` refers to
+  std::optional<ChebyshevFilter> filter;    ///< `levels: exact`
+  std::size_t from_cache = 0;               ///< how many heads the cache had
 };
 
-/// Prepares every head, or takes it from the cache. A damaged cache entry is made anew with a
-/// warning; a cache that cannot be written costs a warning, not the run.
+/// Prepares every head, one after the other, or takes it from the cache. A damaged cache entry is
+/// made anew with a warning; a cache that cannot be written costs a warning, not the run.
 /// \param cache  the cache's folder, see cache_directory.
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                  const std::filesystem::path& cache);
+
+/// The fitted levels in the form that blending takes.
+std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);
 
 }  // namespace crowdface

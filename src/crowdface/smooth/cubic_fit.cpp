@@ -3,7 +3,6 @@
 
 #include <Eigen/QR>
 
-#include "crowdface/smooth/chebyshev.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -18,7 +17,7 @@ std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64
   return {1, t, t * t, t * t * t};
 }
 
-CubicFit fit_cubic(const SmoothingOperator& smoothing, const Positions& positions,
+CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
                    std::uint64_t max_level) {
   const std::vector<std::uint64_t> levels = cubic_fit_levels(max_level);
   const auto count = static_cast<Index>(levels.size());
@@ -34,7 +33,7 @@ CubicFit fit_cubic(const SmoothingOperator& smoothing, const Positions& position
   std::vector<ChebyshevSeries> combined(CubicFit::kRank);
   for (Index l = 0; l < count; ++l) {
     const ChebyshevSeries series =
-        power_series(smoothing.kind(), levels[static_cast<std::size_t>(l)]);
+        power_series(filter.kind(), levels[static_cast<std::size_t>(l)]);
     for (Index p = 0; p < CubicFit::kRank; ++p) {
       ChebyshevSeries& sum = combined[static_cast<std::size_t>(p)];
       if (sum.size() < series.size()) sum.resize(series.size(), 0.0);
@@ -42,18 +41,24 @@ CubicFit fit_cubic(const SmoothingOperator& smoothing, const Positions& position
       sum[0] -= fit(p, l);  // − x = − T_0(W) x
     }
   }
-  const std::vector<Columns> fields = filter_many(smoothing, positions, combined);
   CubicFit result;
   result.max_level = max_level;
-  for (std::size_t p = 0; p < CubicFit::kRank; ++p) result.fields[p] = fields[p].cast<float>();
+  for (const Positions& field : filter_many(filter, positions, std::move(combined))) {
+    for (Index i = 0; i < field.size(); ++i) {
+      result.fields.push_back(static_cast<float>(field.data()[i]));
+    }
+  }
   return result;
 }
 
 Positions evaluate(const CubicFit& fit, const Positions& positions, std::uint64_t level) {
   const auto basis = cubic_basis(level, fit.max_level);
   Positions result = positions;
-  for (std::size_t p = 0; p < CubicFit::kRank; ++p) {
-    result += basis[p] * fit.fields[p].cast<double>();
+  const float* field = fit.fields.data();
+  for (std::size_t p = 0; p < CubicFit::kRank; ++p, field += result.size()) {
+    for (Index i = 0; i < result.size(); ++i) {
+      result.data()[i] += basis[p] * static_cast<double>(field[i]);
+    }
   }
   return result;
 }

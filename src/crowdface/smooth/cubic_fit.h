@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowdface/smooth/columns.h"
-#include "crowdface/smooth/smoothing_operator.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 
 namespace crowdface {
 
@@ -15,17 +14,16 @@ namespace crowdface {
 /// is millimetres where the head moves by centimetres (docs/method.md): kept for comparison.
 struct CubicFit {
   static constexpr int kRank = 4;
-  using Field = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
   std::uint64_t max_level = 1;
-  std::array<Field, kRank> fields;  ///< c_p, #V by 3 each, in the positions' unit
+  std::vector<float> fields;  ///< kRank times #V by 3, in the positions' unit: all of c_0, …
 };
 
 /// The levels the fit uses: round(L_max·(j/40)²) for j = 0 … 40, each once: dense at the start,
 /// where fine detail goes, as the paper has it.
 std::vector<std::uint64_t> cubic_fit_levels(std::uint64_t max_level);
 
-/// Fits one head. The levels are combined while the Chebyshev recurrence runs; none is stored.
-CubicFit fit_cubic(const SmoothingOperator& smoothing, const Positions& positions,
+/// Fits one head. The levels are combined while the recurrence runs; none is stored.
+CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
                    std::uint64_t max_level);
 
 /// φ_0 … φ_3 at a level: 1, t, t², t³.

@@ -3,7 +3,7 @@
 
 #include <crowdface/core/version.h>
 #include <crowdface/job/config_reader.h>
-#include <crowdface/smooth/chebyshev.h>
+#include <crowdface/smooth/chebyshev_filter.h>
 #include <crowdface/synth/synthetic_head.h>
 
 int main() {
@@ -11,7 +11,8 @@ int main() {
   const SyntheticHeads heads(5000);
   const SmoothingOperator smoothing(build_adjacency(heads.topology()), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
-  const Positions smoothed = smooth(smoothing, heads.positions(1, 1), 100);
+  const Positions head = heads.positions(1, 1);
+  const Positions smoothed = smooth(ChebyshevFilter(smoothing, head), head, 100);
   Problems problems;
   const bool refused = !read_config("no_such_file.yaml", {}, problems);
   std::cout << "crowdface " << kVersion << ", " << smoothed.rows() << " vertices smoothed\n";

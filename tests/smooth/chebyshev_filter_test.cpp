@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/smooth/chebyshev.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/instruction_set.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/smooth/iterate.h"
 
@@ -93,12 +95,13 @@ class Filter : public ::testing::TestWithParam<Case> {
   SmoothingOperator smoothing_{build_adjacency(mixed_topology()), std::get<0>(GetParam()),
                                std::get<1>(GetParam())};
   Positions positions_ = random_positions(155, 3);
+  ChebyshevFilter filter_{smoothing_, positions_};
 };
 
 TEST_P(Filter, EqualsIteration) {
   for (const std::uint64_t level : {0U, 1U, 2U, 3U, 10U, 37U, 500U, 501U}) {
     const double difference =
-        (smooth(smoothing_, positions_, level) - iterate(smoothing_, positions_, level))
+        (smooth(filter_, positions_, level) - iterate(smoothing_, positions_, level))
             .cwiseAbs()
             .maxCoeff();
     EXPECT_LT(difference, 1e-9) << level;
@@ -107,8 +110,8 @@ TEST_P(Filter, EqualsIteration) {
 
 TEST_P(Filter, KeepsConstantsAndWhatDoesNotMove) {
   const Positions ones = Positions::Ones(155, 3);
-  EXPECT_LT((smooth(smoothing_, ones, 300) - ones).cwiseAbs().maxCoeff(), 1e-13);
-  const Positions result = smooth(smoothing_, positions_, 300);
+  EXPECT_LT((smooth(filter_, ones, 300) - ones).cwiseAbs().maxCoeff(), 1e-13);
+  const Positions result = smooth(filter_, positions_, 300);
   for (Index i = 0; i < 155; ++i) {
     if (!smoothing_.neighbours(i).empty()) continue;
     EXPECT_EQ(result.row(i), positions_.row(i)) << i;  // to the bit
@@ -116,17 +119,17 @@ TEST_P(Filter, KeepsConstantsAndWhatDoesNotMove) {
 }
 
 TEST_P(Filter, LevelZeroIsTheInputToTheBit) {
-  EXPECT_EQ(smooth(smoothing_, positions_, 0), positions_);
+  EXPECT_EQ(smooth(filter_, positions_, 0), positions_);
 }
 
 TEST_P(Filter, IsLinearAndComposes) {
   const Positions other = random_positions(155, 4);
   const Positions sum = 2 * positions_ - 3 * other;
   const Positions expected =
-      2 * smooth(smoothing_, positions_, 20) - 3 * smooth(smoothing_, other, 20);
-  EXPECT_LT((smooth(smoothing_, sum, 20) - expected).cwiseAbs().maxCoeff(), 1e-12);
-  const Positions twice = smooth(smoothing_, smooth(smoothing_, positions_, 20), 15);
-  EXPECT_LT((smooth(smoothing_, positions_, 35) - twice).cwiseAbs().maxCoeff(), 1e-9);
+      2 * smooth(filter_, positions_, 20) - 3 * smooth(filter_, other, 20);
+  EXPECT_LT((smooth(filter_, sum, 20) - expected).cwiseAbs().maxCoeff(), 1e-12);
+  const Positions twice = smooth(filter_, smooth(filter_, positions_, 20), 15);
+  EXPECT_LT((smooth(filter_, positions_, 35) - twice).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST_P(Filter, ManyColumnsAreTheSameAsOneHeadAtATime) {
@@ -135,23 +138,23 @@ TEST_P(Filter, ManyColumnsAreTheSameAsOneHeadAtATime) {
   std::vector<ChebyshevSeries> series;
   for (std::size_t g = 0; g < levels.size(); ++g) {
     all.middleCols<3>(3 * static_cast<Index>(g)) = random_positions(155, 10 + g);
-    series.push_back(power_series(smoothing_.kind(), levels[g]));
+    series.push_back(power_series(filter_.kind(), levels[g]));
   }
-  const Columns together = filter_each(smoothing_, all, series);
+  const Columns together = filter_each(filter_, all, series);
   for (std::size_t g = 0; g < levels.size(); ++g) {
     const Index column = 3 * static_cast<Index>(g);
     EXPECT_EQ(together.middleCols<3>(column),
-              smooth(smoothing_, all.middleCols<3>(column), levels[g]))
+              smooth(filter_, all.middleCols<3>(column), levels[g]))
         << g;  // one face alone and a face in a crowd: the same bits
   }
 }
 
 TEST_P(Filter, SeveralLevelsComeFromOnePass) {
   const auto results =
-      filter_many(smoothing_, positions_,
-                  {power_series(smoothing_.kind(), 4), power_series(smoothing_.kind(), 90)});
-  EXPECT_EQ(results[0], smooth(smoothing_, positions_, 4));
-  EXPECT_EQ(results[1], smooth(smoothing_, positions_, 90));
+      filter_many(filter_, positions_,
+                  {power_series(filter_.kind(), 4), power_series(filter_.kind(), 90)});
+  EXPECT_EQ(results[0], smooth(filter_, positions_, 4));
+  EXPECT_EQ(results[1], smooth(filter_, positions_, 90));
 }
 
 INSTANTIATE_TEST_SUITE_P(AllOperators, Filter,
@@ -164,9 +167,95 @@ TEST(FilterBits, DoNotDependOnTheThreadCount) {
   const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
   const Positions positions = random_positions(topology.vertex_count, 5);
-  const Positions many = smooth(smoothing, positions, 200);
+  const ChebyshevFilter filter(smoothing, positions);
+  const Positions many = smooth(filter, positions, 200);
   const ThreadLimit one(1);
-  EXPECT_EQ(smooth(smoothing, positions, 200), many);
+  EXPECT_EQ(smooth(filter, positions, 200), many);
+}
+
+TEST(FilterBits, DoNotDependOnTheInstructionSetOrTheTiles) {
+  const Topology topology = grid_topology(150, 120);
+  const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
+                                    OperatorKind::kUmbrella);
+  const Positions positions = random_positions(topology.vertex_count, 5);
+  Positions along_the_grid(topology.vertex_count, 3);  // makes other tiles than random places
+  for (Index i = 0; i < along_the_grid.rows(); ++i) {
+    along_the_grid.row(i) << static_cast<double>(i % 151), static_cast<double>(i / 151), 0;
+  }
+  const ChebyshevFilter random_tiles(smoothing, positions), tiles(smoothing, along_the_grid);
+  const Positions expected = smooth(tiles, positions, 150);
+  EXPECT_EQ(smooth(random_tiles, positions, 150), expected);
+  for (const std::string& name : instruction_sets()) {
+    use_instruction_set(name);
+    EXPECT_EQ(smooth(tiles, positions, 150), expected) << name;
+  }
+  use_instruction_set(instruction_sets().front());
+  EXPECT_THROW(use_instruction_set("mmx"), UsageError);
+}
+
+TEST(FilterProbes, HoldEveryTermOfTheRecurrence) {
+  const Topology topology = grid_topology(150, 120);
+  const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
+                                    OperatorKind::kUmbrella);
+  const Positions positions = random_positions(topology.vertex_count, 5);
+  const ChebyshevFilter filter(smoothing, positions);
+  const FilterInput<double> input = {filter.rows_of<double>(positions),
+                                     {power_series(filter.kind(), 100)}};
+  Probes probes{{0, 77, 9000, 18270}, {}};
+  filter.run<double>({&input, 1}, &probes);
+  const ChebyshevSeries series = power_series(filter.kind(), 57);  // a level nobody asked for
+  const Positions expected = iterate(smoothing, positions, 57);
+  for (Index p = 0; p < 4; ++p) {
+    Eigen::RowVector3d level = Eigen::RowVector3d::Zero();
+    for (Index k = 0; k < std::min<Index>(probes.values.rows(), static_cast<Index>(series.size()));
+         ++k) {
+      level += series[static_cast<std::size_t>(k)] * probes.values.block<1, 3>(k, 3 * p);
+    }
+    const Index vertex = probes.vertices[static_cast<std::size_t>(p)];
+    EXPECT_LT((level - expected.row(vertex)).norm(), 1e-9);
+  }
+}
+
+TEST(Tiles, HoldEveryRingTheyNeed) {
+  const Topology topology = mixed_topology();
+  const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
+                                    OperatorKind::kUmbrella);
+  const Tiling tiling = cut_into_tiles(smoothing, random_positions(155, 8), 20, 3);
+  ASSERT_EQ(tiling.tiles.size(), 8U);
+  std::uint32_t next = 0;
+  for (const Tile& tile : tiling.tiles) {
+    EXPECT_EQ(tile.first, next) << "every row in one tile";
+    next += tile.count;
+    const auto vertex_of = [&](std::uint32_t local) {
+      return tiling.order[local < tile.count ? tile.first + local : tile.halo[local - tile.count]];
+    };
+    std::set<std::uint32_t> reached;  // the rows that two more steps can still be computed on
+    for (std::uint32_t r = 0; r < tile.count; ++r) reached.insert(tiling.order[tile.first + r]);
+    for (std::size_t ring = 0; ring < 3; ++ring) {
+      std::set<std::uint32_t> computed;
+      for (std::size_t r = 0; r < tile.runs_to[ring]; ++r) {
+        const ValenceRun& run = tile.runs[r];
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+          const std::uint32_t vertex = vertex_of(run.first + i);
+          computed.insert(vertex);
+          const auto expected = smoothing.neighbours(vertex);
+          ASSERT_EQ(run.valence, expected.size());
+          for (std::uint32_t n = 0; n < run.valence; ++n) {
+            EXPECT_EQ(vertex_of(tile.rings[run.ring + i * run.valence + n]), expected[n]);
+          }
+        }
+      }
+      std::set<std::uint32_t> wider = reached;
+      for (const std::uint32_t v : reached) {
+        if (!smoothing.neighbours(v).empty()) {
+          EXPECT_EQ(computed.count(v), 1U) << "ring " << ring;
+        }
+        for (const std::uint32_t n : smoothing.neighbours(v)) wider.insert(n);
+      }
+      reached = wider;
+    }
+  }
+  EXPECT_EQ(next, 155U);
 }
 
 TEST(Smoothing, ObeysTheMaximumPrinciple) {
@@ -174,7 +263,7 @@ TEST(Smoothing, ObeysTheMaximumPrinciple) {
   const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
   const Positions positions = random_positions(topology.vertex_count, 6);
-  const Positions result = smooth(smoothing, positions, 5000);
+  const Positions result = smooth(ChebyshevFilter(smoothing, positions), positions, 5000);
   EXPECT_LE(result.maxCoeff(), positions.maxCoeff() + 1e-9);
   EXPECT_GE(result.minCoeff(), positions.minCoeff() - 1e-9);
 }
@@ -196,15 +285,17 @@ TEST(Smoothing, LetsACheckerboardLiveUnlessLazy) {
   const Adjacency adjacency = build_adjacency(torus);
   const SmoothingOperator umbrella(adjacency, Boundary::kFixed, OperatorKind::kUmbrella);
   const SmoothingOperator lazy(adjacency, Boundary::kFixed, OperatorKind::kLazy);
-  EXPECT_LT((smooth(umbrella, checkerboard, 1001) + checkerboard).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LT(smooth(lazy, checkerboard, 1).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((smooth(ChebyshevFilter(umbrella, checkerboard), checkerboard, 1001) + checkerboard).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(smooth(ChebyshevFilter(lazy, checkerboard), checkerboard, 1).cwiseAbs().maxCoeff(), 1e-15);
 }
 
 TEST(FilterInput, RefusesRowsOfAnotherMesh) {
   const SmoothingOperator smoothing(build_adjacency(grid_topology(2, 2)), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
   testing::expect_error(ExitCode::kBadData, {"9 rows", "8 by 3"},
-                        [&] { smooth(smoothing, Positions::Zero(8, 3), 1); });
+                        [&] { smooth(ChebyshevFilter(smoothing, Positions::Zero(9, 3)), Positions::Zero(8, 3), 1); });
+  testing::expect_error(ExitCode::kBadData, {"9 positions", "8"},
+                        [&] { ChebyshevFilter(smoothing, Positions::Zero(8, 3)); });
   testing::expect_error(ExitCode::kBadData, {"9 rows", "10"},
                         [&] { iterate(smoothing, Columns::Zero(10, 3), 1); });
 }

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/chebyshev_filter.h"
+
+#include <algorithm>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// Rows of a tile, and steps it does before it looks at its neighbours again. Measured: a tile's
+/// two vectors and its part of the sums then stay in a core's own cache (docs/benchmarks.md).
+constexpr Index kTileRows = 6144;
+constexpr int kStepsARound = 8;
+
+template <class T>
+using RowVector = std::vector<Row<T>>;
+
+/// Own rows of a tile that no iteration moves: those before the first run, as rows go by valence.
+std::uint32_t resting_rows(const Tile& tile) {
+  return tile.runs_to[0] == 0 ? tile.count : tile.runs[0].first;
+}
+
+double coefficient(const ChebyshevSeries& series, Index k) {
+  return k < static_cast<Index>(series.size()) ? series[static_cast<std::size_t>(k)] : 0;
+}
+
+/// The recurrence of one input: T_k(W) x and T_{k−1}(W) x before and after a round, and the sums.
+template <class T>
+class Recurrence {
+ public:
+  Recurrence(const Tiling& tiling, const FilterInput<T>& input)
+      : tiling_(tiling), input_(input), now_(input.values), previous_(input.values.size()) {
+    for (const ChebyshevSeries& series : input.series) {
+      terms_ = std::max(terms_, static_cast<Index>(series.size()));
+      RowVector<T> sum = input.values;
+      for (Row<T>& row : sum) {
+        for (T& value : row.value) value *= static_cast<T>(series[0]);
+      }
+      sums_.push_back(std::move(sum));
+    }
+    for (const Tile& tile : tiling.tiles) {  // what rests is the same in every T_k
+      std::copy_n(now_.begin() + tile.first, resting_rows(tile), previous_.begin() + tile.first);
+    }
+    next_now_ = now_;
+    next_previous_ = previous_;
+  }
+
+  Index terms() const { return terms_; }
+
+  /// On one tile, from T_k on: up to kStepsARound terms more, in the order of k.
+  /// \param visit  called with each k and the tile's own rows of T_k(W) x.
+  template <class Visit>
+  void round(const Tile& tile, Index k, const Visit& visit) {
+    thread_local RowVector<T> now, previous;
+    load(tile, now_, now);
+    load(tile, previous_, previous);
+    const auto steps = static_cast<int>(std::min<Index>(kStepsARound, terms_ - 1 - k));
+    for (int step = 0; step < steps; ++step) {
+      const T scale = k == 0 ? T(1) : T(2);  // T_1 = W T_0, T_{k+1} = 2 W T_k − T_{k−1}
+      const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings still to be looked at
+      recurrence_step<T>(tile.runs.data(), tile.runs_to[reach], tile.rings.data(), scale,
+                         now.data(), previous.data());
+      now.swap(previous);
+      ++k;
+      add_term(tile, k, now.data());
+      visit(k, now.data());
+    }
+    std::copy_n(now.begin(), tile.count, next_now_.begin() + tile.first);
+    std::copy_n(previous.begin(), tile.count, next_previous_.begin() + tile.first);
+  }
+
+  void end_round() {
+    now_.swap(next_now_);
+    previous_.swap(next_previous_);
+  }
+
+  std::vector<RowVector<T>> take_sums() {
+    for (std::size_t s = 0; s < sums_.size(); ++s) {
+      const T sum = static_cast<T>(sum_of(input_.series[s]));
+      for (const Tile& tile : tiling_.tiles) {
+        for (std::uint32_t r = tile.first; r < tile.first + resting_rows(tile); ++r) {
+          for (int c = 0; c < 4; ++c) sums_[s][r].value[c] = sum * input_.values[r].value[c];
+        }
+      }
+    }
+    return std::move(sums_);
+  }
+
+ private:
+  static void load(const Tile& tile, const RowVector<T>& from, RowVector<T>& to) {
+    to.resize(tile.local_count());
+    std::copy_n(from.begin() + tile.first, tile.count, to.begin());
+    for (std::size_t h = 0; h < tile.halo.size(); ++h) to[tile.count + h] = from[tile.halo[h]];
+  }
+
+  void add_term(const Tile& tile, Index k, const Row<T>* term) {
+    for (std::size_t s = 0; s < sums_.size(); ++s) {
+      const double a = coefficient(input_.series[s], k);
+      if (a == 0) continue;  // half of a power's coefficients, and all beyond a short series
+      add_scaled<T>(static_cast<T>(a), term, tile.count, sums_[s].data() + tile.first);
+    }
+  }
+
+  const Tiling& tiling_;
+  const FilterInput<T>& input_;
+  RowVector<T> now_, previous_, next_now_, next_previous_;
+  std::vector<RowVector<T>> sums_;
+  Index terms_ = 1;
+};
+
+/// Which probes a tile holds, and where.
+class ProbeRows {
+ public:
+  ProbeRows(const Tiling& tiling, Probes& probes) : probes_(probes), of_tile_(tiling.tiles.size()) {
+    std::vector<std::size_t> tile_of_row(tiling.order.size());
+    for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
+      const Tile& tile = tiling.tiles[t];
+      std::fill_n(tile_of_row.begin() + tile.first, tile.count, t);
+    }
+    for (std::size_t p = 0; p < probes.vertices.size(); ++p) {
+      const std::uint32_t row = tiling.row[probes.vertices[p]];
+      const std::size_t tile = tile_of_row[row];
+      of_tile_[tile].push_back({p, row - tiling.tiles[tile].first});
+    }
+  }
+
+  template <class T>
+  void take(std::size_t tile, Index k, const Row<T>* rows) const {
+    for (const Place& place : of_tile_[tile]) {
+      for (Index c = 0; c < 3; ++c) {
+        probes_.values(k, 3 * static_cast<Index>(place.probe) + c) = rows[place.row].value[c];
+      }
+    }
+  }
+
+ private:
+  struct Place {
+    std::size_t probe;
+    std::uint32_t row;
+  };
+  Probes& probes_;
+  std::vector<std::vector<Place>> of_tile_;
+};
+
+Positions positions_of(const ChebyshevFilter& filter, const RowVector<double>& rows) {
+  Positions positions(filter.vertex_count(), 3);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (Index c = 0; c < 3; ++c) positions(filter.vertex_of_row()[r], c) = rows[r].value[c];
+  }
+  return positions;
+}
+
+}  // namespace
+
+ChebyshevFilter::ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions)
+    : kind_(smoothing.kind()),
+      tiling_(cut_into_tiles(smoothing, positions, kTileRows, kStepsARound)) {}
+
+template <class T>
+std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) const {
+  if (x.rows() != vertex_count() || x.cols() % 3 != 0) {
+    throw InvalidInput(concat("smoothing expects ", vertex_count(),
+                              " rows of coordinate triples, got ", x.rows(), " by ", x.cols()));
+  }
+  std::vector<Row<T>> rows(tiling_.order.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (Index c = 0; c < 3; ++c) {
+      rows[r].value[c] = static_cast<T>(x(tiling_.order[r], 3 * group + c));
+    }
+    rows[r].value[3] = 0;
+  }
+  return rows;
+}
+
+template <class T>
+std::vector<std::vector<std::vector<Row<T>>>> ChebyshevFilter::run(
+    std::span<const FilterInput<T>> inputs, Probes* probes) const {
+  std::vector<Recurrence<T>> recurrences;
+  recurrences.reserve(inputs.size());
+  Index terms = 1;
+  for (const FilterInput<T>& input : inputs) {
+    recurrences.emplace_back(tiling_, input);
+    terms = std::max(terms, recurrences.back().terms());
+  }
+  std::optional<ProbeRows> probe_rows;
+  const auto tiles = static_cast<std::ptrdiff_t>(tiling_.tiles.size());
+  if (probes != nullptr) {
+    probe_rows.emplace(tiling_, *probes);
+    probes->values.resize(recurrences.front().terms(),
+                          3 * static_cast<Index>(probes->vertices.size()));
+    for (std::size_t t = 0; t < tiling_.tiles.size(); ++t) {
+      probe_rows->take(t, 0, inputs.front().values.data() + tiling_.tiles[t].first);
+    }
+  }
+  for (Index k = 0; k + 1 < terms; k += kStepsARound) {
+    throw_if_interrupted();
+    parallel_for_each(tiles, [&](std::ptrdiff_t t) {
+      const Tile& tile = tiling_.tiles[static_cast<std::size_t>(t)];
+      for (Recurrence<T>& recurrence : recurrences) {
+        if (k + 1 >= recurrence.terms()) continue;
+        const bool probed = probe_rows && &recurrence == &recurrences.front();
+        recurrence.round(tile, k, [&](Index term, const Row<T>* rows) {
+          if (probed) probe_rows->take(static_cast<std::size_t>(t), term, rows);
+        });
+      }
+    });
+    for (Recurrence<T>& recurrence : recurrences) recurrence.end_round();
+  }
+  std::vector<std::vector<std::vector<Row<T>>>> results;
+  for (Recurrence<T>& recurrence : recurrences) results.push_back(recurrence.take_sums());
+  return results;
+}
+
+template std::vector<Row<float>> ChebyshevFilter::rows_of(const Columns&, Index) const;
+template std::vector<Row<double>> ChebyshevFilter::rows_of(const Columns&, Index) const;
+template std::vector<std::vector<std::vector<Row<float>>>> ChebyshevFilter::run(
+    std::span<const FilterInput<float>>, Probes*) const;
+template std::vector<std::vector<std::vector<Row<double>>>> ChebyshevFilter::run(
+    std::span<const FilterInput<double>>, Probes*) const;
+
+std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
+                                   std::vector<ChebyshevSeries> series) {
+  const FilterInput<double> input = {filter.rows_of<double>(x), std::move(series)};
+  const auto of_input = filter.run<double>({&input, 1});
+  std::vector<Positions> results;
+  for (const RowVector<double>& rows : of_input.front()) {
+    results.push_back(positions_of(filter, rows));
+  }
+  return results;
+}
+
+Columns filter_each(const ChebyshevFilter& filter, const Columns& x,
+                    const std::vector<ChebyshevSeries>& series) {
+  if (x.cols() != 3 * static_cast<Index>(series.size())) {
+    throw InvalidInput(concat("filtering ", series.size(), " heads expects ", 3 * series.size(),
+                              " columns, got ", x.cols()));
+  }
+  std::vector<FilterInput<double>> inputs;
+  for (std::size_t g = 0; g < series.size(); ++g) {
+    inputs.push_back({filter.rows_of<double>(x, static_cast<Index>(g)), {series[g]}});
+  }
+  const auto results = filter.run<double>(inputs);
+  Columns result(x.rows(), x.cols());
+  for (std::size_t g = 0; g < series.size(); ++g) {
+    result.middleCols(3 * static_cast<Index>(g), 3) = positions_of(filter, results[g][0]);
+  }
+  return result;
+}
+
+Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level) {
+  return std::move(smooth(filter, positions, std::span(&level, 1)).front());
+}
+
+std::vector<Positions> smooth(const ChebyshevFilter& filter, const Positions& positions,
+                              std::span<const std::uint64_t> levels) {
+  std::vector<ChebyshevSeries> series;
+  series.reserve(levels.size());
+  for (const std::uint64_t level : levels) series.push_back(power_series(filter.kind(), level));
+  return filter_many(filter, positions, std::move(series));
+}
+
+}  // namespace crowdface

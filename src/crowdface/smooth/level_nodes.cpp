@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/level_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kMostNodes = 48;
+/// The share of negative eigenvalues: what a mesh's own pattern, the checkerboard, has of a shape.
+constexpr double kNegativeWeight = 1e-2;
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+void subtract(double factor, const std::vector<double>& from, std::vector<double>& to) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] -= factor * from[i];
+}
+
+/// By squaring: std::pow differs between C libraries.
+double power(double base, std::uint64_t exponent) {
+  double result = 1;
+  for (; exponent > 0; exponent >>= 1, base *= base) {
+    if ((exponent & 1) != 0) result *= base;
+  }
+  return result;
+}
+
+/// Levels that may become nodes: all of a short range, otherwise dense at the start in both
+/// parities.
+std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
+  constexpr std::uint64_t kAll = 1024;
+  constexpr int kSteps = 768;
+  std::vector<std::uint64_t> candidates;
+  for (std::uint64_t level = 1; level <= std::min<std::uint64_t>(max_level, 64); ++level) {
+    candidates.push_back(level);
+  }
+  if (max_level <= kAll) {
+    for (std::uint64_t level = 65; level <= max_level; ++level) candidates.push_back(level);
+    return candidates;
+  }
+  for (const std::uint64_t level : levels_dense_at_start(max_level, kSteps)) {
+    if (level == 0) continue;
+    candidates.push_back(level);
+    if (level < max_level) candidates.push_back(level + 1);
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  return candidates;
+}
+
+}  // namespace
+
+LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed)
+    : max_level_(max_level) {
+  if (max_level == 0) throw InvalidInput("nodes of levels need a largest level of at least 1");
+  // s = 1 − |λ| falls from 1 in equal ratios to where no level up to L_max sees it any more. The
+  // amplitude of a face's shape grows with the wavelength, of which s is the inverse square.
+  constexpr double kRatio = 1.1;
+  const double least = 0.3 / static_cast<double>(max_level);
+  for (double s = 1; s > least; s /= kRatio) {
+    eigenvalues_.push_back(1 - s);
+    grid_weights_.push_back(std::sqrt(least / s));
+    if (kind == OperatorKind::kLazy) continue;
+    eigenvalues_.push_back(s - 1);
+    grid_weights_.push_back(kNegativeWeight);
+  }
+  if (kind == OperatorKind::kUmbrella) {
+    eigenvalues_.push_back(-1);
+    grid_weights_.push_back(kNegativeWeight);
+  }
+  choose_nodes(node_candidates(max_level), missed);
+}
+
+LevelNodes::Spectrum LevelNodes::displacement(std::uint64_t level) const {
+  Spectrum values(eigenvalues_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = grid_weights_[i] * (power(eigenvalues_[i], level) - 1);  // λ^L − 1
+  }
+  return values;
+}
+
+void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, double missed) {
+  std::vector<Spectrum> left;  // what the nodes so far do not represent
+  left.reserve(candidates.size());
+  for (const std::uint64_t level : candidates) left.push_back(displacement(level));
+  const double enough = missed * missed * dot(left.back(), left.back());
+  std::vector<std::uint64_t> chosen;
+  while (chosen.size() < std::min(kMostNodes, candidates.size())) {
+    std::size_t worst = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const double length = dot(left[i], left[i]);
+      if (length > most) most = length, worst = i;
+    }
+    if (most <= enough) break;
+    Spectrum direction = left[worst];
+    for (int twice = 0; twice < 2; ++twice) {  // the second time for rounding
+      for (const Spectrum& other : directions_) subtract(dot(direction, other), other, direction);
+    }
+    const double length = std::sqrt(dot(direction, direction));
+    for (double& value : direction) value /= length;
+    for (Spectrum& spectrum : left) subtract(dot(spectrum, direction), direction, spectrum);
+    chosen.push_back(candidates[worst]);
+    directions_.push_back(std::move(direction));
+  }
+  levels_ = chosen;
+  std::sort(levels_.begin(), levels_.end());
+  for (const std::uint64_t level : chosen) {
+    choice_.push_back(static_cast<std::size_t>(
+        std::lower_bound(levels_.begin(), levels_.end(), level) - levels_.begin()));
+    const Spectrum node = displacement(level);
+    std::vector<double> row;
+    for (std::size_t q = 0; q <= triangle_.size(); ++q) row.push_back(dot(node, directions_[q]));
+    triangle_.push_back(std::move(row));
+  }
+}
+
+std::vector<double> LevelNodes::weights(std::uint64_t level) const {
+  if (level > max_level_) {
+    throw InvalidInput(concat("expected a level up to ", max_level_, ", found ", level));
+  }
+  std::vector<double> result(levels_.size(), 0.0);
+  if (level == 0) return result;
+  if (const auto node = std::lower_bound(levels_.begin(), levels_.end(), level);
+      node != levels_.end() && *node == level) {
+    result[static_cast<std::size_t>(node - levels_.begin())] = 1;
+    return result;
+  }
+  // Least squares over the grid: the level's share of each direction, then back through the
+  // triangle that leads from directions to nodes.
+  const Spectrum wanted = displacement(level);
+  std::vector<double> share;
+  share.reserve(directions_.size());
+  for (const Spectrum& direction : directions_) share.push_back(dot(wanted, direction));
+  for (std::size_t p = choice_.size(); p-- > 0;) {
+    const double weight = share[p] / triangle_[p][p];
+    for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangle_[p][q];
+    result[choice_[p]] = weight;
+  }
+  return result;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/principal_directions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/smooth/level_size.h"
+#include "crowdface/smooth/symmetric_eigen.h"
+
+namespace crowdface {
+namespace {
+
+// Sums here are plain loops in a fixed order: Eigen's own products and dots depend on how they are
+// compiled, and the bits of meshes hang on these.
+
+double dot(const Eigen::MatrixXd& a, Index p, const Eigen::MatrixXd& b, Index q) {
+  double sum = 0;
+  for (Index i = 0; i < a.rows(); ++i) sum += a(i, p) * b(i, q);
+  return sum;
+}
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  for (Index j = 0; j < b.cols(); ++j) {
+    for (Index k = 0; k < a.cols(); ++k) {
+      for (Index i = 0; i < a.rows(); ++i) result(i, j) += a(i, k) * b(k, j);
+    }
+  }
+  return result;
+}
+
+/// The upper triangle T with functions = Q·T, Q orthonormal (Gram and Schmidt, twice for rounding).
+Eigen::MatrixXd triangle_of(Eigen::MatrixXd functions) {
+  const Index count = functions.cols();
+  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(count, count);
+  for (Index n = 0; n < count; ++n) {
+    for (int twice = 0; twice < 2; ++twice) {
+      for (Index m = 0; m < n; ++m) {
+        const double share = dot(functions, m, functions, n);
+        triangle(m, n) += share;
+        functions.col(n) -= share * functions.col(m);
+      }
+    }
+    triangle(n, n) = std::sqrt(dot(functions, n, functions, n));
+    functions.col(n) /= triangle(n, n);
+  }
+  return triangle;
+}
+
+/// x such that triangle · x = b.
+Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd b) {
+  for (Index j = 0; j < b.cols(); ++j) {
+    for (Index i = triangle.rows(); i-- > 0;) {
+      for (Index k = i + 1; k < triangle.rows(); ++k) b(i, j) -= triangle(i, k) * b(k, j);
+      b(i, j) /= triangle(i, i);
+    }
+  }
+  return b;
+}
+
+/// Σ over vertices and coordinates of the products of the nodes' displacements, #nodes by #nodes.
+Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
+  Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(sample.nodes, sample.nodes);
+  const double* vertex = sample.values.data();
+  for (Index v = 0; v < sample.vertices(); ++v, vertex += 3 * sample.nodes) {
+    for (Index p = 0; p < sample.nodes; ++p) {
+      const double* a = vertex + 3 * p;
+      for (Index q = 0; q <= p; ++q) {
+        const double* b = vertex + 3 * q;
+        moments(p, q) += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+      }
+    }
+  }
+  for (Index p = 0; p < sample.nodes; ++p) {
+    for (Index q = 0; q < p; ++q) moments(q, p) = moments(p, q);
+  }
+  return moments;
+}
+
+/// Principal directions where a distance at level l counts `importance(l)`.
+Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd& importance,
+                               const Eigen::MatrixXd& moments) {
+  // Let the weighted functions be Q·T. With Z = T·C, C the displacements at the nodes, the
+  // trajectories are Q·Z; their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ,
+  // and Q·Z = (Q·U)·(Uᵀ·T·C).
+  const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.weights);
+  const Eigen::MatrixXd u = symmetric_eigen(product(product(t, moments), t.transpose())).vectors;
+  Directions directions;
+  directions.mixing = solve_triangle(t, u);
+  directions.combining = product(t.transpose(), u);
+  directions.functions = product(tested.weights, directions.mixing);
+  return directions;
+}
+
+/// The largest distance missed at the sample, for each tested level and each number of directions
+/// kept: #levels by #nodes + 1.
+Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sample) {
+  const Index nodes = sample.nodes, levels = directions.functions.rows();
+  const Eigen::MatrixXd functions = directions.functions.transpose();  // a level's stand together
+  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(nodes + 1, levels);
+  std::mutex mutex;
+  constexpr Index kBlock = 256;
+  parallel_blocks(sample.vertices(), kBlock, [&](Index begin, Index end) {
+    Eigen::MatrixXd mine = Eigen::MatrixXd::Zero(nodes + 1, levels);
+    std::vector<double> fields(static_cast<std::size_t>(3 * nodes));
+    for (Index v = begin; v < end; ++v) {
+      const double* displacement = sample.values.data() + 3 * nodes * v;
+      std::fill(fields.begin(), fields.end(), 0.0);
+      for (Index p = 0; p < nodes; ++p) {
+        double* field = fields.data() + 3 * p;
+        for (Index n = 0; n < nodes; ++n) {
+          for (Index c = 0; c < 3; ++c) {
+            field[c] += directions.combining(n, p) * displacement[3 * n + c];
+          }
+        }
+      }
+      for (Index l = 0; l < levels; ++l) {
+        double left[3] = {};
+        for (Index p = nodes; p-- > 0;) {
+          for (Index c = 0; c < 3; ++c) {
+            left[c] += functions(p, l) * fields[static_cast<std::size_t>(3 * p + c)];
+          }
+          const double squared = left[0] * left[0] + left[1] * left[1] + left[2] * left[2];
+          mine(p, l) = std::max(mine(p, l), squared);
+        }
+      }
+    }
+    const std::lock_guard lock(mutex);  // the order of maxima does not matter
+    most = most.cwiseMax(mine);
+  });
+  return most.cwiseSqrt().transpose();
+}
+
+/// The least rank whose distances are all within the tolerance.
+Index least_rank(const Eigen::MatrixXd& missed, double tolerance) {
+  Index rank = 0;
+  while (rank + 1 < missed.cols() && missed.col(rank).maxCoeff() > tolerance) ++rank;
+  return rank;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> tested_levels(const LevelNodes& nodes) {
+  constexpr int kSteps = 128;
+  std::vector<std::uint64_t> levels = nodes.levels();
+  for (const std::uint64_t level : levels_dense_at_start(nodes.max_level(), kSteps)) {
+    levels.push_back(level);
+    if (level < nodes.max_level()) levels.push_back(level + 1);
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  return levels;
+}
+
+TestedLevels test_levels(const LevelNodes& nodes) {
+  TestedLevels tested{tested_levels(nodes), {}};
+  const auto count = static_cast<Index>(nodes.levels().size());
+  tested.weights.resize(static_cast<Index>(tested.levels.size()), count);
+  for (std::size_t l = 0; l < tested.levels.size(); ++l) {
+    const std::vector<double> weights = nodes.weights(tested.levels[l]);
+    for (Index n = 0; n < count; ++n) {
+      tested.weights(static_cast<Index>(l), n) = weights[static_cast<std::size_t>(n)];
+    }
+  }
+  return tested;
+}
+
+Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
+                                double tolerance) {
+  constexpr int kRounds = 5;        // measured: further ones gain no rank (docs/method.md)
+  constexpr double kFloor = 0.02;   // so that no level is forgotten
+  const Eigen::MatrixXd moments = second_moments(sample);
+  Eigen::VectorXd importance = Eigen::VectorXd::Ones(tested.weights.rows());
+  Directions best;
+  for (int round = 0; round < kRounds; ++round) {
+    Directions directions = weighted_directions(tested, importance, moments);
+    directions.missed = missed(directions, sample);
+    directions.rank = least_rank(directions.missed, tolerance);
+    const Eigen::MatrixXd distances = directions.missed;
+    if (round == 0 || directions.rank < best.rank) best = std::move(directions);
+    if (best.rank <= 1) break;
+    const auto wanted = distances.col(best.rank - 1);  // what one direction less would miss
+    for (Index l = 0; l < importance.size(); ++l) {
+      importance(l) *= std::sqrt(wanted(l) / wanted.maxCoeff() + kFloor);
+    }
+  }
+  return best;
+}
+
+}  // namespace crowdface

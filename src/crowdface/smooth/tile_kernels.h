@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "crowdface/smooth/tiles.h"
+
+namespace crowdface {
+
+/// x, y, z and a zero: what the vector instructions take at a time.
+template <class T>
+struct alignas(4 * sizeof(T)) Row {
+  T value[4];
+};
+
+/// One step of the recurrence on the rows of the runs, in place:
+/// previous ← scale·(mean of the neighbours in now) − previous. With scale 2 that is
+/// T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0 the first step W x.
+/// Neighbours are added in their order, so that the bits depend on nothing but the values.
+template <class T>
+void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
+                     T scale, const Row<T>* now, Row<T>* previous);
+
+/// sums[i] += factor·values[i], each with one rounding.
+template <class T>
+void add_scaled(T factor, const Row<T>* values, std::size_t count, Row<T>* sums);
+
+/// Linear combinations, row by row: outputs[o][i] = Σ_n factors[n·output_count + o]·inputs[n][i],
+/// added in the order of n, each term with one rounding.
+void combine_rows(const Row<float>* const* inputs, std::size_t input_count, const float* factors,
+                  std::size_t output_count, std::size_t count, Row<float>* const* outputs);
+
+}  // namespace crowdface

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// The place of a cell of a 2²¹-fold grid along the Hilbert curve: cells close on the curve are
+/// close in space. Source: Skilling 2004, "Programming the Hilbert curve".
+std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
+  constexpr int kBits = 21;
+  for (std::uint32_t bit = 1U << (kBits - 1); bit > 1; bit >>= 1) {  // undo excess work
+    const std::uint32_t below = bit - 1;
+    for (std::uint32_t& axis : cell) {
+      if ((axis & bit) != 0) {
+        cell[0] ^= below;
+      } else {
+        const std::uint32_t swapped = (cell[0] ^ axis) & below;
+        cell[0] ^= swapped;
+        axis ^= swapped;
+      }
+    }
+  }
+  cell[1] ^= cell[0];  // Gray code
+  cell[2] ^= cell[1];
+  std::uint32_t flip = 0;
+  for (std::uint32_t bit = 1U << (kBits - 1); bit > 1; bit >>= 1) {
+    if ((cell[2] & bit) != 0) flip ^= bit - 1;
+  }
+  std::uint64_t index = 0;
+  for (int bit = kBits - 1; bit >= 0; --bit) {
+    for (const std::uint32_t axis : cell) index = index << 1 | (((axis ^ flip) >> bit) & 1U);
+  }
+  return index;
+}
+
+/// All vertices along a space-filling curve through the head; equal places by index.
+std::vector<std::uint32_t> order_along_curve(const Positions& positions) {
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
+  const double scale = extent > 0 ? 2097151.0 / extent : 0;  // 2²¹ − 1
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(
+      static_cast<std::size_t>(positions.rows()));
+  constexpr Index kBlock = 1 << 16;
+  parallel_blocks(positions.rows(), kBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      std::array<std::uint32_t, 3> cell{};
+      for (Index c = 0; c < 3; ++c) {
+        cell[static_cast<std::size_t>(c)] =
+            static_cast<std::uint32_t>((positions(i, c) - low(c)) * scale);
+      }
+      places[static_cast<std::size_t>(i)] = {hilbert_index(cell), static_cast<std::uint32_t>(i)};
+    }
+  });
+  std::sort(places.begin(), places.end());
+  std::vector<std::uint32_t> order(places.size());
+  std::transform(places.begin(), places.end(), order.begin(), [](const auto& p) { return p.second; });
+  return order;
+}
+
+/// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), so that the neighbours of
+/// consecutive rows stand in a few short stretches, and then by valence.
+void order_within(const Tile& tile, const SmoothingOperator& smoothing,
+                  const std::vector<std::uint32_t>& tile_of, std::uint32_t tile_index,
+                  std::vector<bool>& seen, std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> queue;
+  queue.reserve(tile.count);
+  std::size_t head = 0;
+  for (std::uint32_t r = tile.first; r < tile.first + tile.count; ++r) {
+    const auto enqueue = [&](std::uint32_t v) {
+      if (seen[v] || tile_of[v] != tile_index) return;
+      seen[v] = true;
+      queue.push_back(v);
+    };
+    enqueue(order[r]);
+    for (; head < queue.size(); ++head) {
+      for (const std::uint32_t n : smoothing.neighbours(queue[head])) enqueue(n);
+    }
+  }
+  std::stable_sort(queue.begin(), queue.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return smoothing.neighbours(a).size() < smoothing.neighbours(b).size();
+  });
+  std::copy(queue.begin(), queue.end(), order.begin() + tile.first);
+}
+
+/// Collects a tile's halo ring by ring and writes its neighbours in local rows.
+class TileBuilder {
+ public:
+  TileBuilder(const SmoothingOperator& smoothing, Tiling& tiling)
+      : smoothing_(smoothing), tiling_(tiling), local_(tiling.order.size(), kNowhere) {}
+
+  void build(Tile& tile) {
+    vertices_.assign(tiling_.order.begin() + tile.first,
+                     tiling_.order.begin() + tile.first + tile.count);
+    number(0);
+    std::size_t begin = 0;
+    for (int ring = 0; ring < tiling_.ring_count; ++ring) {
+      const std::size_t end = vertices_.size();
+      collect_neighbours(begin, end);
+      sort_by_valence(end, vertices_.size());
+      number(end);
+      add_runs(tile, begin, end);
+      tile.runs_to.push_back(static_cast<std::uint32_t>(tile.runs.size()));
+      begin = end;
+    }
+    for (std::size_t l = tile.count; l < vertices_.size(); ++l) {
+      tile.halo.push_back(tiling_.row[vertices_[l]]);
+    }
+    for (const std::uint32_t v : vertices_) local_[v] = kNowhere;
+  }
+
+ private:
+  static constexpr std::uint32_t kNowhere = 0xffffffffU;
+  static constexpr std::uint32_t kFound = 0xfffffffeU;
+
+  std::size_t valence(std::uint32_t vertex) const { return smoothing_.neighbours(vertex).size(); }
+
+  void collect_neighbours(std::size_t begin, std::size_t end) {
+    for (std::size_t l = begin; l < end; ++l) {
+      for (const std::uint32_t n : smoothing_.neighbours(vertices_[l])) {
+        if (local_[n] != kNowhere) continue;
+        local_[n] = kFound;
+        vertices_.push_back(n);
+      }
+    }
+  }
+
+  void sort_by_valence(std::size_t begin, std::size_t end) {
+    std::stable_sort(vertices_.begin() + static_cast<std::ptrdiff_t>(begin),
+                     vertices_.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](std::uint32_t a, std::uint32_t b) { return valence(a) < valence(b); });
+  }
+
+  void number(std::size_t begin) {
+    for (std::size_t l = begin; l < vertices_.size(); ++l) {
+      local_[vertices_[l]] = static_cast<std::uint32_t>(l);
+    }
+  }
+
+  void add_runs(Tile& tile, std::size_t begin, std::size_t end) const {
+    for (std::size_t l = begin; l < end; ++l) {
+      const auto ring = smoothing_.neighbours(vertices_[l]);
+      if (ring.empty()) continue;
+      const auto size = static_cast<std::uint32_t>(ring.size());
+      if (l == begin || tile.runs.empty() || tile.runs.back().valence != size ||
+          tile.runs.back().first + tile.runs.back().count != l) {
+        tile.runs.push_back({static_cast<std::uint32_t>(l), 0, size,
+                             static_cast<std::uint32_t>(tile.rings.size())});
+      }
+      ++tile.runs.back().count;
+      for (const std::uint32_t n : ring) tile.rings.push_back(local_[n]);
+    }
+  }
+
+  const SmoothingOperator& smoothing_;
+  Tiling& tiling_;
+  std::vector<std::uint32_t> local_;     ///< #V: a vertex's local row in the tile being built
+  std::vector<std::uint32_t> vertices_;  ///< the tile's local rows
+};
+
+}  // namespace
+
+Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& positions,
+                      Index tile_rows, int ring_count) {
+  const Index vertices = smoothing.vertex_count();
+  if (positions.rows() != vertices) {
+    throw InvalidInput(concat("cutting into tiles expects ", vertices, " positions, got ",
+                              positions.rows()));
+  }
+  Tiling tiling;
+  tiling.ring_count = ring_count;
+  if (vertices == 0) return tiling;
+  tiling.order = order_along_curve(positions);
+  const Index tile_count = (vertices + tile_rows - 1) / tile_rows;
+  for (Index t = 0; t < tile_count; ++t) {
+    Tile tile;
+    tile.first = static_cast<std::uint32_t>(vertices * t / tile_count);
+    tile.count = static_cast<std::uint32_t>(vertices * (t + 1) / tile_count) - tile.first;
+    tiling.tiles.push_back(std::move(tile));
+  }
+  std::vector<std::uint32_t> tile_of(tiling.order.size());
+  for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
+    const Tile& tile = tiling.tiles[t];
+    for (std::uint32_t r = tile.first; r < tile.first + tile.count; ++r) {
+      tile_of[tiling.order[r]] = static_cast<std::uint32_t>(t);
+    }
+  }
+  std::vector<bool> seen(tiling.order.size());
+  for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
+    order_within(tiling.tiles[t], smoothing, tile_of, static_cast<std::uint32_t>(t), seen,
+                 tiling.order);
+  }
+  tiling.row.resize(tiling.order.size());
+  for (std::size_t r = 0; r < tiling.order.size(); ++r) {
+    tiling.row[tiling.order[r]] = static_cast<std::uint32_t>(r);
+  }
+  constexpr Index kTilesATask = 32;  // each task needs an array of all vertices
+  parallel_blocks(tile_count, kTilesATask, [&](Index begin, Index end) {
+    TileBuilder builder(smoothing, tiling);
+    for (Index t = begin; t < end; ++t) builder.build(tiling.tiles[static_cast<std::size_t>(t)]);
+  });
+  return tiling;
+}
+
+}  // namespace crowdface

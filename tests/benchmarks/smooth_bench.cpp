@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smoothing: one product with W by different means, and preparing a head as a whole. The counter
+// `times_faster` relates preparing to the same number of sweeps of Eigen's row-major sparse product
+// in double precision, timed in the same run.
+#include <chrono>
+#include <map>
+#include <memory>
+
+#include <Eigen/SparseCore>
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
+#include <benchmark/benchmark.h>
+
+#include "benchmarks/bench_size.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/smooth/iterate.h"
+#include "crowdface/smooth/level_basis.h"
+#include "crowdface/synth/synthetic_head.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::int64_t kLarge = 1'200'000, kSmall = 5'000;
+
+/// A synthetic head of about this many vertices and what smoothing it needs.
+struct Subject {
+  explicit Subject(std::int64_t vertices)
+      : heads(static_cast<Index>(vertices)),
+        positions(heads.positions(1, 1)),
+        smoothing(build_adjacency(heads.topology()), Boundary::kFixed, OperatorKind::kUmbrella),
+        filter(smoothing, positions) {}
+  SyntheticHeads heads;
+  Positions positions;
+  SmoothingOperator smoothing;
+  ChebyshevFilter filter;
+};
+
+const Subject& subject(std::int64_t vertices) {
+  static std::map<std::int64_t, std::unique_ptr<Subject>> subjects;
+  auto& entry = subjects[vertices];
+  if (!entry) entry = std::make_unique<Subject>(vertices);
+  return *entry;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> eigen_operator(const SmoothingOperator& smoothing) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const Index vertices = smoothing.vertex_count();
+  for (Index i = 0; i < vertices; ++i) {
+    const auto ring = smoothing.neighbours(i);
+    if (ring.empty()) entries.emplace_back(i, i, 1.0);
+    for (const std::uint32_t n : ring) {
+      entries.emplace_back(i, n, 1.0 / static_cast<double>(ring.size()));
+    }
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(vertices, vertices);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// One sweep of the plain loop that people write: x = W·x with Eigen.
+void eigen_sweep(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix, Columns& now,
+                 Columns& next) {
+  next.noalias() = matrix * now;
+  now.swap(next);
+}
+
+/// Seconds of one Eigen sweep, the least of a few.
+double eigen_sweep_seconds(const Subject& s) {
+  const auto matrix = eigen_operator(s.smoothing);
+  Columns now = s.positions, next(now.rows(), now.cols());
+  double least = HUGE_VAL;
+  for (int i = 0; i < 5; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    eigen_sweep(matrix, now, next);
+    least = std::min(
+        least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return least;
+}
+
+void BM_SweepEigen(benchmark::State& state) {
+  const Subject& s = subject(bench::size(kLarge, kSmall));
+  const auto matrix = eigen_operator(s.smoothing);
+  Columns now = s.positions, next(now.rows(), now.cols());
+  for (auto _ : state) eigen_sweep(matrix, now, next);
+}
+BENCHMARK(BM_SweepEigen)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+struct DoubleTraits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+
+void BM_SweepOpenMesh(benchmark::State& state) {
+  using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
+  const Subject& s = subject(bench::size(kLarge, kSmall));
+  Mesh mesh;
+  std::vector<Mesh::VertexHandle> vertices;
+  for (Index i = 0; i < s.positions.rows(); ++i) {
+    vertices.push_back(
+        mesh.add_vertex({s.positions(i, 0), s.positions(i, 1), s.positions(i, 2)}));
+  }
+  for (Index f = 0; f < s.heads.topology().face_count(); ++f) {
+    std::vector<Mesh::VertexHandle> face;
+    for (const std::uint32_t v : s.heads.topology().face(f)) face.push_back(vertices[v]);
+    mesh.add_face(face);
+  }
+  mesh.request_face_normals();
+  mesh.request_vertex_normals();
+  OpenMesh::Smoother::JacobiLaplaceSmootherT<Mesh> smoother(mesh);
+  smoother.initialize(OpenMesh::Smoother::SmootherT<Mesh>::Tangential_and_Normal,
+                      OpenMesh::Smoother::SmootherT<Mesh>::C0);
+  for (auto _ : state) smoother.smooth(1);
+}
+BENCHMARK(BM_SweepOpenMesh)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(2);
+
+void BM_SweepPlain(benchmark::State& state) {
+  const Subject& s = subject(bench::size(kLarge, kSmall));
+  for (auto _ : state) benchmark::DoNotOptimize(iterate(s.smoothing, s.positions, 10));
+  state.counters["ms_per_product"] = benchmark::Counter(
+      1e-4, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(BM_SweepPlain)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// A pass of 401 terms for `state.range(0)` levels up to the one that needs them all.
+template <class T>
+void BM_FilterPass(benchmark::State& state) {
+  constexpr std::size_t kTerms = 401;
+  const Subject& s = subject(bench::size(kLarge, kSmall));
+  FilterInput<T> input{s.filter.rows_of<T>(s.positions), {}};
+  ChebyshevSeries series(kTerms, 0.0);
+  for (std::size_t k = 0; k < kTerms; k += 2) series[k] = 1.0 / 201;  // one parity, as powers have
+  input.series.assign(static_cast<std::size_t>(state.range(0)), series);
+  for (auto _ : state) benchmark::DoNotOptimize(s.filter.template run<T>({&input, 1}));
+  state.counters["ms_per_product"] = benchmark::Counter(
+      1e-3 * (kTerms - 1), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(BM_FilterPass<float>)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(8);
+BENCHMARK(BM_FilterPass<double>)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(8);
+
+/// Tiles, filter and basis of one head: what `crowdface prepare` does for the first of a set.
+void BM_PrepareHead(benchmark::State& state) {
+  const Subject& s = subject(bench::size(state.range(0), kSmall));
+  const auto max_level = static_cast<std::uint64_t>(bench::size(state.range(1), 300));
+  constexpr double kToleranceCm = 0.005;
+  Index rank = 0;
+  double seconds = 0;
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    const ChebyshevFilter filter(s.smoothing, s.positions);
+    const LevelNodes nodes(OperatorKind::kUmbrella, max_level);
+    const LevelBasis basis =
+        fit_level_basis(filter, nodes, filter_nodes(filter, nodes, s.positions), kToleranceCm);
+    rank = basis.rank();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  state.counters["rank"] = static_cast<double>(rank);
+  state.counters["times_faster"] =
+      eigen_sweep_seconds(s) * static_cast<double>(max_level) / seconds;
+}
+BENCHMARK(BM_PrepareHead)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1)
+    ->ArgNames({"vertices", "L_max"})
+    ->Args({10'000, 166})
+    ->Args({40'000, 666})
+    ->Args({150'000, 2'500})
+    ->Args({400'000, 6'660})
+    ->Args({kLarge, 20'000})
+    ->Args({kLarge, 1'000})
+    ->Args({kLarge, 5'000})
+    ->Args({kLarge, 100'000});
+
+}  // namespace
+}  // namespace crowdface
