@@ -41,7 +41,9 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
                               "; --any-settings blends it all the same"));
   }
   Prepared prepared;
-  if (job.config.smoothing.levels == Levels::kCubic) {
+  if (job.config.smoothing.levels == Levels::kExact) {  // one face needs no prepared heads
+    prepared.filter.emplace(job.smoothing, job.inputs.faces.heads.front().positions);
+  } else {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.cache_path());
   }
   const Positions positions = build_face(job, prepared, line.recipe);

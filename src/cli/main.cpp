@@ -96,7 +96,8 @@ int main(int argc, char** argv) {
   }
   crowdface::catch_interrupts();
   return run([&] {
-    if (const char* set = std::getenv("CROWDFACE_INSTRUCTION_SET")) {  // NOLINT(concurrency-mt-unsafe): at start
+    if (const char* set =
+            std::getenv("CROWDFACE_INSTRUCTION_SET")) {  // NOLINT(concurrency-mt-unsafe): at start
       crowdface::use_instruction_set(set);
     }
     chosen();

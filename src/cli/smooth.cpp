@@ -44,8 +44,7 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
 std::filesystem::path output_of(const Options& options, std::uint64_t level, bool alone) {
   const std::filesystem::path path = options.out;
   if (alone) return path;
-  return path.parent_path() /
-         concat(path.stem().string(), '_', level, path.extension().string());
+  return path.parent_path() / concat(path.stem().string(), '_', level, path.extension().string());
 }
 
 void smooth_file(const Options& options) {
@@ -77,8 +76,11 @@ Run add_smooth(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("smooth", "Laplacian smoothing on its own: S_L of one mesh (Eq. 1)");
   command->add_option("input", options->in, "The mesh")->required()->type_name("IN.obj");
-  command->add_option("--iterations", options->iterations, "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
-                  "and go to OUT_500.obj, OUT_2500.obj")
+  command
+      ->add_option(
+          "--iterations", options->iterations,
+          "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
+          "and go to OUT_500.obj, OUT_2500.obj")
       ->required()
       ->type_name("L[,L...]");
   command->add_option("-o,--output", options->out, "The mesh to write")

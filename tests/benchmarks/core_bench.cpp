@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What hashing costs: every file that is written or trusted passes through it.
-#include <benchmark/benchmark.h>
-
 #include <string>
 
-#include "benchmarks/bench_size.h"
+#include <benchmark/benchmark.h>
+
 #include "crowdface/core/hash.h"
+
+#include "benchmarks/bench_size.h"
 
 namespace crowdface {
 namespace {

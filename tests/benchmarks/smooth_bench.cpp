@@ -12,11 +12,12 @@
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 #include <benchmark/benchmark.h>
 
-#include "benchmarks/bench_size.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/smooth/iterate.h"
 #include "crowdface/smooth/level_basis.h"
 #include "crowdface/synth/synthetic_head.h"
+
+#include "benchmarks/bench_size.h"
 
 namespace crowdface {
 namespace {
@@ -98,8 +99,7 @@ void BM_SweepOpenMesh(benchmark::State& state) {
   Mesh mesh;
   std::vector<Mesh::VertexHandle> vertices;
   for (Index i = 0; i < s.positions.rows(); ++i) {
-    vertices.push_back(
-        mesh.add_vertex({s.positions(i, 0), s.positions(i, 1), s.positions(i, 2)}));
+    vertices.push_back(mesh.add_vertex({s.positions(i, 0), s.positions(i, 1), s.positions(i, 2)}));
   }
   for (Index f = 0; f < s.heads.topology().face_count(); ++f) {
     std::vector<Mesh::VertexHandle> face;
@@ -133,8 +133,9 @@ void BM_FilterPass(benchmark::State& state) {
   for (std::size_t k = 0; k < kTerms; k += 2) series[k] = 1.0 / 201;  // one parity, as powers have
   input.series.assign(static_cast<std::size_t>(state.range(0)), series);
   for (auto _ : state) benchmark::DoNotOptimize(s.filter.template run<T>({&input, 1}));
-  state.counters["ms_per_product"] = benchmark::Counter(
-      1e-3 * (kTerms - 1), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ms_per_product"] =
+      benchmark::Counter(1e-3 * (kTerms - 1), benchmark::Counter::kIsIterationInvariantRate |
+                                                  benchmark::Counter::kInvert);
 }
 BENCHMARK(BM_FilterPass<float>)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(8);
 BENCHMARK(BM_FilterPass<double>)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(8);

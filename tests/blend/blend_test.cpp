@@ -94,10 +94,10 @@ TEST_F(Blend, TwoFacesFollowEquation2) {
   for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
     for (const Boundary boundary : {Boundary::kFixed, Boundary::kFree}) {
       const SmoothingOperator w = smoothing(boundary, kind);
-      const Positions expected =
-          level(w, head(0), 13) + head(2) - level(w, head(2), 13);
+      const Positions expected = level(w, head(0), 13) + head(2) - level(w, head(2), 13);
       const Recipe transfer = recipe(0, {region({{2, 1}}, 13)});
-      EXPECT_LT(difference(blend_exact(faces_, filter(boundary, kind), one_, transfer), expected), 1e-7);
+      EXPECT_LT(difference(blend_exact(faces_, filter(boundary, kind), one_, transfer), expected),
+                1e-7);
     }
   }
 }
@@ -178,7 +178,8 @@ TEST_F(Blend, CubicFollowsItsFormula) {
     }
     expected += two_.alpha.col(k).asDiagonal() * face;
   }
-  EXPECT_LT(difference(blend_levels(faces_, levels_of(fits), two_, recipe(0, regions)), expected), 1e-11);
+  EXPECT_LT(difference(blend_levels(faces_, levels_of(fits), two_, recipe(0, regions)), expected),
+            1e-11);
 }
 
 TEST_F(Blend, CubicTargetAloneGivesTheTarget) {

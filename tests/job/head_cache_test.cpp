@@ -70,12 +70,15 @@ TEST(HeadCache, DamagedEntriesAreMadeAnewWithTheSameBytes) {
   const auto first = crowd_files(folder.out());
   const fs::path entry = list_cache(folder.cache()).entries.at(1);
   const std::string whole = testing::read_text(entry);
-  std::vector<std::string> damaged = {
-      "",         "x", whole.substr(0, 127), whole.substr(0, 128), whole.substr(0, whole.size() - 1),
-      whole + "x"};
-  for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{20}, std::size_t{70},
-                               std::size_t{73}, std::size_t{90},
-                               whole.size() / 2, whole.size() - 1}) {
+  std::vector<std::string> damaged = {"",
+                                      "x",
+                                      whole.substr(0, 127),
+                                      whole.substr(0, 128),
+                                      whole.substr(0, whole.size() - 1),
+                                      whole + "x"};
+  for (const std::size_t at :
+       {std::size_t{0}, std::size_t{9}, std::size_t{20}, std::size_t{70}, std::size_t{73},
+        std::size_t{90}, whole.size() / 2, whole.size() - 1}) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 0x10);
     damaged.push_back(flipped);

@@ -205,8 +205,7 @@ TEST(Inputs, SettingsHashTellsWhatMeshesDependOn) {
   EXPECT_EQ(settings({"crowd.count=7", "crowd.seed=5", "sampling.max_sources=1"}), plain);
   for (const char* other :
        {"smoothing.boundary=free", "smoothing.operator=lazy", "smoothing.levels=cubic",
-        "smoothing.levels=basis",
-        "regions=none", "regions.names=[region_2, region_1, region_3]"}) {
+        "smoothing.levels=basis", "regions=none", "regions.names=[region_2, region_1, region_3]"}) {
     EXPECT_NE(settings({other}), plain) << other;
   }
   edit(folder, "bob", [](Lines& lines) { lines[first_line(lines, "v ")] = "v -7 -8 1.5"; });

@@ -125,8 +125,7 @@ TEST_P(Filter, LevelZeroIsTheInputToTheBit) {
 TEST_P(Filter, IsLinearAndComposes) {
   const Positions other = random_positions(155, 4);
   const Positions sum = 2 * positions_ - 3 * other;
-  const Positions expected =
-      2 * smooth(filter_, positions_, 20) - 3 * smooth(filter_, other, 20);
+  const Positions expected = 2 * smooth(filter_, positions_, 20) - 3 * smooth(filter_, other, 20);
   EXPECT_LT((smooth(filter_, sum, 20) - expected).cwiseAbs().maxCoeff(), 1e-12);
   const Positions twice = smooth(filter_, smooth(filter_, positions_, 20), 15);
   EXPECT_LT((smooth(filter_, positions_, 35) - twice).cwiseAbs().maxCoeff(), 1e-9);
@@ -143,16 +142,14 @@ TEST_P(Filter, ManyColumnsAreTheSameAsOneHeadAtATime) {
   const Columns together = filter_each(filter_, all, series);
   for (std::size_t g = 0; g < levels.size(); ++g) {
     const Index column = 3 * static_cast<Index>(g);
-    EXPECT_EQ(together.middleCols<3>(column),
-              smooth(filter_, all.middleCols<3>(column), levels[g]))
+    EXPECT_EQ(together.middleCols<3>(column), smooth(filter_, all.middleCols<3>(column), levels[g]))
         << g;  // one face alone and a face in a crowd: the same bits
   }
 }
 
 TEST_P(Filter, SeveralLevelsComeFromOnePass) {
-  const auto results =
-      filter_many(filter_, positions_,
-                  {power_series(filter_.kind(), 4), power_series(filter_.kind(), 90)});
+  const auto results = filter_many(
+      filter_, positions_, {power_series(filter_.kind(), 4), power_series(filter_.kind(), 90)});
   EXPECT_EQ(results[0], smooth(filter_, positions_, 4));
   EXPECT_EQ(results[1], smooth(filter_, positions_, 90));
 }
@@ -285,15 +282,20 @@ TEST(Smoothing, LetsACheckerboardLiveUnlessLazy) {
   const Adjacency adjacency = build_adjacency(torus);
   const SmoothingOperator umbrella(adjacency, Boundary::kFixed, OperatorKind::kUmbrella);
   const SmoothingOperator lazy(adjacency, Boundary::kFixed, OperatorKind::kLazy);
-  EXPECT_LT((smooth(ChebyshevFilter(umbrella, checkerboard), checkerboard, 1001) + checkerboard).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LT(smooth(ChebyshevFilter(lazy, checkerboard), checkerboard, 1).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((smooth(ChebyshevFilter(umbrella, checkerboard), checkerboard, 1001) + checkerboard)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-9);
+  EXPECT_LT(smooth(ChebyshevFilter(lazy, checkerboard), checkerboard, 1).cwiseAbs().maxCoeff(),
+            1e-15);
 }
 
 TEST(FilterInput, RefusesRowsOfAnotherMesh) {
   const SmoothingOperator smoothing(build_adjacency(grid_topology(2, 2)), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
-  testing::expect_error(ExitCode::kBadData, {"9 rows", "8 by 3"},
-                        [&] { smooth(ChebyshevFilter(smoothing, Positions::Zero(9, 3)), Positions::Zero(8, 3), 1); });
+  testing::expect_error(ExitCode::kBadData, {"9 rows", "8 by 3"}, [&] {
+    smooth(ChebyshevFilter(smoothing, Positions::Zero(9, 3)), Positions::Zero(8, 3), 1);
+  });
   testing::expect_error(ExitCode::kBadData, {"9 positions", "8"},
                         [&] { ChebyshevFilter(smoothing, Positions::Zero(8, 3)); });
   testing::expect_error(ExitCode::kBadData, {"9 rows", "10"},

@@ -40,10 +40,9 @@ TEST(CubicFit, EqualsLeastSquaresOverStoredLevels) {
   const Eigen::MatrixXd expected = design.colPivHouseholderQr().solve(data);
   const CubicFit fit = fit_cubic(ChebyshevFilter(smoothing, positions), positions, kMaxLevel);
   for (Index p = 0; p < 4; ++p) {
-    const Eigen::VectorXd found =
-        Eigen::Map<const Eigen::VectorXf>(fit.fields.data() + p * positions.size(),
-                                          positions.size())
-            .cast<double>();
+    const Eigen::VectorXd found = Eigen::Map<const Eigen::VectorXf>(
+                                      fit.fields.data() + p * positions.size(), positions.size())
+                                      .cast<double>();
     EXPECT_LT((found - expected.row(p).transpose()).cwiseAbs().maxCoeff(), 2e-6) << p;
   }
 }
@@ -67,7 +66,8 @@ TEST(CubicFit, LeavesFixedVerticesWhereTheyAre) {
   const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
   const Positions positions = testing::random_positions(topology.vertex_count, 3);
-  const Positions moved = evaluate(fit_cubic(ChebyshevFilter(smoothing, positions), positions, 100), positions, 60);
+  const Positions moved =
+      evaluate(fit_cubic(ChebyshevFilter(smoothing, positions), positions, 100), positions, 60);
   for (Index i = 0; i < positions.rows(); ++i) {
     if (smoothing.neighbours(i).empty()) {
       EXPECT_LT((moved.row(i) - positions.row(i)).norm(), 1e-12);

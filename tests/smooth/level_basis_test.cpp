@@ -25,7 +25,8 @@ Positions hill(Index columns, Index rows) {
   const Positions noise = random_positions(positions.rows(), 4);
   for (Index i = 0; i < positions.rows(); ++i) {
     const double x = static_cast<double>(i % columns), y = static_cast<double>(i / columns);
-    const double cx = x / static_cast<double>(columns) - 0.5, cy = y / static_cast<double>(rows) - 0.5;
+    const double cx = x / static_cast<double>(columns) - 0.5,
+                 cy = y / static_cast<double>(rows) - 0.5;
     const double height = 6 * std::exp(-8 * (cx * cx + cy * cy)) +
                           0.3 * std::sin(0.9 * x) * std::cos(0.7 * y) + 0.1 * std::sin(2.1 * x + y);
     positions.row(i) << 0.3 * x, 0.3 * y, height;
@@ -99,8 +100,7 @@ TEST_P(Basis, StaysWithinItsToleranceAtEveryLevelAndVertex) {
   const auto [kind, boundary] = GetParam();
   const Fitted fitted(kind, 400, boundary);
   for (const double tolerance : {0.05, 0.005}) {
-    const LevelBasis basis =
-        fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, tolerance);
+    const LevelBasis basis = fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, tolerance);
     EXPECT_LE(basis.error.max, tolerance);
     EXPECT_LE(basis.error.rms, basis.error.max);
     double largest = 0;
@@ -158,11 +158,11 @@ TEST(LevelBasis, FollowsACheckerboardThroughBothParities) {
   const LevelBasis basis =
       fit_level_basis(filter, nodes, filter_nodes(filter, nodes, positions), 0.005);
   for (const std::uint64_t level : {1U, 2U, 33U, 34U, 301U, 402U, 499U}) {
-    const double difference = (evaluate(basis, nodes, positions, level) -
-                               smooth(filter, positions, level))
-                                  .rowwise()
-                                  .norm()
-                                  .maxCoeff();
+    const double difference =
+        (evaluate(basis, nodes, positions, level) - smooth(filter, positions, level))
+            .rowwise()
+            .norm()
+            .maxCoeff();
     EXPECT_LT(difference, 0.0051) << level;
   }
 }
@@ -191,9 +191,8 @@ TEST(LevelBasis, HasTheSameBitsOnAnyMachine) {
 
 TEST(LevelBasis, RefusesAToleranceThatSinglePrecisionCannotHold) {
   const Fitted fitted(OperatorKind::kUmbrella);
-  testing::expect_error(ExitCode::kBadData, {"expected levels within", "reached"}, [&] {
-    fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, 1e-9);
-  });
+  testing::expect_error(ExitCode::kBadData, {"expected levels within", "reached"},
+                        [&] { fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, 1e-9); });
 }
 
 TEST(SymmetricEigen, DiagonalisesWithOrthonormalVectors) {

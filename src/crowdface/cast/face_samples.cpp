@@ -65,8 +65,8 @@ std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level) {
 Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                              const NodeFields& fields, const FaceSamples& samples) {
   const std::vector<std::uint64_t> levels = trajectory_levels(nodes.max_level());
-  Trajectory trajectory = Trajectory::Zero(static_cast<Index>(levels.size()),
-                                           3 * static_cast<Index>(samples.size()));
+  Trajectory trajectory =
+      Trajectory::Zero(static_cast<Index>(levels.size()), 3 * static_cast<Index>(samples.size()));
   for (std::size_t l = 0; l < levels.size(); ++l) {
     const std::vector<double> weights = nodes.weights(levels[l]);
     for (std::size_t s = 0; s < samples.size(); ++s) {

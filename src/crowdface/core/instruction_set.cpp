@@ -14,8 +14,7 @@ struct Known {
   std::int64_t target;
 };
 constexpr std::int64_t kPortable = 0;  // what is left when no target is chosen
-constexpr Known kKnown[] = {
-    {"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"portable", kPortable}};
+constexpr Known kKnown[] = {{"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"portable", kPortable}};
 
 bool is_here(const Known& known) {
   return known.target == kPortable || (hwy::SupportedTargets() & known.target) != 0;

@@ -155,8 +155,8 @@ void read_crowd(const YamlNode* node, ConfigDraft& draft) {
 
 void read_smoothing(const YamlNode* node, ConfigDraft& draft) {
   Config::Smoothing& smoothing = draft.config.smoothing;
-  const MapReader map(node, {"max_size", "max_iterations", "boundary", "operator", "levels",
-                             "tolerance"},
+  const MapReader map(node,
+                      {"max_size", "max_iterations", "boundary", "operator", "levels", "tolerance"},
                       draft.complaints);
   draft.largest_size_mm = smoothing.max_size_mm;
   if (const YamlNode* size = map.find("max_size")) {

@@ -190,7 +190,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const Gener
           [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
     });
   }
-  write_file(directory.report(), format_report(job, crowd_cast, files, pages, warnings));
+  write_file(directory.report(), format_report(job, prepared, crowd_cast, files, pages, warnings));
   write_file(directory.timings(), format_timings(stages, crowd.size(), prepared.from_cache));
   log_info(concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ",
                   directory.root.string(),

@@ -158,10 +158,9 @@ void write_cached_head(const fs::path& cache, const Digest& key, const HeadCache
   header.error_rms = levels.error.rms;
   header.error_level = levels.error.level;
   const Places places(header);
-  const std::string padding(
-      places.fields - places.trajectory -
-          static_cast<std::size_t>(head.trajectory.size()) * sizeof(float),
-      '\0');
+  const std::string padding(places.fields - places.trajectory -
+                                static_cast<std::size_t>(head.trajectory.size()) * sizeof(float),
+                            '\0');
   std::vector<std::string_view> pieces = {
       bytes_of(&header, sizeof header),
       bytes_of(levels.mixing.data(),

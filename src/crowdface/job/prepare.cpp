@@ -36,9 +36,9 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
       .add(static_cast<int>(config.smoothing.boundary))
       .add(static_cast<int>(config.smoothing.operator_kind))
       .add(static_cast<int>(config.smoothing.levels))
-      .add(config.smoothing.levels == Levels::kBasis ? config.smoothing.tolerance_mm /
-                                                           mm_per(config.faces.units)
-                                                     : 0.0)
+      .add(config.smoothing.levels == Levels::kBasis
+               ? config.smoothing.tolerance_mm / mm_per(config.faces.units)
+               : 0.0)
       .digest();
 }
 
@@ -79,8 +79,7 @@ class HeadPreparation {
     result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.samples);
     if (config_.smoothing.levels == Levels::kCubic) {
       result.levels.rank = CubicFit::kRank;
-      own_fields(result.levels,
-                 fit_cubic(filter(), head.positions, inputs_.max_level).fields);
+      own_fields(result.levels, fit_cubic(filter(), head.positions, inputs_.max_level).fields);
     }
     if (config_.smoothing.levels == Levels::kBasis) {
       const double tolerance = config_.smoothing.tolerance_mm / mm_per(config_.faces.units);
@@ -129,8 +128,8 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   Prepared prepared;
   prepared.samples = choose_face_samples(inputs.faces.topology, inputs.components,
                                          mean_head(inputs.faces), config.faces.front, kSamples);
-  prepared.nodes = std::make_shared<const LevelNodes>(
-      config.smoothing.operator_kind, inputs.max_level, missed_by_nodes(config));
+  prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
+                                                      inputs.max_level, missed_by_nodes(config));
   const HeadCacheShape shape = {inputs.faces.topology.vertex_count,
                                 static_cast<Index>(prepared.samples.size()),
                                 static_cast<Index>(trajectory_levels(inputs.max_level).size()),

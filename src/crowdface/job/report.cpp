@@ -9,6 +9,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
 #include "crowdface/smooth/level_size.h"
 
@@ -50,12 +51,33 @@ Json topology_to_json(const Inputs& inputs) {
           {"digest", inputs.topology_digest.hex()}};
 }
 
-Json smoothing_to_json(const Job& job) {
+/// How good the fitted levels of each head are, measured when they were fitted.
+Json levels_to_json(const Job& job, const Prepared& prepared) {
+  const double mm = mm_per(job.config.faces.units);
+  const auto fine = [](double value) { return std::round(value * 1e7) / 1e7; };
+  Json heads = Json::array();
+  for (std::size_t h = 0; h < prepared.levels.size(); ++h) {
+    const StoredLevels& levels = prepared.levels[h];
+    heads.push_back({{"name", job.names.heads[h]},
+                     {"rank", levels.rank},
+                     {"error_max_mm", fine(levels.error.max * mm)},
+                     {"error_rms_mm", fine(levels.error.rms * mm)},
+                     {"error_max_at_iterations", levels.error.level}});
+  }
+  return {{"tolerance_mm", job.config.smoothing.tolerance_mm}, {"heads", std::move(heads)}};
+}
+
+Json smoothing_to_json(const Job& job, const Prepared& prepared) {
   const Inputs& inputs = job.inputs;
-  return {{"max_iterations", inputs.max_level},
-          {"max_size_mm", rounded(size_of_iterations(job.smoothing.kind(), inputs.max_level,
-                                                     inputs.edge_length_mm))},
-          {"edge_length_mm", inputs.edge_length_mm}};
+  Json smoothing = {
+      {"max_iterations", inputs.max_level},
+      {"max_size_mm",
+       rounded(size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm))},
+      {"edge_length_mm", inputs.edge_length_mm}};
+  if (job.config.smoothing.levels == Levels::kBasis) {
+    smoothing["basis"] = levels_to_json(job, prepared);
+  }
+  return smoothing;
 }
 
 Json distances_to_json(const Cast& cast) {
@@ -85,8 +107,9 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
 
 }  // namespace
 
-std::string format_report(const Job& job, const Cast& cast, const std::vector<FaceFiles>& files,
-                          std::size_t sheets, const std::vector<std::string>& warnings) {
+std::string format_report(const Job& job, const Prepared& prepared, const Cast& cast,
+                          const std::vector<FaceFiles>& files, std::size_t sheets,
+                          const std::vector<std::string>& warnings) {
   Json report;
   report["crowdface"] = kVersion;
   report["crowd"] = job.config.crowd.name;
@@ -96,7 +119,7 @@ std::string format_report(const Job& job, const Cast& cast, const std::vector<Fa
   report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
   report["settings"] = job.settings.hex();
   report["topology"] = topology_to_json(job.inputs);
-  report["smoothing"] = smoothing_to_json(job);
+  report["smoothing"] = smoothing_to_json(job, prepared);
   report["heads"] = heads_to_json(job, cast);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};

@@ -16,8 +16,9 @@ struct FaceFiles {
 
 /// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no
 /// time and no machine: the same inputs give the same bytes.
-std::string format_report(const Job& job, const Cast& cast, const std::vector<FaceFiles>& files,
-                          std::size_t sheets, const std::vector<std::string>& warnings);
+std::string format_report(const Job& job, const Prepared& prepared, const Cast& cast,
+                          const std::vector<FaceFiles>& files, std::size_t sheets,
+                          const std::vector<std::string>& warnings);
 
 /// How long each stage took, in the order it ran.
 using StageSeconds = std::vector<std::pair<std::string, double>>;

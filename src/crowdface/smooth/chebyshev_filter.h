@@ -24,7 +24,7 @@ struct FilterInput {
 /// T_k(W) x at a few vertices for every k: any level there follows without another pass.
 struct Probes {
   std::vector<std::uint32_t> vertices;
-  Columns values;                       ///< terms by 3·#vertices; filled by the filter
+  Columns values;  ///< terms by 3·#vertices; filled by the filter
 };
 
 /// Polynomials of the one-ring mean W of one topology, by the recurrence

@@ -32,8 +32,7 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
       design.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(count, count));
   std::vector<ChebyshevSeries> combined(CubicFit::kRank);
   for (Index l = 0; l < count; ++l) {
-    const ChebyshevSeries series =
-        power_series(filter.kind(), levels[static_cast<std::size_t>(l)]);
+    const ChebyshevSeries series = power_series(filter.kind(), levels[static_cast<std::size_t>(l)]);
     for (Index p = 0; p < CubicFit::kRank; ++p) {
       ChebyshevSeries& sum = combined[static_cast<std::size_t>(p)];
       if (sum.size() < series.size()) sum.resize(series.size(), 0.0);

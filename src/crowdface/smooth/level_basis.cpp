@@ -114,7 +114,8 @@ Worst worst_missed(const Directions& directions, const CombinedRows& fields, std
     double missed[3] = {};
     for (Index p = rank; p < directions.functions.cols(); ++p) {
       const float* c = fields.at(p, row);
-      for (int i = 0; i < 3; ++i) missed[i] += directions.functions(l, p) * static_cast<double>(c[i]);
+      for (int i = 0; i < 3; ++i)
+        missed[i] += directions.functions(l, p) * static_cast<double>(c[i]);
     }
     worst.see(missed[0] * missed[0] + missed[1] * missed[1] + missed[2] * missed[2], l);
   }
@@ -261,18 +262,17 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
     basis.mixing = directions.mixing.leftCols(rank);
     basis.error.max = std::sqrt(worst.squared) + of_nodes.max;
     basis.error.level = tested.levels[static_cast<std::size_t>(worst.level)];
-    basis.error.rms =
-        probe_error(exact, directions.functions.leftCols(rank),
-                    [&](Index v, Index p, Index c) -> double {
-                      const Index vertex = probes.vertices[static_cast<std::size_t>(v)];
-                      return basis.field(p)[static_cast<std::size_t>(3 * vertex + c)];
-                    })
-            .rms;
+    basis.error.rms = probe_error(exact, directions.functions.leftCols(rank),
+                                  [&](Index v, Index p, Index c) -> double {
+                                    const Index vertex =
+                                        probes.vertices[static_cast<std::size_t>(v)];
+                                    return basis.field(p)[static_cast<std::size_t>(3 * vertex + c)];
+                                  })
+                          .rms;
     return basis;
   }
-  throw InvalidInput(concat("expected levels within ", tolerance, ", reached ",
-                            of_nodes.max, " with ", nodes.levels().size(),
-                            " fields"));
+  throw InvalidInput(concat("expected levels within ", tolerance, ", reached ", of_nodes.max,
+                            " with ", nodes.levels().size(), " fields"));
 }
 
 Positions evaluate(const LevelBasis& basis, const LevelNodes& nodes, const Positions& positions,

@@ -37,9 +37,9 @@ class LevelNodes {
   std::uint64_t max_level_;
   std::vector<double> eigenvalues_, grid_weights_;
   std::vector<std::uint64_t> levels_;
-  std::vector<Spectrum> directions_;            ///< orthonormal, in the order of choice
-  std::vector<std::size_t> choice_;             ///< which of levels_ was chosen first, second, …
-  std::vector<std::vector<double>> triangle_;   ///< node p = Σ_q triangle_[p][q] direction q
+  std::vector<Spectrum> directions_;           ///< orthonormal, in the order of choice
+  std::vector<std::size_t> choice_;            ///< which of levels_ was chosen first, second, …
+  std::vector<std::vector<double>> triangle_;  ///< node p = Σ_q triangle_[p][q] direction q
 };
 
 }  // namespace crowdface

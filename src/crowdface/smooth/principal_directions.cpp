@@ -169,8 +169,8 @@ TestedLevels test_levels(const LevelNodes& nodes) {
 
 Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
                                 double tolerance) {
-  constexpr int kRounds = 5;        // measured: further ones gain no rank (docs/method.md)
-  constexpr double kFloor = 0.02;   // so that no level is forgotten
+  constexpr int kRounds = 5;       // measured: further ones gain no rank (docs/method.md)
+  constexpr double kFloor = 0.02;  // so that no level is forgotten
   const Eigen::MatrixXd moments = second_moments(sample);
   Eigen::VectorXd importance = Eigen::VectorXd::Ones(tested.weights.rows());
   Directions best;

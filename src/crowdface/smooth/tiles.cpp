@@ -61,7 +61,8 @@ std::vector<std::uint32_t> order_along_curve(const Positions& positions) {
   });
   std::sort(places.begin(), places.end());
   std::vector<std::uint32_t> order(places.size());
-  std::transform(places.begin(), places.end(), order.begin(), [](const auto& p) { return p.second; });
+  std::transform(places.begin(), places.end(), order.begin(),
+                 [](const auto& p) { return p.second; });
   return order;
 }
 
@@ -171,8 +172,8 @@ Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& posit
                       Index tile_rows, int ring_count) {
   const Index vertices = smoothing.vertex_count();
   if (positions.rows() != vertices) {
-    throw InvalidInput(concat("cutting into tiles expects ", vertices, " positions, got ",
-                              positions.rows()));
+    throw InvalidInput(
+        concat("cutting into tiles expects ", vertices, " positions, got ", positions.rows()));
   }
   Tiling tiling;
   tiling.ring_count = ring_count;

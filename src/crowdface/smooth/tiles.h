@@ -22,10 +22,10 @@ struct ValenceRun {
 /// the own ones first, then ring 1 (their neighbours outside), ring 2, … After a step the outermost
 /// ring is out of date, so that with n rings n steps are right on the own rows.
 struct Tile {
-  std::uint32_t first = 0;             ///< the first of its own rows in the tiling's order
-  std::uint32_t count = 0;             ///< own rows
-  std::vector<std::uint32_t> halo;     ///< rows (tiling's order) of local rows count, count + 1, …
-  std::vector<ValenceRun> runs;        ///< of the rows that move: own, ring 1, ring 2, …
+  std::uint32_t first = 0;          ///< the first of its own rows in the tiling's order
+  std::uint32_t count = 0;          ///< own rows
+  std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of local rows count, count + 1, …
+  std::vector<ValenceRun> runs;     ///< of the rows that move: own, ring 1, ring 2, …
   std::vector<std::uint32_t> runs_to;  ///< runs_to[r]: how many runs cover the rings up to r
   std::vector<std::uint32_t> rings;    ///< neighbours (local rows), in the operator's order
 
