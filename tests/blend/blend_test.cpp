@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/blend/blend.h"
 
+#include <algorithm>
+#include <string>
+
 #include <gtest/gtest.h>
 
+#include "crowdface/blend/crowd_blender.h"
+#include "crowdface/core/instruction_set.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/iterate.h"
 
@@ -39,6 +45,9 @@ class Blend : public ::testing::Test {
     std::vector<CubicFit> fits;
     for (const Head& h : faces_.heads) fits.push_back(fit_cubic(filter(), h.positions, max_level));
     return fits;
+  }
+  CrowdBlender blender(const std::vector<CubicFit>& fits, const RegionWeights& regions) const {
+    return {faces_, levels_of(fits), regions};
   }
   static std::vector<HeadLevels> levels_of(const std::vector<CubicFit>& fits) {
     std::vector<HeadLevels> levels;
@@ -178,14 +187,50 @@ TEST_F(Blend, CubicFollowsItsFormula) {
     }
     expected += two_.alpha.col(k).asDiagonal() * face;
   }
-  EXPECT_LT(difference(blend_levels(faces_, levels_of(fits), two_, recipe(0, regions)), expected),
-            1e-11);
+  EXPECT_LT(difference(blender(fits, two_).blend(recipe(0, regions)), expected), 2e-5);
 }
 
 TEST_F(Blend, CubicTargetAloneGivesTheTarget) {
   const std::vector<CubicFit> fits = cubic_fits(50);
   const Recipe alone = recipe(1, {region({{1, 1}}, 20)});
-  EXPECT_EQ(blend_levels(faces_, levels_of(fits), one_, alone), head(1)) << "to the bit";
+  EXPECT_EQ(blender(fits, one_).blend(alone), head(1)) << "to the bit";
+}
+
+TEST_F(Blend, AFaceHasTheSameBitsAloneAndInAnyCompany) {
+  const std::vector<CubicFit> fits = cubic_fits(50);
+  const CrowdBlender blend = blender(fits, two_);
+  std::vector<Recipe> crowd;
+  for (std::uint64_t f = 0; f < 15; ++f) {  // two groups of six and a rest; sources come and go
+    const double w = 0.05 * static_cast<double>(f);
+    std::vector<SourceWeight> weights = {{static_cast<Index>(f % 3), 1 - w}};
+    if (f > 4) weights.push_back({static_cast<Index>((f + 1) % 3), w});
+    crowd.push_back(
+        recipe(static_cast<Index>(f % 2), {region(weights, 3 * f, 0.9), region(weights, f)}));
+  }
+  std::vector<const Recipe*> all;
+  for (const Recipe& one : crowd) all.push_back(&one);
+  const std::vector<Positions> together = blend.blend(all);
+  for (std::size_t f = 0; f < crowd.size(); ++f) EXPECT_EQ(together[f], blend.blend(crowd[f])) << f;
+  std::reverse(all.begin(), all.end());
+  const std::vector<Positions> reversed = blend.blend(all);
+  for (std::size_t f = 0; f < crowd.size(); ++f) EXPECT_EQ(together[f], reversed[14 - f]) << f;
+  for (const std::string& name : instruction_sets()) {
+    use_instruction_set(name);
+    const ThreadLimit one(1);
+    EXPECT_EQ(together[7], blend.blend(crowd[7])) << name;
+  }
+  use_instruction_set(instruction_sets().front());
+}
+
+TEST_F(Blend, RimsKeepTheTargetsBitsWithFittedLevels) {
+  const std::vector<CubicFit> fits = cubic_fits(50);
+  const Positions face =
+      blender(fits, two_).blend(recipe(2, {region({{0, 1}}, 17, 1.4), region({{1, 1}}, 30)}));
+  const Adjacency adjacency = build_adjacency(faces_.topology);
+  for (Index i = 0; i < face.rows(); ++i) {
+    if (!adjacency.boundary[static_cast<std::size_t>(i)]) continue;
+    EXPECT_EQ(face.row(i), head(2).row(i));
+  }
 }
 
 TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
@@ -193,8 +238,7 @@ TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
     testing::expect_error(ExitCode::kBadData, {},
                           [&] { blend_exact(faces_, filter(), regions, bad); });
     const std::vector<CubicFit> fits = cubic_fits(5);
-    testing::expect_error(ExitCode::kBadData, {},
-                          [&] { blend_levels(faces_, levels_of(fits), regions, bad); });
+    testing::expect_error(ExitCode::kBadData, {}, [&] { blender(fits, regions).blend(bad); });
   };
   refuse(recipe(0, {region({{1, 1}}, 3)}), two_);
   refuse(recipe(3, {region({{1, 1}}, 3)}), one_);
@@ -208,9 +252,7 @@ TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
 TEST_F(Blend, LevelsAreNeededForEachHead) {
   std::vector<CubicFit> fits = cubic_fits(5);
   fits.pop_back();
-  testing::expect_error(ExitCode::kBadData, {}, [&] {
-    blend_levels(faces_, levels_of(fits), one_, recipe(0, {region({{1, 1}}, 3)}));
-  });
+  testing::expect_error(ExitCode::kBadData, {}, [&] { blender(fits, one_); });
 }
 
 }  // namespace

@@ -114,8 +114,8 @@ Cast cast(const Job& job, const Prepared& prepared) {
 Positions build_face(const Job& job, const Prepared& prepared, const Recipe& recipe) {
   return job.config.smoothing.levels == Levels::kExact
              ? blend_exact(job.inputs.faces, *prepared.filter, job.inputs.regions, recipe)
-             : blend_levels(job.inputs.faces, head_levels(job.config, prepared), job.inputs.regions,
-                            recipe);
+             : CrowdBlender(job.inputs.faces, head_levels(job.config, prepared), job.inputs.regions)
+                   .blend(recipe);
 }
 
 std::string format_plan(const Job& job, const std::vector<Recipe>& crowd) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/blend/blend.h"
+#include "crowdface/blend/crowd_blender.h"
 #include "crowdface/cast/face_samples.h"
 #include "crowdface/job/config.h"
 #include "crowdface/job/inputs.h"

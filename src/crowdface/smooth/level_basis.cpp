@@ -21,7 +21,7 @@ constexpr double kFieldSeriesTolerance = 1e-6;
 /// Vertices at which the filter itself is kept, to hold the basis against.
 constexpr std::size_t kProbes = 1024;
 /// Vertices that choose the principal directions and the rank; the error is then measured at all.
-constexpr std::size_t kSampleRows = 8192;
+constexpr std::size_t kSampleRows = 4096;
 constexpr Index kMeasureBlock = 2048;
 
 /// Every n-th of `count` rows, `most` at most.

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/blend/crowd_blender.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "crowdface/blend/crowd_product_kernels.h"
+#include "crowdface/blend/recipe_check.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
+                           const RegionWeights& regions)
+    : faces_(faces), levels_(std::move(levels)), regions_(regions) {
+  if (levels_.size() != faces.heads.size()) {
+    throw InvalidInput(
+        concat("expected fitted levels of ", faces.heads.size(), " heads, found ", levels_.size()));
+  }
+  for (const HeadLevels& head : levels_) {
+    const auto expected = static_cast<std::size_t>(3 * head.rank * faces.topology.vertex_count);
+    if (head.fields.size() != expected) {
+      throw InvalidInput(
+          concat("expected ", expected, " numbers of fitted levels, found ", head.fields.size()));
+    }
+    field_count_ += static_cast<std::size_t>(head.rank);
+  }
+  if (regions.alpha.rows() != faces.topology.vertex_count) {
+    throw InvalidInput(concat("expected masks for ", faces.topology.vertex_count,
+                              " vertices, found ", regions.alpha.rows()));
+  }
+  cut_into_blocks();
+}
+
+void CrowdBlender::cut_into_blocks() {
+  std::map<std::vector<std::uint32_t>, std::vector<std::uint32_t>> by_regions;
+  std::vector<std::uint32_t> active;
+  for (Index v = 0; v < regions_.alpha.rows(); ++v) {
+    active.clear();
+    for (Index k = 0; k < regions_.alpha.cols(); ++k) {
+      if (regions_.alpha(v, k) != 0) active.push_back(static_cast<std::uint32_t>(k));
+    }
+    by_regions[active].push_back(static_cast<std::uint32_t>(v));
+  }
+  for (const auto& [regions, vertices] : by_regions) {
+    for (std::size_t begin = 0; begin < vertices.size(); begin += kBlockVertices) {
+      const std::size_t count = std::min(kBlockVertices, vertices.size() - begin);
+      blocks_.push_back({vertices_.size() + begin, count, regions});
+    }
+    vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
+  }
+}
+
+std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
+  const RegionRecipe& r = recipe.regions[region];
+  // Where a head is both target and source the shares are added first, so that the target blended
+  // with itself leaves no trace.
+  std::vector<double> shares(levels_.size(), 0.0);
+  shares[static_cast<std::size_t>(recipe.target)] = 1;  // B̃^L − B
+  for (const SourceWeight& source : r.weights) {
+    shares[static_cast<std::size_t>(source.head)] -= r.extrapolation * source.weight;  // D̃, Eq. 5
+  }
+  std::vector<float> result;
+  result.reserve(field_count_);
+  for (std::size_t h = 0; h < shares.size(); ++h) {
+    const auto rank = static_cast<std::size_t>(levels_[h].rank);
+    if (shares[h] == 0) {
+      result.insert(result.end(), rank, 0.0F);
+      continue;
+    }
+    for (const double function : levels_[h].functions(r.iterations)) {
+      result.push_back(static_cast<float>(shares[h] * function));
+    }
+  }
+  return result;
+}
+
+CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recipes,
+                                            std::size_t region) const {
+  std::vector<std::vector<float>> of_face;
+  of_face.reserve(recipes.size());
+  for (const Recipe* recipe : recipes) of_face.push_back(coefficients(*recipe, region));
+  Factors factors;
+  for (std::size_t f = 0; f < field_count_; ++f) {
+    const bool used =
+        std::any_of(of_face.begin(), of_face.end(), [&](const auto& face) { return face[f] != 0; });
+    if (!used) continue;
+    factors.fields.push_back(static_cast<std::uint32_t>(f));
+    for (std::size_t face = 0; face < kChunkFaces; ++face) {
+      factors.coefficients.push_back(face < of_face.size() ? of_face[face][f] : 0.0F);
+    }
+  }
+  return factors;
+}
+
+/// The block's values of all fields: #chunks by #fields.
+void CrowdBlender::pack(const Block& block, std::vector<Chunk>& packed) const {
+  packed.resize(kBlockChunks * field_count_);
+  std::array<float, kBlockValues> values{};
+  std::size_t field = 0;
+  for (const HeadLevels& head : levels_) {
+    for (Index p = 0; p < head.rank; ++p, ++field) {
+      const float* from = head.fields.data() + 3 * p * faces_.topology.vertex_count;
+      for (std::size_t i = 0; i < block.count; ++i) {
+        std::copy_n(from + std::size_t{3} * vertices_[block.first + i], 3, values.data() + 3 * i);
+      }
+      for (std::size_t chunk = 0; chunk < kBlockChunks; ++chunk) {
+        std::copy_n(values.data() + chunk * kChunkValues, kChunkValues,
+                    packed[chunk * field_count_ + field].values);
+      }
+    }
+  }
+}
+
+/// What a group of faces adds to the target at the block's vertices: Σ_k α_k times the product.
+void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& packed,
+                                 std::span<const Factors> of_region,
+                                 BlockDisplacements& result) const {
+  for (auto& face : result) face.fill(0);
+  float products[kChunkFaces][kChunkValues];
+  for (const std::uint32_t k : block.regions) {
+    const Factors& factors = of_region[k];
+    if (factors.fields.empty()) continue;
+    std::array<float, kBlockValues> alpha{};
+    for (std::size_t i = 0; i < 3 * block.count; ++i) {
+      alpha[i] = static_cast<float>(regions_.alpha(vertices_[block.first + i / 3], k));
+    }
+    for (std::size_t chunk = 0; chunk * kChunkValues < 3 * block.count; ++chunk) {
+      multiply_chunk(packed[chunk * field_count_].values, factors.fields.data(),
+                     factors.fields.size(), factors.coefficients.data(), products[0]);
+      for (std::size_t face = 0; face < kChunkFaces; ++face) {
+        float* sum = result[face].data() + chunk * kChunkValues;
+        for (std::size_t i = 0; i < kChunkValues; ++i) {
+          sum[i] += alpha[chunk * kChunkValues + i] * products[face][i];  // Eq. 7
+        }
+      }
+    }
+  }
+}
+
+std::vector<Positions> CrowdBlender::blend(std::span<const Recipe* const> recipes) const {
+  std::vector<Positions> results;
+  for (const Recipe* recipe : recipes) {
+    require_fit(faces_, regions_, *recipe);
+    results.emplace_back(faces_.topology.vertex_count, 3);
+  }
+  const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
+  std::vector<Factors> all_factors;  // #groups by #regions
+  for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
+    const auto group = recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first));
+    for (std::size_t k = 0; k < regions; ++k) all_factors.push_back(factors(group, k));
+  }
+  constexpr std::ptrdiff_t kBlocksATask = 8;
+  parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
+    std::vector<Chunk> packed;
+    BlockDisplacements added;
+    for (Index b = begin; b < end; ++b) {
+      const Block& block = blocks_[static_cast<std::size_t>(b)];
+      pack(block, packed);
+      for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
+        displacements(block, packed,
+                      std::span(all_factors).subspan(first / kChunkFaces * regions, regions),
+                      added);
+        for (std::size_t f = first; f < std::min(first + kChunkFaces, recipes.size()); ++f) {
+          const Positions& target =
+              faces_.heads[static_cast<std::size_t>(recipes[f]->target)].positions;
+          for (std::size_t i = 0; i < block.count; ++i) {
+            const Index vertex = vertices_[block.first + i];
+            for (Index c = 0; c < 3; ++c) {
+              results[f](vertex, c) =
+                  target(vertex, c) +
+                  static_cast<double>(added[f - first][3 * i + static_cast<std::size_t>(c)]);
+            }
+          }
+        }
+      }
+    }
+  });
+  return results;
+}
+
+Positions CrowdBlender::blend(const Recipe& recipe) const {
+  const Recipe* one = &recipe;
+  return std::move(blend(std::span(&one, 1)).front());
+}
+
+}  // namespace crowdface

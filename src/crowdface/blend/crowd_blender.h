@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "crowdface/blend/crowd_product_kernels.h"
+#include "crowdface/blend/recipe.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/region/region_weights.h"
+
+namespace crowdface {
+
+/// The levels of a head as fields: S̃_L x = x + Σ_p φ_p(L)·c_p, fitted once (LevelBasis, or the
+/// paper's CubicFit).
+struct HeadLevels {
+  Index rank = 0;
+  std::span<const float> fields;  ///< rank times #V by 3: all of c_0, then all of c_1, …
+  std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
+};
+
+/// Builds faces from fitted levels (Eqs. 5–7 with S̃), many at once:
+///
+///     A = B + Σ_k α_k Σ_h s_kh Σ_p φ_hp(L_k) c_hp,   s_kh = [h is the target] − e_k ω̂_kh
+///
+/// since C − S̃_L C = −Σ_p φ_p c_p(C). For M faces that is, for the vertices of a region, a product of
+/// all heads' fields with a matrix of M columns of coefficients: what the fields cost to read is
+/// shared by the faces. A face has the same bits alone and in any company, on any number of threads
+/// and with any instruction set; one that adds nothing (the target with itself) keeps the target's.
+class CrowdBlender {
+ public:
+  /// \param levels   one for each head of the face set; their fields must outlive the blender.
+  /// \param regions  α, #V by #regions, rows summing to one.
+  /// \throws InvalidInput if these do not fit together.
+  CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels, const RegionWeights& regions);
+
+  /// The faces of the recipes, #V by 3 each, in the heads' unit.
+  /// \throws InvalidInput if a recipe does not fit the face set or the regions.
+  std::vector<Positions> blend(std::span<const Recipe* const> recipes) const;
+  Positions blend(const Recipe& recipe) const;
+
+ private:
+  /// Vertices whose values of all fields stay in a core's own cache while the faces pass over them.
+  static constexpr std::size_t kBlockVertices = 128;
+  static constexpr std::size_t kBlockValues = 3 * kBlockVertices;
+  static constexpr std::size_t kBlockChunks = kBlockValues / kChunkValues;
+  static_assert(kBlockValues % kChunkValues == 0);
+
+  /// Up to kBlockVertices vertices that the same regions act on.
+  struct Block {
+    std::size_t first = 0, count = 0;    ///< in vertices_
+    std::vector<std::uint32_t> regions;  ///< those with a weight there
+  };
+  /// The coefficients of up to kChunkFaces faces in one region.
+  struct Factors {
+    std::vector<std::uint32_t> fields;  ///< those that any of the faces uses, ascending
+    std::vector<float> coefficients;    ///< #fields by kChunkFaces
+  };
+  /// Some values of one field, where vector loads can take them aligned.
+  struct alignas(64) Chunk {
+    float values[kChunkValues];
+  };
+  using BlockDisplacements = std::array<std::array<float, kBlockValues>, kChunkFaces>;
+
+  void cut_into_blocks();
+  std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
+  Factors factors(std::span<const Recipe* const> recipes, std::size_t region) const;
+  void pack(const Block& block, std::vector<Chunk>& packed) const;
+  void displacements(const Block& block, const std::vector<Chunk>& packed,
+                     std::span<const Factors> of_region, BlockDisplacements& result) const;
+
+  const FaceSet& faces_;
+  std::vector<HeadLevels> levels_;
+  const RegionWeights& regions_;
+  std::size_t field_count_ = 0;
+  std::vector<std::uint32_t> vertices_;  ///< #V, in the order of the blocks
+  std::vector<Block> blocks_;
+};
+
+}  // namespace crowdface

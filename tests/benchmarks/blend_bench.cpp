@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Blending a crowd as one product, and the bare product of that size beside it: the counter
+// `ratio_to_bare` relates the two.
+#include <chrono>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <benchmark/benchmark.h>
+
+#include "crowdface/blend/crowd_blender.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/random.h"
+
+#include "benchmarks/bench_size.h"
+
+namespace crowdface {
+namespace {
+
+double uniform(std::uint64_t index, const char* purpose) {
+  return random_between({1, index, purpose, 0}, 0, 1);
+}
+
+/// Heads whose fields are noise, three regions in bands with soft edges (a tenth of the vertices in
+/// two of them), and recipes of four sources each.
+struct Crowd {
+  Crowd(Index heads, Index rank, Index vertices, std::size_t count) {
+    faces.topology.vertex_count = vertices;
+    fields.resize(static_cast<std::size_t>(3 * rank * vertices));
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      fields[i] = static_cast<float>(i * 2654435761U % 1000) * 1e-3F;
+    }
+    for (Index h = 0; h < heads; ++h) {
+      faces.heads.push_back({"head", Positions::Constant(vertices, 3, static_cast<double>(h))});
+      // All heads share the memory of one at an offset each would have: what is read is the same.
+      levels.push_back({rank, fields, [rank](std::uint64_t level) {
+                          return std::vector<double>(static_cast<std::size_t>(rank),
+                                                     1.0 / (1.0 + static_cast<double>(level)));
+                        }});
+    }
+    regions.alpha.setZero(vertices, 3);
+    for (Index v = 0; v < vertices; ++v) {
+      const double place = 3 * static_cast<double>(v) / static_cast<double>(vertices);
+      const auto k = static_cast<Index>(place);
+      const double in = std::min(1.0, (static_cast<double>(k + 1) - place) * 20 + (k == 2 ? 1 : 0));
+      regions.alpha(v, k) = in;
+      if (in < 1) regions.alpha(v, k + 1) = 1 - in;
+    }
+    for (std::size_t f = 0; f < count; ++f) {
+      Recipe recipe;
+      recipe.target = static_cast<Index>(uniform(f, "target") * static_cast<double>(heads));
+      for (Index k = 0; k < 3; ++k) {
+        RegionRecipe region;
+        region.iterations = 100;
+        for (Index h = 0; h < heads; ++h)
+          region.weights.push_back({h, 1.0 / static_cast<double>(heads)});
+        recipe.regions.push_back(region);
+      }
+      recipes.push_back(recipe);
+    }
+    for (const Recipe& recipe : recipes) pointers.push_back(&recipe);
+  }
+  FaceSet faces;
+  std::vector<float> fields;
+  std::vector<HeadLevels> levels;
+  RegionWeights regions;
+  std::vector<Recipe> recipes;
+  std::vector<const Recipe*> pointers;
+};
+
+/// Milliseconds a face of a bare single-precision Eigen product of that size: blocks of rows that fit
+/// the cache, on the same threads.
+double bare_ms(Index values, Index fields, Index faces) {
+  using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>;
+  constexpr Index kRows = 384;
+  const Matrix block = Matrix::Random(kRows, fields), factors = Matrix::Random(fields, faces);
+  std::vector<Matrix> out(static_cast<std::size_t>((values + kRows - 1) / kRows));
+  double least = HUGE_VAL;
+  for (int i = 0; i < 3; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    parallel_for_each(static_cast<Index>(out.size()), [&](Index b) {
+      out[static_cast<std::size_t>(b)].noalias() = block * factors;
+    });
+    least = std::min(
+        least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return 1e3 * least / static_cast<double>(faces);
+}
+
+void BM_BlendCrowd(benchmark::State& state) {
+  const Index heads = state.range(0), rank = state.range(1);
+  const auto faces = static_cast<std::size_t>(state.range(2));
+  const Index vertices = bench::size(1'200'000, 2'000);
+  const Crowd crowd(heads, rank, vertices, faces);
+  const CrowdBlender blender(crowd.faces, crowd.levels, crowd.regions);
+  double least = HUGE_VAL;
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    benchmark::DoNotOptimize(blender.blend(crowd.pointers));
+    least = std::min(
+        least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  const double ms = 1e3 * least / static_cast<double>(faces);
+  const double bare = bare_ms(3 * vertices, heads * rank, static_cast<Index>(faces));
+  state.counters["ms_a_face"] = ms;
+  state.counters["bare_ms_a_face"] = bare;
+  state.counters["ratio_to_bare"] = ms / bare;
+}
+BENCHMARK(BM_BlendCrowd)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(2)
+    ->ArgNames({"heads", "rank", "faces"})
+    ->Args({2, 4, 32})
+    ->Args({4, 4, 32})
+    ->Args({7, 4, 32})
+    ->Args({10, 4, 32})
+    ->Args({13, 4, 32})
+    ->Args({15, 4, 32})
+    ->Args({15, 10, 32})
+    ->Args({15, 12, 32})
+    ->Args({15, 10, 1})
+    ->Args({15, 10, 6})
+    ->Args({15, 10, 12});
+
+}  // namespace
+}  // namespace crowdface
