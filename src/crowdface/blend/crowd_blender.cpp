@@ -141,11 +141,11 @@ void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& p
   }
 }
 
-std::vector<Positions> CrowdBlender::blend(std::span<const Recipe* const> recipes) const {
-  std::vector<Positions> results;
-  for (const Recipe* recipe : recipes) {
-    require_fit(faces_, regions_, *recipe);
-    results.emplace_back(faces_.topology.vertex_count, 3);
+void CrowdBlender::blend(std::span<const Recipe* const> recipes,
+                         std::span<Positions> results) const {
+  for (std::size_t f = 0; f < recipes.size(); ++f) {
+    require_fit(faces_, regions_, *recipes[f]);
+    results[f].resize(faces_.topology.vertex_count, 3);
   }
   const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
   std::vector<Factors> all_factors;  // #groups by #regions
@@ -179,12 +179,13 @@ std::vector<Positions> CrowdBlender::blend(std::span<const Recipe* const> recipe
       }
     }
   });
-  return results;
 }
 
 Positions CrowdBlender::blend(const Recipe& recipe) const {
   const Recipe* one = &recipe;
-  return std::move(blend(std::span(&one, 1)).front());
+  Positions result;
+  blend(std::span(&one, 1), std::span(&result, 1));
+  return result;
 }
 
 }  // namespace crowdface

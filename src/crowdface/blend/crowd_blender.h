@@ -38,8 +38,9 @@ class CrowdBlender {
   CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels, const RegionWeights& regions);
 
   /// The faces of the recipes, #V by 3 each, in the heads' unit.
+  /// \param results  one for each recipe; what memory they hold is used again.
   /// \throws InvalidInput if a recipe does not fit the face set or the regions.
-  std::vector<Positions> blend(std::span<const Recipe* const> recipes) const;
+  void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions blend(const Recipe& recipe) const;
 
  private:
