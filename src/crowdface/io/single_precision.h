@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <charconv>
+#include <string>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// The number as every mesh format holds it: single precision, like the scans, and no negative
+/// zero.
+inline float to_single(double value) {
+  const auto single = static_cast<float>(value);
+  return single == 0 ? 0.0F : single;
+}
+
+/// No single-precision number is longer: "-1.17549435e-38".
+inline constexpr std::size_t kLongestSingle = 15;
+
+/// Writes the shortest text that reads back as the same single-precision number to `out`, where
+/// there is room for kLongestSingle characters. \return where it ends.
+inline char* write_single(char* out, double value) {
+  return std::to_chars(out, out + kLongestSingle, to_single(value)).ptr;
+}
+
+/// \param what  names the mesh in messages.
+/// \throws InvalidInput unless there are `vertices` rows and all are finite in single precision.
+void require_finite(const Positions& positions, Index vertices, const std::string& what);
+
+}  // namespace crowdface
