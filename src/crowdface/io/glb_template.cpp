@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
@@ -30,6 +31,9 @@ constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
+constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
+/// What stands around the JSON text before the buffer.
+constexpr std::size_t kBinaryHeader = kFileHeader + 2 * kChunkHeader;
 constexpr std::size_t kVectorSize = 3 * sizeof(float);
 constexpr Index kRowsPerBlock = 1 << 15;
 
@@ -270,8 +274,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   json.append((4 - json.size() % 4) % 4, ' ');
 
   const std::size_t binary_size = 2 * vector_bytes() + shared_.size();
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  const std::size_t total = kHeader + 2 * kChunkHeader + json.size() + binary_size;
+  const std::size_t total = kBinaryHeader + json.size() + binary_size;
   if (total > std::numeric_limits<std::uint32_t>::max()) {
     throw InvalidInput(concat(name, ": a GLB file of ", total,
                               " bytes cannot be; expected at most ",
@@ -294,6 +297,28 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   file.refer_to({vectors, 2 * vector_bytes()});
   file.refer_to(shared_);
   return file;
+}
+
+Positions read_glb_positions(const std::filesystem::path& path, Index vertices) {
+  const MappedFile file(path);
+  const std::string_view bytes = file.bytes();
+  const auto need = [&](bool is_so) {
+    if (is_so) return;
+    throw InvalidInput(concat(path.string(), ": expected a GLB file as crowdface writes it for ",
+                              vertices, " vertices, found another"));
+  };
+  need(bytes.size() >= kBinaryHeader && number_at<std::uint32_t>(bytes.data()) == kMagic);
+  const std::size_t json_size = number_at<std::uint32_t>(bytes.data() + kFileHeader);
+  need(json_size <= bytes.size() - kBinaryHeader);
+  const Json scene =
+      Json::parse(bytes.substr(kFileHeader + kChunkHeader, json_size), nullptr, false);
+  const Json generator = scene.value(Json::json_pointer("/asset/generator"), Json());
+  const std::size_t data = kBinaryHeader + json_size;  // positions come first in the buffer
+  need(generator == "crowdface" &&
+       static_cast<std::size_t>(vertices) <= (bytes.size() - data) / kVectorSize);
+  Positions positions = read_singles(bytes.data() + data, vertices, kVectorSize);
+  require_finite(positions, vertices, path.string());
+  return positions;
 }
 
 }  // namespace crowdface

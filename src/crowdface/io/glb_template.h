@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -56,5 +57,9 @@ class GlbTemplate {
   std::string shared_;                ///< the part of the buffer that all faces share
   std::string json_;                  ///< the scene of any face; bounds and names to be filled in
 };
+
+/// The positions of a file that GlbTemplate made. \throws InvalidInput if it is any other.
+/// \param vertices  #V of the topology it was made for.
+Positions read_glb_positions(const std::filesystem::path& path, Index vertices);
 
 }  // namespace crowdface

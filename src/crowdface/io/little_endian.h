@@ -17,6 +17,14 @@ char* put_number(char* out, Number number) {
   return out + sizeof number;
 }
 
+/// The number whose bytes begin here.
+template <class Number>
+Number number_at(const char* bytes) {
+  Number number;
+  std::memcpy(&number, bytes, sizeof number);
+  return number;
+}
+
 template <class Number>
 void append_number(std::string& out, Number number) {
   char bytes[sizeof number];

@@ -99,12 +99,7 @@ Positions read_npy(const std::filesystem::path& path) {
                               ": expected positions as crowdface writes them (.npy, float32, "
                               "n by 3), found something else"));
   }
-  Positions positions(rows, 3);
-  for (Index i = 0; i < 3 * rows; ++i) {
-    float single = 0;
-    std::memcpy(&single, bytes.data() + header.size() + static_cast<std::size_t>(i) * 4, 4);
-    positions.data()[i] = static_cast<double>(single);
-  }
+  Positions positions = read_singles(bytes.data() + header.size(), rows, 3 * sizeof(float));
   require_finite(positions, rows, path.string());
   return positions;
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/ply_template.h"
 
+#include <algorithm>
+
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
@@ -15,6 +18,15 @@ constexpr Index kRowsPerBlock = 1 << 15;
 char* put_row(char* out, const Positions& rows, Index i) {
   for (Index c = 0; c < 3; ++c) out = put_number(out, to_single(rows(i, c)));
   return out;
+}
+
+std::string ply_header(Index vertices, Index faces, bool with_normals) {
+  return concat("ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
+                "\nproperty float x\nproperty float y\nproperty float z\n",
+                with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+                "element face ", faces,
+                // "int" and not "uint": what readers have always met
+                "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
 std::size_t vertex_size(bool with_normals) {
@@ -39,15 +51,6 @@ PlyTemplate::PlyTemplate(const Topology& topology)
   }
 }
 
-std::string PlyTemplate::header(bool with_normals) const {
-  return concat("ply\nformat binary_little_endian 1.0\nelement vertex ", vertices_,
-                "\nproperty float x\nproperty float y\nproperty float z\n",
-                with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-                "element face ", face_count_,
-                // "int" and not "uint": what readers have always met
-                "\nproperty list uchar int vertex_indices\nend_header\n");
-}
-
 std::size_t PlyTemplate::encode_bytes(Normals normals) const {
   return static_cast<std::size_t>(vertices_) * vertex_size(normals == Normals::kVertex);
 }
@@ -59,7 +62,7 @@ EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& nor
   if (with_normals) require_finite(normals, vertices_, what);
   const std::size_t size = vertex_size(with_normals);
   EncodedFile file;
-  file.add(header(with_normals));
+  file.add(ply_header(vertices_, face_count_, with_normals));
   char* vertices = file.reserve(static_cast<std::size_t>(vertices_) * size);
   parallel_blocks(vertices_, kRowsPerBlock, [&](Index begin, Index end) {
     char* out = vertices + static_cast<std::size_t>(begin) * size;
@@ -71,6 +74,30 @@ EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& nor
   file.refer_to({vertices, static_cast<std::size_t>(vertices_) * size});
   file.refer_to(faces_);
   return file;
+}
+
+Positions read_ply_positions(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  const std::string_view bytes = file.bytes();
+  const auto count_after = [&](std::string_view words) {
+    const std::size_t at = std::min(bytes.find(words), bytes.size());
+    const std::string_view rest = bytes.substr(std::min(at + words.size(), bytes.size()));
+    return parse_unsigned(rest.substr(0, rest.find('\n'))).value_or(0);
+  };
+  const std::string_view head = bytes.substr(0, 1024);
+  const bool with_normals = head.find("property float nx") != head.npos;
+  const auto vertices = static_cast<Index>(count_after("element vertex "));
+  const std::string header =
+      ply_header(vertices, static_cast<Index>(count_after("element face ")), with_normals);
+  const std::size_t size = vertex_size(with_normals);
+  if (!bytes.starts_with(header) ||
+      static_cast<std::size_t>(vertices) > (bytes.size() - header.size()) / size) {
+    throw InvalidInput(
+        concat(path.string(), ": expected a PLY file as crowdface writes it, found another"));
+  }
+  Positions positions = read_singles(bytes.data() + header.size(), vertices, size);
+  require_finite(positions, vertices, path.string());
+  return positions;
 }
 
 }  // namespace crowdface

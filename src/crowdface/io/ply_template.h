@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "crowdface/io/encoded_file.h"
@@ -32,11 +33,12 @@ class PlyTemplate {
   std::size_t encode_bytes(Normals normals) const;
 
  private:
-  std::string header(bool with_normals) const;
-
   Index vertices_;
   Index face_count_;
   std::string faces_;  ///< as they stand in the file
 };
+
+/// The positions of a file that PlyTemplate made. \throws InvalidInput if it is any other.
+Positions read_ply_positions(const std::filesystem::path& path);
 
 }  // namespace crowdface

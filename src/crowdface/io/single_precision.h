@@ -24,6 +24,11 @@ inline char* write_single(char* out, double value) {
   return std::to_chars(out, out + kLongestSingle, to_single(value)).ptr;
 }
 
+/// Rows of three single-precision numbers each, as binary formats hold them.
+/// \param bytes   where the first row begins.
+/// \param stride  bytes from row to row.
+Positions read_singles(const char* bytes, Index rows, std::size_t stride);
+
 /// \param what  names the mesh in messages.
 /// \throws InvalidInput unless there are `vertices` rows and all are finite in single precision.
 void require_finite(const Positions& positions, Index vertices, const std::string& what);

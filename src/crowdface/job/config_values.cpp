@@ -20,9 +20,6 @@ constexpr std::array kNotBuilt = {
     NotBuilt{"diversity", ""},
     NotBuilt{"families", ""},
     NotBuilt{"parts", "auto"},
-    NotBuilt{"output.meshes", "ply"},
-    NotBuilt{"output.meshes", "glb"},
-    NotBuilt{"output.meshes", "points"},
 };
 
 bool is_not_built(std::string_view path, std::string_view word) {
