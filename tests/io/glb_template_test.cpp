@@ -12,7 +12,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/normals.h"
 
-#include "io/binary_reader.h"
+#include "support/binary_reader.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 

@@ -7,7 +7,7 @@
 
 #include "crowdface/core/parallel.h"
 
-#include "io/binary_reader.h"
+#include "support/binary_reader.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/temporary_folder.h"
