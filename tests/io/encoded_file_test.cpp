@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/encoded_file.h"
 
+#include <csignal>
+
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -38,6 +41,39 @@ TEST(EncodedFile, NamesTheFileThatCannotBeWritten) {
                         [&] { file.write(folder / "nowhere/f"); });
   std::filesystem::create_directories(folder / "taken/inside");
   testing::expect_error(ExitCode::kIoError, {"taken"}, [&] { file.write(folder / "taken"); });
+}
+
+/// While it lives, no file grows beyond this size: a disk that is full.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*old_handler_)(int) = nullptr;
+};
+
+TEST(EncodedFile, LeavesNothingOfAFileThatDoesNotFit) {
+  const testing::TemporaryFolder folder;
+  const std::string elsewhere(10'000, 'x');
+  const EncodedFile file = three_pieces(elsewhere);
+  for (const rlim_t bytes : {0U, 1U, 5'000U, 10'002U}) {
+    const FileSizeLimit limit(bytes);
+    testing::expect_error(ExitCode::kIoError, {(folder / "f").string(), "writing"},
+                          [&] { file.write(folder / "f"); });
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  }
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace crowdface {
 
 /// Binary PLY files (little endian) of one topology: vertices in their order with x y z and, if
 /// asked for, nx ny nz as floats; then the faces as they are, quads and larger polygons included,
-/// as `vertex_indices`. There are no texture coordinates: PLY has them a vertex each, which seams
-/// would split, and the order of the vertices would be lost.
+/// as `vertex_indices`. There are no texture coordinates: what programs agree to read is one a
+/// vertex; seams would split vertices, and their order would be lost.
 class PlyTemplate {
  public:
   enum class Normals { kNone, kVertex };
