@@ -12,15 +12,6 @@ namespace {
 
 constexpr Index kRowsPerBlock = 8192;
 
-/// #F by 3.
-Positions face_area_vectors(const Topology& topology, const Positions& positions) {
-  Positions areas(topology.face_count(), 3);
-  parallel_blocks(areas.rows(), kRowsPerBlock, [&](Index begin, Index end) {
-    for (Index f = begin; f < end; ++f) areas.row(f) = face_area_vector(topology, f, positions);
-  });
-  return areas;
-}
-
 }  // namespace
 
 Eigen::Vector3d face_area_vector(const Topology& topology, Index face, const Positions& positions) {
@@ -34,6 +25,14 @@ Eigen::Vector3d face_area_vector(const Topology& topology, Index face, const Pos
     sum += a.cross(b);
   }
   return sum;
+}
+
+Positions face_area_vectors(const Topology& topology, const Positions& positions) {
+  Positions areas(topology.face_count(), 3);
+  parallel_blocks(areas.rows(), kRowsPerBlock, [&](Index begin, Index end) {
+    for (Index f = begin; f < end; ++f) areas.row(f) = face_area_vector(topology, f, positions);
+  });
+  return areas;
 }
 
 NormalFans::NormalFans(const Topology& topology)
@@ -58,7 +57,10 @@ NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> 
 
 Positions NormalFans::normals(const Topology& topology, const Positions& positions,
                               const Eigen::RowVector3d& nowhere) const {
-  const Positions areas = face_area_vectors(topology, positions);
+  return normals(face_area_vectors(topology, positions), nowhere);
+}
+
+Positions NormalFans::normals(const Positions& areas, const Eigen::RowVector3d& nowhere) const {
   Positions normals(rows(), 3);
   parallel_blocks(rows(), kRowsPerBlock, [&](Index begin, Index end) {
     for (Index row = begin; row < end; ++row) {

@@ -25,6 +25,8 @@ class NormalFans {
   /// \param nowhere   what stands where the sum vanishes.
   Positions normals(const Topology& topology, const Positions& positions,
                     const Eigen::RowVector3d& nowhere) const;
+  /// The same from what face_area_vectors gives.
+  Positions normals(const Positions& areas, const Eigen::RowVector3d& nowhere) const;
 
   Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
   std::size_t memory_bytes() const {
@@ -45,5 +47,8 @@ Positions vertex_normals(const NormalFans& fans, const Topology& topology,
 /// Twice the vector area of one face (Newell's method): its direction is the face's normal, its
 /// length twice the face's area if the face is flat.
 Eigen::Vector3d face_area_vector(const Topology& topology, Index face, const Positions& positions);
+
+/// #F by 3, the same for all faces, in parallel.
+Positions face_area_vectors(const Topology& topology, const Positions& positions);
 
 }  // namespace crowdface
