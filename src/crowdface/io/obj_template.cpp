@@ -113,7 +113,7 @@ void ObjTemplate::add_block(const std::vector<Place>& places) {
       block.gap.empty() || block.first.is_normal
           ? block.end - block.begin
           : block.first.begin - block.begin + (block.gap.size() + 2) * places.size();
-  buffer_size_ += 3 * kLongestSingle * places.size() + old_text;
+  buffer_size_ += 3 * kLongestSingle * places.size() + old_text + kSingleRoom;
   blocks_.push_back(std::move(block));
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr Index kLinesPerBlock = 8192;
 
 void append_single(std::string& out, double value) {
-  char buffer[kLongestSingle];
+  char buffer[kSingleRoom];
   out.append(buffer, write_single(buffer, value));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <charconv>
+#include <cstddef>
 #include <string>
 
 #include "crowdface/mesh/topology.h"
@@ -17,12 +17,12 @@ inline float to_single(double value) {
 
 /// No single-precision number is longer: "-1.17549435e-38".
 inline constexpr std::size_t kLongestSingle = 15;
+/// How much room write_single needs: it writes more than it means to keep.
+inline constexpr std::size_t kSingleRoom = 24;
 
-/// Writes the shortest text that reads back as the same single-precision number to `out`, where
-/// there is room for kLongestSingle characters. \return where it ends.
-inline char* write_single(char* out, double value) {
-  return std::to_chars(out, out + kLongestSingle, to_single(value)).ptr;
-}
+/// Writes the shortest text that reads back as the same single-precision number, the very text of
+/// std::to_chars, to `out`, where there is room for kSingleRoom characters. \return where it ends.
+char* write_single(char* out, double value);
 
 /// Rows of three single-precision numbers each, as binary formats hold them.
 /// \param bytes   where the first row begins.
