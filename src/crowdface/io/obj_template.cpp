@@ -6,6 +6,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/io/single_precision.h"
+#include "crowdface/io/single_text.h"
 
 namespace crowdface {
 namespace {

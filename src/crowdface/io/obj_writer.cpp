@@ -9,6 +9,7 @@
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/single_precision.h"
+#include "crowdface/io/single_text.h"
 
 namespace crowdface {
 namespace {

@@ -15,15 +15,6 @@ inline float to_single(double value) {
   return single == 0 ? 0.0F : single;
 }
 
-/// No single-precision number is longer: "-1.17549435e-38".
-inline constexpr std::size_t kLongestSingle = 15;
-/// How much room write_single needs: it writes more than it means to keep.
-inline constexpr std::size_t kSingleRoom = 24;
-
-/// Writes the shortest text that reads back as the same single-precision number, the very text of
-/// std::to_chars, to `out`, where there is room for kSingleRoom characters. \return where it ends.
-char* write_single(char* out, double value);
-
 /// Rows of three single-precision numbers each, as binary formats hold them.
 /// \param bytes   where the first row begins.
 /// \param stride  bytes from row to row.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/io/single_precision.h"
+#include "crowdface/io/single_text.h"
 
 #include <bit>
 #include <charconv>
