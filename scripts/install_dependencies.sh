@@ -19,7 +19,7 @@ packages=(
   # the labels of contact sheets
   fonts-dejavu-core
   # tests and benchmarks
-  libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev libtinygltf-dev
 )
 case "${1-}" in
   "") ;;

@@ -4,7 +4,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/obj_writer.h"
+#include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/pipeline.h"
 
 #include "cli/commands.h"
@@ -32,6 +32,13 @@ PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
 
 void blend(const ConfigOptions& options, const std::string& reference, const std::string& out,
            bool any_settings) {
+  const auto format = mesh_format_of(out);
+  if (!format) {
+    throw UsageError(
+        concat("--output: expected a file name that ends in .obj, .ply, .glb or .npy, "
+               "found ",
+               quoted(out)));
+  }
   const Job job = load_job(options.config, options.overrides);
   const PlanLine line = find_recipe(reference, job.names);
   if (line.settings != job.settings.hex() && !any_settings) {
@@ -47,8 +54,8 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
     prepared = prepare(job.config, job.inputs, job.smoothing, options.cache_path());
   }
   const Positions positions = build_face(job, prepared, line.recipe);
-  write_obj_like(job.inputs.files[static_cast<std::size_t>(line.recipe.target)],
-                 job.inputs.faces.topology, positions, out);
+  const MeshWriters writers(job.config, job.inputs, {*format}, {&line.recipe, 1});
+  write_mesh(writers.encode(line.recipe, positions).front(), out);
   log_info(concat(line.recipe.id, " written to ", out));
 }
 
@@ -67,9 +74,9 @@ Run add_blend(CLI::App& program) {
   command->add_option("--recipe", options->recipe, "Which: the plan's file, #, the face's id")
       ->required()
       ->type_name("PLAN.jsonl#ID");
-  command->add_option("-o,--output", options->out, "The mesh to write")
+  command->add_option("-o,--output", options->out, "The mesh to write; its ending says the format")
       ->required()
-      ->type_name("OUT.obj");
+      ->type_name("OUT.obj|ply|glb|npy");
   command->add_flag("--any-settings", options->any_settings,
                     "Blend even if heads, masks or smoothing differ from the plan's");
   options->common.add_to(*command);

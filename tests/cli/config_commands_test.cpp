@@ -48,6 +48,29 @@ TEST(Blend, RebuildsAFaceByteForByte) {
   EXPECT_NE(read_text(again), read_text(folder.out() / "meshes/mob_0003.obj"));
 }
 
+TEST(Blend, WritesTheFormatThatTheNameEndsIn) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const std::string config = folder.config().string(), cache = folder.cache().string();
+  const std::string recipe = (folder.out() / "plan.jsonl").string() + "#mob_0002";
+  crowdface(
+      0, {"generate", config, "--cache", cache, "--set", "output.meshes=[ply, glb, points, obj]"});
+  const auto blend = [&](int code, const std::string& out, const std::vector<std::string>& said) {
+    crowdface(
+        code,
+        {"blend", config, "--cache", cache, "--recipe", recipe, "-o", (folder / out).string()},
+        said);
+  };
+  for (const std::string ending : {"ply", "glb", "npy"}) {
+    blend(0, "face." + ending, {});
+    EXPECT_TRUE(read_text(folder / ("face." + ending)) ==
+                read_text(folder.out() / ("meshes/mob_0002." + ending)))
+        << ending;
+  }
+  blend(64, "face.stl", {"--output", ".obj, .ply, .glb or .npy", "face.stl"});
+  EXPECT_FALSE(fs::exists(folder / "face.stl"));
+  blend(73, "nowhere/face.glb", {"nowhere/face.glb"});
+}
+
 TEST(Check, GoodConfigsPassAndNothingIsWritten) {
   const SmallCrowdFolder folder(three_regions());
   const auto before = crowd_files(folder.folder().path());

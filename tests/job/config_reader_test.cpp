@@ -38,7 +38,7 @@ TEST_F(ReadConfig, DefaultsAreThoseOfTheReference) {
   EXPECT_THAT(config->sampling.sources, ElementsAre(0, 1, 2));
   EXPECT_FALSE(config->sampling.max_sources);
   EXPECT_EQ(config->output.directory, folder_ / "out/mob");
-  EXPECT_TRUE(config->output.obj);
+  EXPECT_THAT(config->output.meshes, ElementsAre(MeshFormat::kObj));
   ASSERT_TRUE(config->output.contact_sheet);
   EXPECT_EQ(config->output.contact_sheet->columns, 6);
 }
@@ -149,7 +149,7 @@ TEST_F(ReadConfig, OutputAndPlane) {
   ASSERT_TRUE(config) << told();
   EXPECT_EQ(config->plane.anchors.at(0), PlanePoint(-0.5, 2));
   EXPECT_EQ(config->output.directory, folder_ / "b");
-  EXPECT_FALSE(config->output.obj);
+  EXPECT_TRUE(config->output.meshes.empty());
   EXPECT_FALSE(config->output.contact_sheet);
 }
 
@@ -395,11 +395,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"plane: {anchors: {ann: [0, 2e6]}}", "5:28", "found \"2e6\""},
                     Wrong{"plane: {anchors: {ann: [0, 1e999]}}", "5:28", "found \"1e999\""},
                     Wrong{"plane: {anchors: [1]}", "5:18", "mapping from heads to points"},
-                    Wrong{"output: {meshes: [ply]}", "5:19", "not available in this version"},
-                    Wrong{"output: {meshes: [obj, glb]}", "5:24", "not available in this version"},
                     Wrong{"output: {meshes: obj}", "5:18", "expected a list"},
                     Wrong{"output: {meshes: [obj, obj]}", "5:24", "twice"},
-                    Wrong{"output: {meshes: [fbx]}", "5:19", "expected obj, found \"fbx\""},
+                    Wrong{"output: {meshes: [fbx]}", "5:19",
+                          "expected obj or ply or glb or points, found \"fbx\""},
                     Wrong{"output: {directory: ''}", "5:21", "expected a folder"},
                     Wrong{"output: {directory: \"a\\0b\"}", "5:21", "expected a folder"},
                     Wrong{"output: {contact_sheet: off}", "5:25", "none or a mapping"},

@@ -77,7 +77,7 @@ void expect_equal(const Config& a, const Config& b) {
     }
   }
   EXPECT_EQ(a.output.directory, b.output.directory);
-  EXPECT_EQ(a.output.obj, b.output.obj);
+  EXPECT_EQ(a.output.meshes, b.output.meshes);
   ASSERT_EQ(a.output.contact_sheet.has_value(), b.output.contact_sheet.has_value());
   if (a.output.contact_sheet) {
     EXPECT_EQ(a.output.contact_sheet->columns, b.output.contact_sheet->columns);

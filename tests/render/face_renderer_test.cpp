@@ -80,6 +80,31 @@ TEST(FaceRenderer, SamePixelsEachTimeAndOnAnyNumberOfThreads) {
   EXPECT_EQ(renderer.render(sphere.positions, camera), first);
 }
 
+TEST(FaceRenderer, FittingTheTreeToAFaceChangesNoPixel) {
+  const Mesh sphere = make_sphere(1, 60, 120);
+  const Camera camera = camera_for(2 * sphere.positions);
+  Positions egg = sphere.positions, dented = sphere.positions;
+  egg.col(1) *= 1.7;
+  for (Index i = 0; i < dented.rows(); ++i) dented.row(i) *= 1 + 0.3 * std::sin(7 * dented(i, 0));
+  const Positions far = egg.rowwise() + Eigen::RowVector3d(0.5, 0.25, -3);
+  const RenderOptions options = {.size_px = 96};
+  const FaceRenderer anew(sphere.topology, options);
+  const FaceRenderer fitted(sphere.topology, options, {}, &sphere.positions);
+  // There and back again: a face's picture does not depend on the faces before it.
+  const Positions* const faces[] = {&egg, &far, &dented, &sphere.positions, &egg};
+  for (const Positions* face : faces) {
+    EXPECT_EQ(fitted.render(*face, camera), anew.render(*face, camera));
+  }
+  const auto several = [&](const FaceRenderer& renderer) {
+    std::vector<Rgb8Image> images(12, Rgb8Image(1, 1));
+    parallel_for_each(12, [&](Index i) {
+      images[static_cast<std::size_t>(i)] = renderer.render(i % 2 == 0 ? egg : dented, camera);
+    });
+    return images;
+  };
+  EXPECT_EQ(several(fitted), several(anew)) << "from several threads at once";
+}
+
 TEST(FaceRenderer, OneFlatShapeLooksTheSameInTrianglesQuadsAndOnePolygon) {
   Positions square(6, 3);
   square << -1, -1, 0, 0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0;
@@ -216,6 +241,8 @@ TEST(FaceRenderer, RefusesWhatDoesNotFit) {
   EXPECT_THROW(FaceRenderer(sphere.topology, {}, {SurfaceKind::kSkin}), InvalidInput);
   const FaceRenderer renderer(sphere.topology, {.size_px = 16});
   EXPECT_THROW(renderer.render(sphere.positions.topRows(5), camera), InvalidInput);
+  const Positions five = sphere.positions.topRows(5);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {}, &five), InvalidInput);
   const VertexColours few = VertexColours::Zero(5, 3);
   EXPECT_THROW(renderer.render(sphere.positions, camera, &few), InvalidInput);
   Positions broken = sphere.positions;

@@ -10,10 +10,7 @@
 
 namespace crowdface {
 
-/// Writes the target's own file with other positions: every byte but the x y z of `v` lines (and of
-/// `vn` lines, if there are any) is the target's. Numbers are the shortest that read back as the
-/// same single-precision value. A normal is recomputed from the faces whose corners use it; one
-/// that no face uses stays as it is.
+/// Writes the target's own file with other positions, once: ObjTemplate says how.
 /// \param topology   the faces, which all heads share; only read if the file has normals.
 /// \param positions  #V by 3, in the file's unit.
 /// \return           the digest of the bytes written.

@@ -11,6 +11,7 @@
 #include "crowdface/blend/normalization.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
+#include "crowdface/job/mesh_format.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/render/view.h"
 #include "crowdface/smooth/smoothing_operator.h"
@@ -86,7 +87,7 @@ struct Config {
   };
   struct Output {
     std::filesystem::path directory;
-    bool obj = true;  ///< `meshes: [obj]`; false for `meshes: []`
+    std::vector<MeshFormat> meshes = {MeshFormat::kObj};         ///< each once; may be empty
     std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
   } output;
 

@@ -43,14 +43,20 @@ void check_manual_anchors(const YamlNode& node, const YamlNode* anchors, ConfigD
 void read_meshes(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
   if (node->kind != YamlNode::Kind::kList) {
-    draft.complaints.expected(*node, "a list, [obj], or [] for no meshes");
+    draft.complaints.expected(*node, "a list, such as [obj], or [] for no meshes");
     return;
   }
-  draft.config.output.obj = false;
+  Choices<MeshFormat> choices;
+  for (const MeshFormat format : all_mesh_formats()) choices.emplace_back(name_of(format), format);
+  std::vector<MeshFormat>& meshes = draft.config.output.meshes;
+  meshes.clear();
   for (const YamlNode& item : node->items) {
-    if (!read_word(item, {"obj"}, draft.complaints)) continue;
-    if (draft.config.output.obj) draft.complaints.about(item, "\"obj\" is named twice");
-    draft.config.output.obj = true;
+    const auto format = read_choice(item, choices, draft.complaints);
+    if (!format) continue;
+    if (std::find(meshes.begin(), meshes.end(), *format) != meshes.end()) {
+      draft.complaints.about(item, concat(quoted(item.text), " is named twice"));
+    }
+    meshes.push_back(*format);
   }
 }
 

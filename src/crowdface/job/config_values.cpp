@@ -17,9 +17,9 @@ struct NotBuilt {
   std::string_view word;  ///< empty: the key itself
 };
 constexpr std::array kNotBuilt = {
-    NotBuilt{"diversity", ""},        NotBuilt{"families", ""},
-    NotBuilt{"parts", "auto"},        NotBuilt{"output.meshes", "ply"},
-    NotBuilt{"output.meshes", "glb"}, NotBuilt{"output.meshes", "points"},
+    NotBuilt{"diversity", ""},
+    NotBuilt{"families", ""},
+    NotBuilt{"parts", "auto"},
 };
 
 bool is_not_built(std::string_view path, std::string_view word) {

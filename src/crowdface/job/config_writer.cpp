@@ -288,7 +288,9 @@ class Writer {
   void write_output() {
     line("output:");
     line("  directory: ", path(config_.output.directory));
-    line("  meshes: ", config_.output.obj ? "[obj]" : "[]");
+    std::vector<std::string> meshes;
+    for (const MeshFormat format : config_.output.meshes) meshes.emplace_back(name_of(format));
+    line("  meshes: ", flow_list(meshes));
     const auto& sheet = config_.output.contact_sheet;
     if (!sheet) return line("  contact_sheet: none");
     line("  contact_sheet:");

@@ -49,7 +49,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   std::error_code ignored;
   if (fs::exists(directory.plan(), ignored)) {
     for (const std::string& id : ids_of(read_file(directory.plan()))) {
-      remove_file(directory.mesh(id));
+      for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
       remove_file(directory.render(id));
     }
   }
@@ -58,9 +58,13 @@ void remove_crowd(const CrowdDirectory& directory) {
     if (is_sheet(entry.path())) sheets.push_back(entry.path());
   }
   for (const fs::path& sheet : sheets) remove_file(sheet);
-  for (const fs::path& path : {directory.sheets(), directory.renders(), directory.meshes(),
-                               directory.report(), directory.timings(), directory.table(),
-                               directory.plan(), directory.log(), directory.config()}) {
+  for (const char* array : {"corners.npy", "offsets.npy", "uvs.npy", "corner_uvs.npy"}) {
+    remove_file(directory.topology() / array);
+  }
+  for (const fs::path& path :
+       {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
+        directory.report(), directory.timings(), directory.table(), directory.plan(),
+        directory.log(), directory.config()}) {
     remove_file(path);
   }
 }
@@ -80,6 +84,10 @@ fs::path CrowdDirectory::sheet(std::size_t page) const {
   std::string number = concat(page);
   if (number.size() < 3) number.insert(0, 3 - number.size(), '0');
   return sheets() / concat("sheet_", number, ".png");
+}
+
+fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
+  return meshes() / concat(id, extension_of(format));
 }
 
 void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "crowdface/job/mesh_format.h"
+
 namespace crowdface {
 
 /// Where things lie in a crowd's folder (docs/crowd-directory.md).
@@ -19,7 +21,9 @@ struct CrowdDirectory {
   std::filesystem::path meshes() const { return root / "meshes"; }
   std::filesystem::path renders() const { return root / "renders"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
-  std::filesystem::path mesh(const std::string& id) const { return meshes() / (id + ".obj"); }
+  std::filesystem::path mesh(const std::string& id, MeshFormat format) const;
+  /// Arrays that say how positions alone (MeshFormat::kPoints) form faces.
+  std::filesystem::path topology() const { return meshes() / "topology"; }
   std::filesystem::path render(const std::string& id) const { return renders() / (id + ".png"); }
   /// Sheet number `page`, from 1.
   std::filesystem::path sheet(std::size_t page) const;

@@ -48,7 +48,7 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
     : cameras_(fit_to_heads(config, sheet, inputs)),
       renderer_(inputs.faces.topology,
                 RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
-                surface_kinds(inputs.materials)) {}
+                surface_kinds(inputs.materials), &inputs.faces.heads.front().positions) {}
 
 Rgb8Image CrowdRenders::render(const Positions& positions, const VertexColours* colours) const {
   std::vector<Rgb8Image> views;

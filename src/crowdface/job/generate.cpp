@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/generate.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <functional>
@@ -17,9 +18,9 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/material_files.h"
-#include "crowdface/io/obj_writer.h"
 #include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/pipeline.h"
 #include "crowdface/job/report.h"
 
@@ -118,7 +119,10 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
 std::vector<FaceFiles> build_faces(const Job& job, const Prepared& prepared,
                                    const CrowdDirectory& directory, const CrowdRenders* renders,
                                    const std::vector<Recipe>& crowd) {
-  if (job.config.output.obj) make_directories(directory.meshes());
+  const std::vector<MeshFormat>& formats = job.config.output.meshes;
+  const MeshWriters writers(job.config, job.inputs, formats, crowd);
+  if (!formats.empty()) make_directories(directory.meshes());
+  writers.write_shared(directory);
   if (renders != nullptr) make_directories(directory.renders());
   std::vector<FaceFiles> files(crowd.size());
   Progress progress("faces", crowd.size());
@@ -126,12 +130,7 @@ std::vector<FaceFiles> build_faces(const Job& job, const Prepared& prepared,
     throw_if_interrupted();
     const Recipe& recipe = crowd[static_cast<std::size_t>(i)];
     const Positions positions = build_face(job, prepared, recipe);
-    if (job.config.output.obj) {
-      const ObjFile& target = job.inputs.files[static_cast<std::size_t>(recipe.target)];
-      const Digest digest =
-          write_obj_like(target, job.inputs.faces.topology, positions, directory.mesh(recipe.id));
-      files[static_cast<std::size_t>(i)].mesh_digest = digest.hex();
-    }
+    files[static_cast<std::size_t>(i)].meshes = writers.write(recipe, positions, directory);
     if (renders != nullptr) write_file(directory.render(recipe.id), renders->render_png(positions));
     progress.step();
   });
@@ -152,9 +151,7 @@ std::string sheet_title(const Config& config, std::size_t faces) {
 void tell_dry_run(const Job& job) {
   const Config& config = job.config;
   const std::uint64_t faces = config.crowd.count + config.recipes.size();
-  std::uint64_t bytes = 0;
-  for (const ObjFile& file : job.inputs.files) bytes += file.file.bytes().size();
-  bytes = bytes / job.inputs.files.size() * (config.output.obj ? faces : 0);
+  const std::uint64_t bytes = faces * estimate_mesh_bytes(job.inputs, config.output.meshes);
   log_info(concat("dry run: ", faces, " faces of ", job.inputs.faces.topology.vertex_count,
                   " vertices, about ", format_fixed(static_cast<double>(bytes) / 1e6, 1),
                   " MB of meshes, ", config.output.contact_sheet ? faces : 0, " renders into ",
@@ -172,7 +169,8 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const Gener
   write_plan(job, directory, crowd);
 
   std::vector<std::string> warnings = job.inputs.warnings;
-  if (job.config.output.obj) {
+  const auto& formats = job.config.output.meshes;
+  if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) != formats.end()) {
     for (std::string& text : copy_materials(job, directory, crowd)) {
       warnings.push_back(std::move(text));
     }
@@ -243,9 +241,11 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   for (const PlanLine& line : read_plan(directory.plan(), job.names)) ids.push_back(line.recipe.id);
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
   const CrowdRenders renders(job.config, sheet, job.inputs);
-  const std::size_t pages = write_sheets(
-      directory, sheet, sheet_title(job.config, ids.size()), ids,
-      [&](std::size_t i) { return renders.render(read_obj(directory.mesh(ids[i])).positions); });
+  const std::size_t pages =
+      write_sheets(directory, sheet, sheet_title(job.config, ids.size()), ids, [&](std::size_t i) {
+        return renders.render(read_face(directory, ids[i], job.config.output.meshes,
+                                        job.inputs.faces.topology.vertex_count));
+      });
   log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
 }
 

@@ -95,11 +95,16 @@ Json distances_to_json(const Cast& cast) {
           {"to_nearest_earlier_face_mm", distribution(std::move(to_crowd))}};
 }
 
+/// "mesh" was there before there were other formats.
+std::string report_key(MeshFormat format) {
+  return format == MeshFormat::kObj ? "mesh" : std::string(name_of(format));
+}
+
 Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
   Json faces = Json::array();
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     Json face = {{"id", cast.crowd[i].id}};
-    if (!files[i].mesh_digest.empty()) face["mesh"] = files[i].mesh_digest;
+    for (const MeshFile& mesh : files[i].meshes) face[report_key(mesh.format)] = mesh.digest.hex();
     faces.push_back(std::move(face));
   }
   return faces;

@@ -5,13 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/pipeline.h"
 
 namespace crowdface {
 
 /// What one face's files are.
 struct FaceFiles {
-  std::string mesh_digest;  ///< of the OBJ's bytes; empty if none was written
+  std::vector<MeshFile> meshes;
 };
 
 /// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no

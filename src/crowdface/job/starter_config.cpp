@@ -62,7 +62,7 @@ std::string starter_config(const StarterFacts& facts) {
       "output:\n  directory: ",
       write_scalar(concat("out/", facts.crowd_name)),
       "\n"
-      "  meshes: [obj]          # [] for pictures only\n"
+      "  meshes: [obj]          # and ply, glb, points; [] for pictures only\n"
       "  contact_sheet: {columns: 6, rows: 4, cell: 256, views: [front]}\n");
 }
 

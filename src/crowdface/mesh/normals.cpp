@@ -5,7 +5,14 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/core/parallel.h"
+
 namespace crowdface {
+namespace {
+
+constexpr Index kRowsPerBlock = 8192;
+
+}  // namespace
 
 Eigen::Vector3d face_area_vector(const Topology& topology, Index face, const Positions& positions) {
   const auto vertices = topology.face(face);
@@ -20,22 +27,60 @@ Eigen::Vector3d face_area_vector(const Topology& topology, Index face, const Pos
   return sum;
 }
 
-Positions vertex_normals(const Topology& topology, const Positions& positions) {
-  Positions normals = Positions::Zero(topology.vertex_count, 3);
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const Eigen::RowVector3d area = face_area_vector(topology, f, positions);
-    for (const std::uint32_t vertex : topology.face(f)) normals.row(vertex) += area;
+Positions face_area_vectors(const Topology& topology, const Positions& positions) {
+  Positions areas(topology.face_count(), 3);
+  parallel_blocks(areas.rows(), kRowsPerBlock, [&](Index begin, Index end) {
+    for (Index f = begin; f < end; ++f) areas.row(f) = face_area_vector(topology, f, positions);
+  });
+  return areas;
+}
+
+NormalFans::NormalFans(const Topology& topology)
+    : NormalFans(topology, topology.corner_vertices, topology.vertex_count) {}
+
+NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows,
+                       Index rows)
+    : offsets_(static_cast<std::size_t>(rows) + 1) {
+  for (const std::uint32_t row : corner_rows) {
+    if (row != kNoIndex) ++offsets_[row + 1];
   }
-  for (Index i = 0; i < normals.rows(); ++i) {
-    const double length = std::sqrt(normals(i, 0) * normals(i, 0) + normals(i, 1) * normals(i, 1) +
-                                    normals(i, 2) * normals(i, 2));
-    if (length > 0) {
-      normals.row(i) /= length;
-    } else {
-      normals.row(i) = Eigen::RowVector3d(0, 0, 1);
+  for (std::size_t row = 1; row < offsets_.size(); ++row) offsets_[row] += offsets_[row - 1];
+  faces_.resize(offsets_.back());
+  std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
+  for (std::size_t f = 0; f + 1 < topology.face_offsets.size(); ++f) {
+    for (auto c = topology.face_offsets[f]; c < topology.face_offsets[f + 1]; ++c) {
+      const std::uint32_t row = corner_rows[c];
+      if (row != kNoIndex) faces_[next[row]++] = static_cast<std::uint32_t>(f);
     }
   }
+}
+
+Positions NormalFans::normals(const Topology& topology, const Positions& positions,
+                              const Eigen::RowVector3d& nowhere) const {
+  return normals(face_area_vectors(topology, positions), nowhere);
+}
+
+Positions NormalFans::normals(const Positions& areas, const Eigen::RowVector3d& nowhere) const {
+  Positions normals(rows(), 3);
+  parallel_blocks(rows(), kRowsPerBlock, [&](Index begin, Index end) {
+    for (Index row = begin; row < end; ++row) {
+      const auto r = static_cast<std::size_t>(row);
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      for (auto i = offsets_[r]; i < offsets_[r + 1]; ++i) sum += areas.row(faces_[i]);
+      const double length = std::sqrt(sum(0) * sum(0) + sum(1) * sum(1) + sum(2) * sum(2));
+      normals.row(row) = length > 0 ? Eigen::RowVector3d(sum / length) : nowhere;
+    }
+  });
   return normals;
+}
+
+Positions vertex_normals(const Topology& topology, const Positions& positions) {
+  return vertex_normals(NormalFans(topology), topology, positions);
+}
+
+Positions vertex_normals(const NormalFans& fans, const Topology& topology,
+                         const Positions& positions) {
+  return fans.normals(topology, positions, {0, 0, 1});
 }
 
 }  // namespace crowdface

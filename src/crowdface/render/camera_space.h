@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "crowdface/core/units.h"
+#include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/render/camera.h"
 
@@ -22,7 +23,8 @@ std::vector<float> to_camera(const Positions& positions, const Camera& camera);
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
 
 /// #V unit normals. If the surface as a whole is wound inside out, they are turned round.
-std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Positions& positions,
-                                            const Camera& camera);
+/// \param fans  of the topology's vertices.
+std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
+                                            const Positions& positions, const Camera& camera);
 
 }  // namespace crowdface

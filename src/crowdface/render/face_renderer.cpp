@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <span>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/normals.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/perpendicular.h"
@@ -21,17 +23,69 @@
 
 namespace crowdface {
 
+namespace {
+
+/// Scenes that are used again and again, each by one thread at a time. All have the same tree, that
+/// of the typical face, so that it does not matter which face gets which.
+class ScenePool {
+ public:
+  /// \param typical  empty: scenes are built for once.
+  void start(const RayDevice& device, const std::vector<Quad>& quads, std::vector<float> typical) {
+    device_ = &device;
+    quads_ = &quads;
+    typical_ = std::move(typical);
+  }
+
+  std::unique_ptr<RayScene> take(std::vector<float> points) {
+    if (typical_.empty()) return std::make_unique<RayScene>(*device_, std::move(points), *quads_);
+    std::unique_ptr<RayScene> scene = take_idle();
+    if (scene == nullptr) {
+      scene = std::make_unique<RayScene>(*device_, typical_, *quads_, RayScene::Tree::kForMoves);
+    }
+    scene->move_points(std::move(points));
+    return scene;
+  }
+
+  void give_back(std::unique_ptr<RayScene> scene) {
+    if (typical_.empty()) return;
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(scene));
+  }
+
+ private:
+  std::unique_ptr<RayScene> take_idle() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return nullptr;
+    std::unique_ptr<RayScene> scene = std::move(idle_.back());
+    idle_.pop_back();
+    return scene;
+  }
+
+  const RayDevice* device_ = nullptr;
+  const std::vector<Quad>* quads_ = nullptr;
+  std::vector<float> typical_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<RayScene>> idle_;
+};
+
+}  // namespace
+
 struct FaceRenderer::Prepared {
   Topology topology;
+  NormalFans fans;
   RenderOptions options;
   SamplingPattern pattern;
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
   Eyeballs eyeballs;
   RayDevice device;
+  ScenePool scenes;
 
   Prepared(const Topology& mesh, const RenderOptions& choice)
-      : topology(mesh), options(choice), pattern(choice.samples_per_side, choice.occlusion_rays) {}
+      : topology(mesh),
+        fans(mesh),
+        options(choice),
+        pattern(choice.samples_per_side, choice.occlusion_rays) {}
 };
 
 namespace {
@@ -47,7 +101,7 @@ constexpr int kTile = 16;
 /// A head as the camera sees it: x right, y up, z towards the camera, target at the origin, half
 /// the image's side as unit.
 struct Stage {
-  RayScene scene;
+  const RayScene& scene;
   std::vector<Vector> normals;  ///< #V
   const VertexColours* colours;
   const std::vector<Quad>& quads;
@@ -186,6 +240,21 @@ void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
   }
 }
 
+void check_size(const Topology& topology, const Positions& positions) {
+  if (positions.rows() != topology.vertex_count) {
+    throw InvalidInput(concat("expected ", topology.vertex_count, " vertices to render, found ",
+                              positions.rows()));
+  }
+}
+
+/// Whatever the camera: it turns a tree and makes it larger, but another tree is none the better.
+std::vector<float> unscaled(const Positions& positions) {
+  std::vector<float> points(static_cast<std::size_t>(positions.size()));
+  std::transform(positions.data(), positions.data() + positions.size(), points.begin(),
+                 [](double value) { return static_cast<float>(value); });
+  return points;
+}
+
 void check(const Topology& topology, const RenderOptions& options,
            const std::vector<SurfaceKind>& kinds) {
   if (options.size_px < 1 || options.size_px > 16384) {
@@ -205,8 +274,9 @@ void check(const Topology& topology, const RenderOptions& options,
 }  // namespace
 
 FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& options,
-                           const std::vector<SurfaceKind>& kinds) {
+                           const std::vector<SurfaceKind>& kinds, const Positions* typical) {
   check(topology, options, kinds);
+  if (typical != nullptr) check_size(topology, *typical);
   prepared_ = std::make_unique<Prepared>(topology, options);
   prepared_->eyeballs = find_eyeballs(topology, kinds);
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -215,6 +285,8 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
     add_fan(topology.face(f), prepared_->quads);
     prepared_->quad_kinds.resize(prepared_->quads.size(), kind);
   }
+  prepared_->scenes.start(prepared_->device, prepared_->quads,
+                          typical == nullptr ? std::vector<float>() : unscaled(*typical));
 }
 FaceRenderer::~FaceRenderer() = default;
 FaceRenderer::FaceRenderer(FaceRenderer&&) noexcept = default;
@@ -227,10 +299,7 @@ const RenderOptions& FaceRenderer::options() const {
 Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                                const VertexColours* colours) const {
   const Topology& topology = prepared_->topology;
-  if (positions.rows() != topology.vertex_count) {
-    throw InvalidInput(concat("expected ", topology.vertex_count, " vertices to render, found ",
-                              positions.rows()));
-  }
+  check_size(topology, positions);
   if (colours != nullptr && colours->rows() != topology.vertex_count) {
     throw InvalidInput(
         concat("expected ", topology.vertex_count, " vertex colours, found ", colours->rows()));
@@ -238,8 +307,9 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   std::vector<float> points = to_camera(positions, camera);
   const Vector gaze = to_camera(camera, prepared_->options.front);
   std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, points, gaze);
-  const Stage stage{{prepared_->device, std::move(points), prepared_->quads},
-                    camera_normals(topology, positions, camera),
+  std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
+  const Stage stage{*scene,
+                    camera_normals(topology, prepared_->fans, positions, camera),
                     colours,
                     prepared_->quads,
                     prepared_->quad_kinds,
@@ -254,6 +324,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
     render_tile(stage, prepared_->pattern, static_cast<int>(tile % tiles) * kTile,
                 static_cast<int>(tile / tiles) * kTile, image);
   });
+  prepared_->scenes.give_back(std::move(scene));
   return image;
 }
 

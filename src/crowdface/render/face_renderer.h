@@ -25,10 +25,14 @@ struct RenderOptions {
 /// fewer than three corners not at all.
 class FaceRenderer {
  public:
-  /// \param kinds  one a face, or empty: all skin.
+  /// \param kinds    one a face, or empty: all skin.
+  /// \param typical  #V by 3, how faces look about. The ray tracer's tree is then built once for it
+  ///                 and fitted to each face, which saves most of a large mesh's time; without it
+  ///                 the tree is built for every face anew.
   /// \throws InvalidInput if sizes or options make no sense.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
-                        const std::vector<SurfaceKind>& kinds = {});
+                        const std::vector<SurfaceKind>& kinds = {},
+                        const Positions* typical = nullptr);
   ~FaceRenderer();
   FaceRenderer(FaceRenderer&&) noexcept;
   FaceRenderer& operator=(FaceRenderer&&) noexcept;

@@ -46,37 +46,64 @@ RayDevice::~RayDevice() {
 }
 
 struct RayScene::State {
+  RTCDevice device;
   std::vector<float> points;
-  RTCScene scene;
+  RTCScene scene = nullptr;
+  RTCGeometry geometry = nullptr;  ///< none if there are no quads
+
+  State(RTCDevice embree, std::vector<float> first) : device(embree), points(std::move(first)) {}
+  ~State() {
+    if (geometry != nullptr) rtcReleaseGeometry(geometry);
+    if (scene != nullptr) rtcReleaseScene(scene);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void commit_points() {
+    if (geometry != nullptr) {
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                 points.data(), 0, 3 * sizeof(float), points.size() / 3);
+      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+      rtcCommitGeometry(geometry);
+    }
+    rtcCommitScene(scene);
+    const RTCError error = rtcGetDeviceError(device);
+    if (error != RTC_ERROR_NONE) fail("cannot build its scene", error);
+  }
 };
 
 RayScene::RayScene(const RayDevice& device, std::vector<float> points,
-                   const std::vector<Quad>& quads)
-    : state_(std::make_unique<State>(State{std::move(points), nullptr})) {
-  const RTCDevice embree = device.state().device;
-  const std::size_t vertices = state_->points.size() / 3;
-  state_->points.push_back(0);  // Embree reads 16 bytes at the last vertex
-  RTCScene scene = rtcNewScene(embree);
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no pinholes along edges
+                   const std::vector<Quad>& quads, Tree tree)
+    : state_(std::make_unique<State>(device.state().device, std::move(points))) {
+  State& state = *state_;
+  state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
+  state.scene = rtcNewScene(state.device);
+  const bool moves = tree == Tree::kForMoves;
+  // Robust: no pinholes along edges.
+  rtcSetSceneFlags(state.scene,
+                   moves ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
+  // Embree refits a geometry's tree only in scenes of low quality, which differ from others in what
+  // joins the trees of several geometries; there is one.
+  if (moves) rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);
   if (!quads.empty()) {
-    RTCGeometry geometry = rtcNewGeometry(embree, RTC_GEOMETRY_TYPE_QUAD);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               state_->points.data(), 0, 3 * sizeof(float), vertices);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, quads.data(),
-                               0, sizeof(Quad), quads.size());
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
+    state.geometry = rtcNewGeometry(state.device, RTC_GEOMETRY_TYPE_QUAD);
+    if (moves) rtcSetGeometryBuildQuality(state.geometry, RTC_BUILD_QUALITY_REFIT);
+    rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                               quads.data(), 0, sizeof(Quad), quads.size());
+    rtcAttachGeometry(state.scene, state.geometry);
   }
-  rtcCommitScene(scene);
-  state_->scene = scene;
-  if (const RTCError error = rtcGetDeviceError(embree); error != RTC_ERROR_NONE) {
-    rtcReleaseScene(scene);
-    fail("cannot build its scene", error);
-  }
+  state.commit_points();
 }
-RayScene::~RayScene() {
-  rtcReleaseScene(state_->scene);
+RayScene::~RayScene() = default;
+
+void RayScene::move_points(std::vector<float> points) {
+  if (points.size() + 1 != state_->points.size()) {
+    throw InvalidInput(
+        concat("expected ", state_->points.size() / 3, " points, found ", points.size() / 3));
+  }
+  state_->points = std::move(points);
+  state_->points.push_back(0);
+  state_->commit_points();
 }
 
 std::optional<RayHit> RayScene::nearest_hit(const Ray& ray) const {

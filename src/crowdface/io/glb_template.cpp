@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+// The container is 28 bytes around a JSON text and a buffer, and written here, so that faces share
+// all but two arrays; through tinygltf each face would copy its whole buffer several times (see
+// tests/benchmarks/io_bench.cpp).
+#include "crowdface/io/glb_template.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/little_endian.h"
+#include "crowdface/io/single_precision.h"
+#include "crowdface/io/split_vertices.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Codes of the glTF 2.0 specification.
+constexpr int kFloat = 5126, kUnsignedInt = 5125;
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2;  // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
+/// What stands around the JSON text before the buffer.
+constexpr std::size_t kBinaryHeader = kFileHeader + 2 * kChunkHeader;
+constexpr std::size_t kVectorSize = 3 * sizeof(float);
+constexpr Index kRowsPerBlock = 1 << 15;
+
+/// The triangles of one material, in the faces' order.
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions& options) {
+  std::vector<Triangles> groups(std::max<std::size_t>(1, options.materials.size()));
+  for (std::size_t t = 0; t < split.triangles.size(); ++t) {
+    const std::size_t material =
+        options.face_materials.empty() ? 0 : options.face_materials[split.triangle_faces[t]];
+    groups.at(material).push_back(split.triangles[t]);
+  }
+  return groups;
+}
+
+std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs) {
+  std::string bytes;
+  bytes.reserve(split.uvs.size() * 2 * sizeof(float));
+  for (const std::uint32_t uv : split.uvs) {
+    const bool has_one = uv != kNoIndex;
+    append_number(bytes, has_one ? to_single(uvs(uv, 0)) : 0.0F);
+    append_number(bytes, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v goes down
+  }
+  return bytes;
+}
+
+std::string vertex_ids(const SplitVertices& split) {
+  std::string bytes;
+  bytes.reserve(split.vertices.size() * sizeof(float));
+  // The specification forbids unsigned int here, and 16 bits are too few.
+  for (const std::uint32_t vertex : split.vertices) {
+    append_number(bytes, static_cast<float>(vertex));
+  }
+  return bytes;
+}
+
+double tidy(double value) {
+  const double rounded = std::round(value * 1e4) / 1e4;
+  return rounded == 0 ? 0.0 : rounded;
+}
+
+Json material_json(const GlbMaterial& material) {
+  Json json = Json::object();
+  if (!material.name.empty()) json["name"] = material.name;
+  Json colour = Json::array();
+  for (const float part : material.colour) colour.push_back(tidy(static_cast<double>(part)));
+  json["pbrMetallicRoughness"] = {
+      {"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.6}};
+  if (material.colour[3] < 1) json["alphaMode"] = "BLEND";
+  json["doubleSided"] = true;  // heads are open at the neck
+  return json;
+}
+
+/// Turns `up` to +Y and `front` to +Z: x, y, z and w of a unit quaternion.
+std::array<double, 4> rotation_to_gltf(Axis up, Axis front) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+  turn(1, up.index) = up.sign;
+  turn(2, front.index) = front.sign;
+  turn.row(0) = turn.row(1).cross(turn.row(2));
+  const Eigen::Quaterniond q(turn);
+  return {q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w() + 0.0};  // no negative zero
+}
+
+Json node_json(const GlbOptions& options) {
+  Json node = {{"mesh", 0}, {"name", ""}};
+  const auto rotation = rotation_to_gltf(options.up, options.front);
+  if (rotation[3] != 1) node["rotation"] = rotation;
+  constexpr double kMmPerMetre = 1000;
+  const double scale = mm_per(options.unit) / kMmPerMetre;
+  if (scale != 1) node["scale"] = {scale, scale, scale};
+  return node;
+}
+
+/// Adds arrays to a glTF buffer, one view each, and describes them.
+class BufferLayout {
+ public:
+  explicit BufferLayout(Json& scene) : scene_(scene) {
+    scene_["buffers"] = Json::array();
+    scene_["bufferViews"] = Json::array();
+    scene_["accessors"] = Json::array();
+  }
+  void add_view(std::size_t size, int target) {
+    scene_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", size_}, {"byteLength", size}, {"target", target}});
+    size_ += size;
+  }
+  /// \param offset  bytes from where the last view begins.
+  /// \return which accessor it is.
+  std::size_t add_accessor(int component, const char* type, std::size_t count,
+                           std::size_t offset = 0) {
+    Json accessor = {{"bufferView", scene_["bufferViews"].size() - 1}};
+    if (offset > 0) accessor["byteOffset"] = offset;
+    accessor["componentType"] = component;
+    accessor["count"] = count;
+    accessor["type"] = type;
+    scene_["accessors"].push_back(std::move(accessor));
+    return scene_["accessors"].size() - 1;
+  }
+  void finish() { scene_["buffers"].push_back(Json::object({{"byteLength", size_}})); }
+
+ private:
+  Json& scene_;
+  std::size_t size_ = 0;
+};
+
+Json attributes_json(BufferLayout& buffer, std::size_t vertices, bool has_uvs) {
+  Json attributes = Json::object();
+  buffer.add_view(vertices * kVectorSize, kArrayBuffer);
+  attributes["POSITION"] = buffer.add_accessor(kFloat, "VEC3", vertices);
+  buffer.add_view(vertices * kVectorSize, kArrayBuffer);
+  attributes["NORMAL"] = buffer.add_accessor(kFloat, "VEC3", vertices);
+  if (has_uvs) {
+    buffer.add_view(vertices * 2 * sizeof(float), kArrayBuffer);
+    attributes["TEXCOORD_0"] = buffer.add_accessor(kFloat, "VEC2", vertices);
+  }
+  buffer.add_view(vertices * sizeof(float), kArrayBuffer);
+  attributes["_VERTEX_ID"] = buffer.add_accessor(kFloat, "SCALAR", vertices);
+  return attributes;
+}
+
+/// One primitive a material; materials without triangles are left out.
+void add_primitives(Json& scene, BufferLayout& buffer, const std::vector<Triangles>& groups,
+                    const Json& attributes, const GlbOptions& options) {
+  std::size_t size = 0;
+  for (const Triangles& group : groups) size += group.size() * sizeof(group[0]);
+  buffer.add_view(size, kElementArrayBuffer);
+  Json primitives = Json::array(), materials = Json::array();
+  std::size_t offset = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].empty()) continue;
+    Json primitive = {
+        {"attributes", attributes},
+        {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", 3 * groups[g].size(), offset)}};
+    if (!options.materials.empty()) {
+      primitive["material"] = materials.size();
+      materials.push_back(material_json(options.materials[g]));
+    }
+    primitives.push_back(std::move(primitive));
+    offset += groups[g].size() * sizeof(groups[g][0]);
+  }
+  scene["meshes"] = Json::array({Json::object({{"name", ""}, {"primitives", primitives}})});
+  if (!materials.empty()) scene["materials"] = std::move(materials);
+}
+
+struct Bounds {
+  std::array<float, 3> low = {std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
+                              std::numeric_limits<float>::max()};
+  std::array<float, 3> high = {std::numeric_limits<float>::lowest(),
+                               std::numeric_limits<float>::lowest(),
+                               std::numeric_limits<float>::lowest()};
+};
+
+Bounds bounds_of(const Positions& positions) {
+  Bounds bounds;
+  for (Index i = 0; i < positions.rows(); ++i) {
+    for (Index c = 0; c < 3; ++c) {
+      const float value = to_single(positions(i, c));
+      const auto axis = static_cast<std::size_t>(c);
+      bounds.low[axis] = std::min(bounds.low[axis], value);
+      bounds.high[axis] = std::max(bounds.high[axis], value);
+    }
+  }
+  return bounds;
+}
+
+Json to_json(const std::array<float, 3>& vector) {
+  Json json = Json::array();
+  for (const float part : vector) json.push_back(static_cast<double>(part));
+  return json;
+}
+
+/// One row a split vertex: first all rows, then those of the further split vertices again.
+void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32_t>& split) {
+  const auto further = static_cast<Index>(split.size());
+  parallel_blocks(rows.rows() + further, kRowsPerBlock, [&](Index begin, Index end) {
+    char* at = out + static_cast<std::size_t>(begin) * kVectorSize;
+    for (Index i = begin; i < end; ++i) {
+      const Index row = i < rows.rows()
+                            ? i
+                            : static_cast<Index>(split[static_cast<std::size_t>(i - rows.rows())]);
+      for (Index c = 0; c < 3; ++c) at = put_number(at, to_single(rows(row, c)));
+    }
+  });
+}
+
+}  // namespace
+
+GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
+                         const GlbOptions& options)
+    : vertices_(topology.vertex_count) {
+  constexpr Index kMostVertices = 1 << 24;
+  if (vertices_ > kMostVertices || topology.face_count() == 0) {
+    throw InvalidInput(concat("GLB: expected a mesh with faces and at most ", kMostVertices,
+                              " vertices, found ", vertices_, " vertices and ",
+                              topology.face_count(), " faces"));
+  }
+  const SplitVertices split = split_vertices(topology);
+  split_.assign(split.vertices.begin() + vertices_, split.vertices.end());
+  const std::vector<Triangles> groups = by_material(split, options);
+
+  Json scene;
+  scene["asset"] = {{"version", "2.0"}, {"generator", "crowdface"}};
+  scene["scene"] = 0;
+  scene["scenes"] = Json::array({Json::object({{"nodes", Json::array({0})}})});
+  scene["nodes"] = Json::array({node_json(options)});
+  BufferLayout buffer(scene);
+  const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty());
+  add_primitives(scene, buffer, groups, attributes, options);
+  buffer.finish();
+  json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
+
+  shared_ = texture_coordinates(split, uvs) + vertex_ids(split);
+  for (const Triangles& group : groups) {
+    shared_.append(reinterpret_cast<const char*>(group.data()), group.size() * sizeof(group[0]));
+  }
+}
+
+std::size_t GlbTemplate::vector_bytes() const {
+  return (static_cast<std::size_t>(vertices_) + split_.size()) * kVectorSize;
+}
+
+std::size_t GlbTemplate::memory_bytes() const {
+  return shared_.size() + json_.size() + split_.size() * sizeof(split_[0]);
+}
+
+EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
+                                const std::string& name) const {
+  require_finite(positions, vertices_, name);
+  require_finite(normals, vertices_, name);
+  Json scene = Json::parse(json_);
+  const Bounds bounds = bounds_of(positions);
+  scene["accessors"][0]["min"] = to_json(bounds.low);
+  scene["accessors"][0]["max"] = to_json(bounds.high);
+  scene["nodes"][0]["name"] = name;
+  scene["meshes"][0]["name"] = name;
+  std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
+  json.append((4 - json.size() % 4) % 4, ' ');
+
+  const std::size_t binary_size = 2 * vector_bytes() + shared_.size();
+  const std::size_t total = kBinaryHeader + json.size() + binary_size;
+  if (total > std::numeric_limits<std::uint32_t>::max()) {
+    throw InvalidInput(concat(name, ": a GLB file of ", total,
+                              " bytes cannot be; expected at most ",
+                              std::numeric_limits<std::uint32_t>::max()));
+  }
+  std::string head;
+  for (const auto number : {kMagic, kVersion, static_cast<std::uint32_t>(total),
+                            static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
+    append_number(head, number);
+  }
+  head += json;
+  append_number(head, static_cast<std::uint32_t>(binary_size));
+  append_number(head, kBinaryChunk);
+
+  EncodedFile file;
+  file.add(head);
+  char* vectors = file.reserve(2 * vector_bytes());
+  put_vectors(vectors, positions, split_);
+  put_vectors(vectors + vector_bytes(), normals, split_);
+  file.refer_to({vectors, 2 * vector_bytes()});
+  file.refer_to(shared_);
+  return file;
+}
+
+Positions read_glb_positions(const std::filesystem::path& path, Index vertices) {
+  const MappedFile file(path);
+  const std::string_view bytes = file.bytes();
+  const auto need = [&](bool is_so) {
+    if (is_so) return;
+    throw InvalidInput(concat(path.string(), ": expected a GLB file as crowdface writes it for ",
+                              vertices, " vertices, found another"));
+  };
+  need(bytes.size() >= kBinaryHeader && number_at<std::uint32_t>(bytes.data()) == kMagic);
+  const std::size_t json_size = number_at<std::uint32_t>(bytes.data() + kFileHeader);
+  need(json_size <= bytes.size() - kBinaryHeader);
+  const Json scene =
+      Json::parse(bytes.substr(kFileHeader + kChunkHeader, json_size), nullptr, false);
+  const Json generator = scene.value(Json::json_pointer("/asset/generator"), Json());
+  const std::size_t data = kBinaryHeader + json_size;  // positions come first in the buffer
+  need(generator == "crowdface" &&
+       static_cast<std::size_t>(vertices) <= (bytes.size() - data) / kVectorSize);
+  Positions positions = read_singles(bytes.data() + data, vertices, kVectorSize);
+  require_finite(positions, vertices, path.string());
+  return positions;
+}
+
+}  // namespace crowdface

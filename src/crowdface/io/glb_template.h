@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crowdface/core/units.h"
+#include "crowdface/io/encoded_file.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// How a surface looks where textures are not read.
+struct GlbMaterial {
+  std::string name;                            ///< may be empty
+  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
+};
+
+struct GlbOptions {
+  LengthUnit unit = LengthUnit::kMetre;  ///< of the positions; the file's node scales to metres
+  Axis up = {1, 1};                      ///< of the positions; the node turns them to +Y …
+  Axis front = {2, 1};                   ///< … and +Z, which is glTF's front
+  std::vector<GlbMaterial> materials;
+  std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
+};
+
+/// Binary glTF 2.0 files of one topology. What all faces share (texture coordinates, triangles,
+/// the split of vertices at seams; see SplitVertices) is made once and referred to by each file.
+/// Positions stay in their own unit and axes. The attribute `_VERTEX_ID` holds the original vertex
+/// of each; the first #V vertices are the original ones in their order.
+class GlbTemplate {
+ public:
+  /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
+  /// \throws InvalidInput if there are more vertices than `_VERTEX_ID` can tell apart: it is single
+  ///         precision, which counts to 2²⁴.
+  GlbTemplate(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options);
+
+  /// The file with these positions; refers to this object.
+  /// \param normals  #V by 3, unit; always needed, because a viewer shades a mesh without them flat.
+  /// \param name     of the mesh, in the file and in messages.
+  /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
+  EncodedFile encode(const Positions& positions, const Positions& normals,
+                     const std::string& name) const;
+
+  /// What this object itself takes.
+  std::size_t memory_bytes() const;
+  /// What one encode takes.
+  std::size_t encode_bytes() const { return 2 * vector_bytes(); }
+
+ private:
+  std::size_t vector_bytes() const;
+
+  Index vertices_;
+  std::vector<std::uint32_t> split_;  ///< original vertices of the split ones from #V on
+  std::string shared_;                ///< the part of the buffer that all faces share
+  std::string json_;                  ///< the scene of any face; bounds and names to be filled in
+};
+
+/// The positions of a file that GlbTemplate made. \throws InvalidInput if it is any other.
+/// \param vertices  #V of the topology it was made for.
+Positions read_glb_positions(const std::filesystem::path& path, Index vertices);
+
+}  // namespace crowdface

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstring>
+#include <string>
+
+namespace crowdface {
+
+// Binary formats are little endian, and numbers are copied as they lie in memory.
+static_assert(std::endian::native == std::endian::little);
+
+/// Writes the number's bytes to `out`. \return where they end.
+template <class Number>
+char* put_number(char* out, Number number) {
+  std::memcpy(out, &number, sizeof number);
+  return out + sizeof number;
+}
+
+/// The number whose bytes begin here.
+template <class Number>
+Number number_at(const char* bytes) {
+  Number number;
+  std::memcpy(&number, bytes, sizeof number);
+  return number;
+}
+
+template <class Number>
+void append_number(std::string& out, Number number) {
+  char bytes[sizeof number];
+  out.append(bytes, put_number(bytes, number));
+}
+
+}  // namespace crowdface

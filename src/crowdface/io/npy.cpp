@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/npy.h"
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/little_endian.h"
+#include "crowdface/io/single_precision.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kRowsPerBlock = 1 << 15;
+
+/// The header as NumPy writes it: padded, so that the numbers begin at a multiple of 64 bytes.
+std::string npy_header(std::string_view type, const std::string& shape) {
+  std::string dictionary =
+      concat("{'descr': '", type, "', 'fortran_order': False, 'shape': (", shape, "), }");
+  constexpr std::size_t kPrefix = 10, kAlignment = 64;
+  const std::size_t used = kPrefix + dictionary.size() + 1;
+  dictionary.append((kAlignment - used % kAlignment) % kAlignment, ' ');
+  dictionary += '\n';
+  constexpr std::string_view kMagicAndVersion("\x93NUMPY\x01\x00", 8);
+  std::string header(kMagicAndVersion);
+  append_number(header, static_cast<std::uint16_t>(dictionary.size()));
+  header += dictionary;
+  return header;
+}
+
+std::string positions_header(Index vertices) {
+  return npy_header("<f4", concat(vertices, ", 3"));
+}
+
+std::size_t data_size(Index vertices) {
+  return static_cast<std::size_t>(vertices) * 3 * sizeof(float);
+}
+
+/// \throws InvalidInput if there are more corners, faces or texture coordinates than int32 counts.
+void require_int32(std::size_t count) {
+  if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw InvalidInput(concat("points: expected at most 2147483647 corners, found ", count));
+  }
+}
+
+void write_indices(const std::vector<std::uint32_t>& indices, const std::filesystem::path& path) {
+  require_int32(indices.size());
+  EncodedFile file;
+  file.add(npy_header("<i4", concat(indices.size(), ",")));
+  const auto bytes = std::as_bytes(std::span(indices));  // kNoIndex is −1
+  file.refer_to({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  file.write(path);
+}
+
+void write_uvs(const TextureCoordinates& uvs, const std::filesystem::path& path) {
+  std::string bytes = npy_header("<f4", concat(uvs.rows(), ", 2"));
+  for (Index i = 0; i < uvs.rows(); ++i) {
+    append_number(bytes, to_single(uvs(i, 0)));
+    append_number(bytes, to_single(uvs(i, 1)));
+  }
+  write_file(path, bytes);
+}
+
+}  // namespace
+
+std::size_t npy_encode_bytes(Index vertices) {
+  return data_size(vertices);
+}
+
+EncodedFile encode_npy(const Positions& positions, const std::string& what) {
+  require_finite(positions, positions.rows(), what);
+  EncodedFile file;
+  file.add(positions_header(positions.rows()));
+  char* data = file.reserve(data_size(positions.rows()));
+  parallel_blocks(positions.rows(), kRowsPerBlock, [&](Index begin, Index end) {
+    char* out = data + data_size(begin);
+    for (Index i = 3 * begin; i < 3 * end; ++i) {
+      out = put_number(out, to_single(positions.data()[i]));
+    }
+  });
+  file.refer_to({data, data_size(positions.rows())});
+  return file;
+}
+
+Positions read_npy(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  const std::string_view bytes = file.bytes();
+  // Its own header tells how many rows there are, if it is one of ours: whatever rows those bytes
+  // leave room for must give that very header.
+  constexpr std::size_t kHeader = 128;
+  const auto rows = static_cast<Index>((bytes.size() - std::min(bytes.size(), kHeader)) / 12);
+  const std::string header = positions_header(rows);
+  if (!bytes.starts_with(header) || bytes.size() != header.size() + data_size(rows)) {
+    throw InvalidInput(concat(path.string(),
+                              ": expected positions as crowdface writes them (.npy, float32, "
+                              "n by 3), found something else"));
+  }
+  Positions positions = read_singles(bytes.data() + header.size(), rows, 3 * sizeof(float));
+  require_finite(positions, rows, path.string());
+  return positions;
+}
+
+void write_topology_arrays(const Topology& topology, const TextureCoordinates& uvs,
+                           const std::filesystem::path& folder) {
+  make_directories(folder);
+  write_indices(topology.corner_vertices, folder / "corners.npy");
+  write_indices(topology.face_offsets, folder / "offsets.npy");
+  if (topology.corner_uvs.empty()) return;
+  write_uvs(uvs, folder / "uvs.npy");
+  write_indices(topology.corner_uvs, folder / "corner_uvs.npy");
+}
+
+}  // namespace crowdface

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "crowdface/io/encoded_file.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// Positions as NumPy's own file, which `numpy.load` reads: version 1.0, little-endian single
+/// precision, #V by 3, row by row.
+/// \param what  names the mesh in messages.
+/// \throws InvalidInput if positions are not finite.
+EncodedFile encode_npy(const Positions& positions, const std::string& what);
+/// What one encode_npy takes.
+std::size_t npy_encode_bytes(Index vertices);
+
+/// Positions that encode_npy made. \throws InvalidInput if the file is anything else.
+Positions read_npy(const std::filesystem::path& path);
+
+/// Writes what positions alone do not say, as arrays in a folder: `corners.npy` (int32, #C, the
+/// vertices of all faces one face after the other), `offsets.npy` (int32, #F + 1, where each face's
+/// corners begin) and, if there are texture coordinates, `uvs.npy` (float32, #T by 2) and
+/// `corner_uvs.npy` (int32, #C, the row of each corner; −1: none).
+/// \throws InvalidInput if an index needs more than 31 bits; CannotCreate, IoError.
+void write_topology_arrays(const Topology& topology, const TextureCoordinates& uvs,
+                           const std::filesystem::path& folder);
+
+}  // namespace crowdface

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/obj_template.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/io/single_precision.h"
+#include "crowdface/io/single_text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kPlacesPerBlock = 8192;
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+char* copy(std::string_view text, char* out) {
+  std::memcpy(out, text.data(), text.size());
+  return out + text.size();
+}
+
+/// Whether three numbers are set apart by one blank each.
+bool has_single_spaces(std::string_view numbers) {
+  const std::size_t first = numbers.find_first_of(" \t");
+  const std::size_t second = numbers.find_first_of(" \t", first + 1);
+  return second != numbers.npos && second > first + 1 && numbers[first] == ' ' &&
+         numbers[second] == ' ' && !is_blank(numbers[second + 1]);
+}
+
+char* write_row(char* out, const Positions& rows, Index i) {
+  out = write_single(out, rows(i, 0));
+  *out++ = ' ';
+  out = write_single(out, rows(i, 1));
+  *out++ = ' ';
+  return write_single(out, rows(i, 2));
+}
+
+/// The three numbers of a row in the place of three others, with the old blanks between them.
+char* write_like(std::string_view old, char* out, const Positions& rows, Index i) {
+  std::size_t at = 0;
+  for (Index c = 0; c < 3; ++c) {
+    out = write_single(out, rows(i, c));
+    while (at < old.size() && !is_blank(old[at])) ++at;
+    while (at < old.size() && is_blank(old[at])) *out++ = old[at++];
+  }
+  return out;
+}
+
+/// The numbers in a text where the same gap stands between each two places, found as they are asked
+/// for, in ascending order.
+class OldNumbers {
+ public:
+  OldNumbers(std::string_view text, std::string_view gap) : text_(text), gap_(gap) {}
+  std::string_view at(std::uint32_t index) {
+    for (; index_ < index; ++index_) begin_ = text_.find(gap_, begin_) + gap_.size();
+    return text_.substr(begin_, text_.find(gap_, begin_) - begin_);
+  }
+
+ private:
+  std::string_view text_, gap_;
+  std::uint32_t index_ = 0;
+  std::size_t begin_ = 0;
+};
+
+bool is_zero(const Positions& rows, Index i) {
+  return rows(i, 0) == 0 && rows(i, 1) == 0 && rows(i, 2) == 0;
+}
+
+}  // namespace
+
+ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology)
+    : text_(target.file.bytes()),
+      topology_(topology),
+      vertices_(static_cast<Index>(target.vertex_spans.size())) {
+  const auto &vertices = target.vertex_spans, &normals = target.normal_spans;
+  // Normals that no face uses are text like any other.
+  const std::size_t normal_count = target.corner_normals.empty() ? 0 : normals.size();
+  if (normal_count > 0) {
+    fans_.emplace(topology, target.corner_normals, static_cast<Index>(normal_count));
+  }
+  // In the order of the file; vertices and normals may be interleaved.
+  std::vector<Place> places;
+  for (std::size_t v = 0, n = 0; v < vertices.size() || n < normal_count;) {
+    const bool is_normal =
+        v == vertices.size() || (n < normal_count && normals[n].begin < vertices[v].begin);
+    const auto row = static_cast<std::uint32_t>(is_normal ? n : v);
+    const TextSpan& span = is_normal ? normals[n++] : vertices[v++];
+    const bool ends_run = !places.empty() && places.back().is_normal != is_normal &&
+                          places.size() > kPlacesPerBlock / 2;
+    if (places.size() == kPlacesPerBlock || ends_run) {
+      add_block(places);
+      places.clear();
+    }
+    places.push_back({span.begin, span.length, row, is_normal});
+  }
+  if (!places.empty()) add_block(places);
+}
+
+void ObjTemplate::add_block(const std::vector<Place>& places) {
+  Block block;
+  block.begin = blocks_.empty() ? 0 : blocks_.back().end;
+  block.end = places.back().begin + places.back().length;
+  block.buffer = buffer_size_;
+  block.count = static_cast<std::uint32_t>(places.size());
+  block.first = places.front();
+  find_gap(block, places);
+  if (block.gap.empty()) block.places = places;
+  // New numbers at their longest beside all of the old text; where no old text but the gap stays,
+  // that alone.
+  const std::size_t old_text =
+      block.gap.empty() || block.first.is_normal
+          ? block.end - block.begin
+          : block.first.begin - block.begin + (block.gap.size() + 2) * places.size();
+  buffer_size_ += 3 * kLongestSingle * places.size() + old_text + kSingleRoom;
+  blocks_.push_back(std::move(block));
+}
+
+void ObjTemplate::find_gap(Block& block, const std::vector<Place>& places) const {
+  if (places.size() < 2) return;
+  const auto end_of = [&](std::size_t i) { return places[i].begin + places[i].length; };
+  const std::string_view gap = text_.substr(end_of(0), places[1].begin - end_of(0));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool is_even =
+        has_single_spaces(text_.substr(places[i].begin, places[i].length)) &&
+        places[i].is_normal == places[0].is_normal &&
+        (i == 0 || text_.substr(end_of(i - 1), places[i].begin - end_of(i - 1)) == gap);
+    if (!is_even) return;
+  }
+  block.gap = gap;
+}
+
+std::size_t ObjTemplate::memory_bytes() const {
+  std::size_t bytes = blocks_.size() * sizeof(Block) + (fans_ ? fans_->memory_bytes() : 0);
+  for (const Block& block : blocks_) bytes += block.places.size() * sizeof(Place);
+  return bytes;
+}
+
+std::size_t ObjTemplate::encode_bytes() const {
+  const auto rows = static_cast<std::size_t>(fans_ ? fans_->rows() + topology_.face_count() : 0);
+  return buffer_size_ + rows * 3 * sizeof(double);
+}
+
+EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& what) const {
+  require_finite(positions, vertices_, what);
+  Positions normals;
+  if (fans_) normals = fans_->normals(topology_, positions, {0, 0, 0});
+  const Rows rows{positions, normals};
+  EncodedFile file;
+  char* buffer = file.reserve(buffer_size_);
+  std::vector<std::string_view> pieces(blocks_.size());
+  parallel_blocks(static_cast<Index>(blocks_.size()), 1, [&](Index b, Index) {
+    const Block& block = blocks_[static_cast<std::size_t>(b)];
+    char* begin = buffer + block.buffer;
+    const char* end = encode_block(block, rows, begin);
+    pieces[static_cast<std::size_t>(b)] = {begin, static_cast<std::size_t>(end - begin)};
+  });
+  for (const std::string_view piece : pieces) file.refer_to(piece);
+  file.refer_to(text_.substr(blocks_.empty() ? 0 : blocks_.back().end));
+  return file;
+}
+
+char* ObjTemplate::encode_block(const Block& block, const Rows& rows, char* out) const {
+  if (!block.gap.empty()) return encode_even(block, rows, out);
+  std::uint64_t at = block.begin;
+  for (const Place& place : block.places) {
+    out = copy(text_.substr(at, place.begin - at), out);
+    out = encode_place(place, rows, out);
+    at = place.begin + place.length;
+  }
+  return out;
+}
+
+/// Where nothing but numbers changes from line to line, the old text need not be looked at.
+char* ObjTemplate::encode_even(const Block& block, const Rows& rows, char* out) const {
+  const Positions& source = block.first.is_normal ? rows.normals : rows.positions;
+  OldNumbers old(text_.substr(block.first.begin, block.end - block.first.begin), block.gap);
+  out = copy(text_.substr(block.begin, block.first.begin - block.begin), out);
+  for (std::uint32_t i = 0; i < block.count; ++i) {
+    if (i > 0) out = copy(block.gap, out);
+    const Index row = static_cast<Index>(block.first.row) + i;
+    if (block.first.is_normal && is_zero(source, row)) {
+      out = copy(old.at(i), out);
+    } else {
+      out = write_row(out, source, row);
+    }
+  }
+  return out;
+}
+
+char* ObjTemplate::encode_place(const Place& place, const Rows& rows, char* out) const {
+  const std::string_view old = text_.substr(place.begin, place.length);
+  if (!place.is_normal) return write_like(old, out, rows.positions, place.row);
+  if (is_zero(rows.normals, place.row)) return copy(old, out);
+  return write_like(old, out, rows.normals, place.row);
+}
+
+}  // namespace crowdface

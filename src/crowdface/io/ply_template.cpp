@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/ply_template.h"
+
+#include <algorithm>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/little_endian.h"
+#include "crowdface/io/single_precision.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kRowsPerBlock = 1 << 15;
+
+char* put_row(char* out, const Positions& rows, Index i) {
+  for (Index c = 0; c < 3; ++c) out = put_number(out, to_single(rows(i, c)));
+  return out;
+}
+
+std::string ply_header(Index vertices, Index faces, bool with_normals) {
+  return concat("ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
+                "\nproperty float x\nproperty float y\nproperty float z\n",
+                with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+                "element face ", faces,
+                // "int" and not "uint": what readers have always met
+                "\nproperty list uchar int vertex_indices\nend_header\n");
+}
+
+std::size_t vertex_size(bool with_normals) {
+  return (with_normals ? 6 : 3) * sizeof(float);
+}
+
+}  // namespace
+
+PlyTemplate::PlyTemplate(const Topology& topology)
+    : vertices_(topology.vertex_count), face_count_(topology.face_count()) {
+  faces_.reserve(static_cast<std::size_t>(face_count_) +
+                 topology.corner_vertices.size() * sizeof(std::uint32_t));
+  for (Index f = 0; f < face_count_; ++f) {
+    const auto face = topology.face(f);
+    constexpr std::size_t kMostCorners = 255;
+    if (face.size() > kMostCorners) {
+      throw InvalidInput(concat("PLY: expected faces of at most 255 corners, found one of ",
+                                face.size(), ", face ", f + 1));
+    }
+    append_number(faces_, static_cast<std::uint8_t>(face.size()));
+    for (const std::uint32_t vertex : face) append_number(faces_, vertex);
+  }
+}
+
+std::size_t PlyTemplate::encode_bytes(Normals normals) const {
+  return static_cast<std::size_t>(vertices_) * vertex_size(normals == Normals::kVertex);
+}
+
+EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& normals,
+                                const std::string& what) const {
+  require_finite(positions, vertices_, what);
+  const bool with_normals = normals.rows() > 0;
+  if (with_normals) require_finite(normals, vertices_, what);
+  const std::size_t size = vertex_size(with_normals);
+  EncodedFile file;
+  file.add(ply_header(vertices_, face_count_, with_normals));
+  char* vertices = file.reserve(static_cast<std::size_t>(vertices_) * size);
+  parallel_blocks(vertices_, kRowsPerBlock, [&](Index begin, Index end) {
+    char* out = vertices + static_cast<std::size_t>(begin) * size;
+    for (Index i = begin; i < end; ++i) {
+      out = put_row(out, positions, i);
+      if (with_normals) out = put_row(out, normals, i);
+    }
+  });
+  file.refer_to({vertices, static_cast<std::size_t>(vertices_) * size});
+  file.refer_to(faces_);
+  return file;
+}
+
+Positions read_ply_positions(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  const std::string_view bytes = file.bytes();
+  const auto count_after = [&](std::string_view words) {
+    const std::size_t at = std::min(bytes.find(words), bytes.size());
+    const std::string_view rest = bytes.substr(std::min(at + words.size(), bytes.size()));
+    return parse_unsigned(rest.substr(0, rest.find('\n'))).value_or(0);
+  };
+  const std::string_view head = bytes.substr(0, 1024);
+  const bool with_normals = head.find("property float nx") != head.npos;
+  const auto vertices = static_cast<Index>(count_after("element vertex "));
+  const std::string header =
+      ply_header(vertices, static_cast<Index>(count_after("element face ")), with_normals);
+  const std::size_t size = vertex_size(with_normals);
+  if (!bytes.starts_with(header) ||
+      static_cast<std::size_t>(vertices) > (bytes.size() - header.size()) / size) {
+    throw InvalidInput(
+        concat(path.string(), ": expected a PLY file as crowdface writes it, found another"));
+  }
+  Positions positions = read_singles(bytes.data() + header.size(), vertices, size);
+  require_finite(positions, vertices, path.string());
+  return positions;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// The number as every mesh format holds it: single precision, like the scans, and no negative
+/// zero.
+inline float to_single(double value) {
+  const auto single = static_cast<float>(value);
+  return single == 0 ? 0.0F : single;
+}
+
+/// Rows of three single-precision numbers each, as binary formats hold them.
+/// \param bytes   where the first row begins.
+/// \param stride  bytes from row to row.
+Positions read_singles(const char* bytes, Index rows, std::size_t stride);
+
+/// \param what  names the mesh in messages.
+/// \throws InvalidInput unless there are `vertices` rows and all are finite in single precision.
+void require_finite(const Positions& positions, Index vertices, const std::string& what);
+
+}  // namespace crowdface

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Read back by tinygltf, which shares nothing with the writer.
+#include "crowdface/io/glb_template.h"
+
+#include <cstring>
+#include <limits>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/normals.h"
+
+#include "support/binary_reader.h"
+#include "support/expect_error.h"
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+tinygltf::Model load(const std::string& bytes) {
+  tinygltf::TinyGLTF loader;
+  tinygltf::Model model;
+  std::string error, warning;
+  EXPECT_TRUE(loader.LoadBinaryFromMemory(
+      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+      static_cast<unsigned>(bytes.size()), "", tinygltf::REQUIRE_ALL));
+  EXPECT_EQ(error + warning, "");
+  return model;
+}
+
+template <class Number>
+std::vector<Number> numbers(const tinygltf::Model& model, int accessor_index) {
+  const auto& accessor = model.accessors.at(static_cast<std::size_t>(accessor_index));
+  const auto& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
+  EXPECT_EQ(static_cast<std::size_t>(accessor.ByteStride(view)),
+            sizeof(Number) * static_cast<std::size_t>(tinygltf::GetNumComponentsInType(
+                                 static_cast<std::uint32_t>(accessor.type))));
+  const auto count = accessor.count * static_cast<std::size_t>(tinygltf::GetNumComponentsInType(
+                                          static_cast<std::uint32_t>(accessor.type)));
+  std::vector<Number> out(count);
+  EXPECT_LE(accessor.byteOffset + count * sizeof(Number), view.byteLength);
+  std::memcpy(out.data(), model.buffers.at(0).data.data() + view.byteOffset + accessor.byteOffset,
+              count * sizeof(Number));
+  return out;
+}
+
+std::vector<float> attribute(const tinygltf::Model& model, const std::string& name,
+                             std::size_t primitive = 0) {
+  return numbers<float>(model, model.meshes.at(0).primitives.at(primitive).attributes.at(name));
+}
+
+/// Two quads and a triangle; a seam at vertex 1, two materials, one vertex in no face.
+struct SmallMesh {
+  Topology topology = testing::make_topology(8, {{0, 1, 2, 3}, {1, 4, 5, 2}, {4, 6, 5}});
+  TextureCoordinates uvs = TextureCoordinates::Zero(8, 2);
+  GlbOptions options;
+  SmallMesh() {
+    topology.corner_uvs = {0, 1, 2, 3, 7, 4, 5, 2, 4, 6, 5};
+    uvs << 0, 0, 0.25, 0, 0.25, 1, 0, 1, 0.5, 0, 0.5, 1, 1, 0.75, 3.25, 0.125;
+    options.unit = LengthUnit::kCentimetre;
+    options.materials = {{"skin", {0.8F, 0.6F, 0.5F, 1}}, {"lashes", {0, 0, 0, 0}}};
+    options.face_materials = {0, 1, 0};
+  }
+};
+
+TEST(GlbTemplate, ReadsBack) {
+  const SmallMesh mesh;
+  const Positions positions = 15 * testing::random_positions(8, 1);
+  const Positions normals = vertex_normals(mesh.topology, positions);
+  const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
+  const tinygltf::Model model = load(form.encode(positions, normals, "mob_0001").text());
+
+  EXPECT_EQ(model.asset.version, "2.0");
+  ASSERT_EQ(model.nodes.size(), 1U);
+  EXPECT_EQ(model.nodes[0].name, "mob_0001");
+  EXPECT_EQ(model.nodes[0].scale, (std::vector<double>{0.01, 0.01, 0.01}));
+  EXPECT_TRUE(model.nodes[0].rotation.empty());
+  ASSERT_EQ(model.meshes.size(), 1U);
+  EXPECT_EQ(model.meshes[0].name, "mob_0001");
+
+  // One more vertex than the mesh: vertex 1 lies at a seam.
+  EXPECT_EQ(attribute(model, "_VERTEX_ID"), (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 1}));
+  const auto points = attribute(model, "POSITION"), directions = attribute(model, "NORMAL");
+  ASSERT_EQ(points.size(), 27U);
+  ASSERT_EQ(directions.size(), 27U);
+  for (Index i = 0; i < 9; ++i) {
+    const Index row = i < 8 ? i : 1;
+    for (Index c = 0; c < 3; ++c) {
+      EXPECT_EQ(points[static_cast<std::size_t>(3 * i + c)], static_cast<float>(positions(row, c)));
+      EXPECT_EQ(directions[static_cast<std::size_t>(3 * i + c)],
+                static_cast<float>(normals(row, c)));
+    }
+  }
+  EXPECT_EQ(attribute(model, "TEXCOORD_0"),
+            (std::vector<float>{0, 1, 0.25, 1, 0.25, 0, 0, 0, 0.5, 1, 0.5, 0, 1, 0.25, 0, 0, 3.25,
+                                0.875}))
+      << "v goes down; the vertex in no face has no texture coordinate";
+}
+
+TEST(GlbTemplate, HasOnePrimitiveAMaterial) {
+  const SmallMesh mesh;
+  const Positions positions = testing::random_positions(8, 1);
+  const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
+  const tinygltf::Model model =
+      load(form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
+  const auto& primitives = model.meshes[0].primitives;
+  ASSERT_EQ(primitives.size(), 2U);
+  EXPECT_EQ(numbers<std::uint32_t>(model, primitives[0].indices),
+            (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 4, 6, 5}));
+  EXPECT_EQ(numbers<std::uint32_t>(model, primitives[1].indices),
+            (std::vector<std::uint32_t>{8, 4, 5, 8, 5, 2}));
+  ASSERT_EQ(model.materials.size(), 2U);
+  const auto& skin = model.materials[static_cast<std::size_t>(primitives[0].material)];
+  const auto& lashes = model.materials[static_cast<std::size_t>(primitives[1].material)];
+  EXPECT_EQ(skin.name, "skin");
+  EXPECT_EQ(skin.pbrMetallicRoughness.baseColorFactor, (std::vector<double>{0.8, 0.6, 0.5, 1}));
+  EXPECT_EQ(skin.pbrMetallicRoughness.metallicFactor, 0);
+  EXPECT_EQ(skin.alphaMode, "OPAQUE");
+  EXPECT_EQ(lashes.name, "lashes");
+  EXPECT_EQ(lashes.alphaMode, "BLEND");
+}
+
+TEST(GlbTemplate, TellsTheBoundsOfWhatItHolds) {
+  const SmallMesh mesh;
+  const Positions positions = testing::random_positions(8, 5);
+  const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
+  const tinygltf::Model model =
+      load(form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
+  const auto& accessor = model.accessors[static_cast<std::size_t>(
+      model.meshes[0].primitives[0].attributes.at("POSITION"))];
+  for (Index c = 0; c < 3; ++c) {
+    const auto axis = static_cast<std::size_t>(c);
+    EXPECT_EQ(accessor.minValues.at(axis), static_cast<float>(positions.col(c).minCoeff()));
+    EXPECT_EQ(accessor.maxValues.at(axis), static_cast<float>(positions.col(c).maxCoeff()));
+  }
+}
+
+TEST(GlbTemplate, TurnsHeadsUprightAndForward) {
+  const Topology cube = testing::cube_topology();
+  const Positions positions = testing::cube_positions();
+  const auto turned = [&](const char* up, const char* front) {
+    GlbOptions options;
+    options.up = *parse_axis(up);
+    options.front = *parse_axis(front);
+    const tinygltf::Model model = load(
+        GlbTemplate(cube, {}, options).encode(positions, positions / std::sqrt(3.0), "m").text());
+    EXPECT_TRUE(model.nodes[0].scale.empty());
+    EXPECT_TRUE(model.materials.empty());
+    EXPECT_EQ(model.meshes[0].primitives.at(0).attributes.count("TEXCOORD_0"), 0U);
+    const auto& q = model.nodes[0].rotation;
+    return q.empty() ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(q[3], q[0], q[1], q[2]);
+  };
+  const auto axis = [](const char* name) {
+    const Axis parsed = *parse_axis(name);
+    return Eigen::Vector3d(parsed.sign * Eigen::Vector3d::Unit(parsed.index));
+  };
+  const char* const names[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+  for (const char* up : names) {
+    for (const char* front : names) {
+      if (up[1] == front[1]) continue;
+      const Eigen::Quaterniond q = turned(up, front);
+      EXPECT_NEAR(q.norm(), 1, 1e-12);
+      EXPECT_LT((q * axis(up) - Eigen::Vector3d::UnitY()).norm(), 1e-12) << up << front;
+      EXPECT_LT((q * axis(front) - Eigen::Vector3d::UnitZ()).norm(), 1e-12) << up << front;
+    }
+  }
+}
+
+TEST(GlbTemplate, HasTheSameBytesForAnyNumberOfThreads) {
+  Topology grid = testing::grid_topology(300, 200);  // several blocks
+  grid.corner_uvs = grid.corner_vertices;
+  for (std::size_t c = 0; c < 4000; c += 4) grid.corner_uvs[c] = 0;
+  const TextureCoordinates uvs = testing::random_positions(grid.vertex_count, 3).leftCols<2>();
+  const Positions positions = testing::random_positions(grid.vertex_count, 2);
+  const Positions normals = vertex_normals(grid, positions);
+  std::string first;
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    const GlbTemplate form(grid, uvs, {});
+    const EncodedFile file = form.encode(positions, normals, "grid");
+    if (first.empty()) first = file.text();
+    EXPECT_TRUE(file.text() == first) << threads << " threads";
+    EXPECT_GT(form.memory_bytes() + form.encode_bytes(), first.size() - 100);
+  }
+  // The container: its length, a JSON chunk, a binary chunk, both in fours.
+  testing::BinaryReader file(first);
+  EXPECT_EQ(file.next_text(4), "glTF");
+  EXPECT_EQ(file.next<std::uint32_t>(), 2U);
+  EXPECT_EQ(file.next<std::uint32_t>(), first.size());
+  const auto json_size = file.next<std::uint32_t>();
+  EXPECT_EQ(json_size % 4, 0U);
+  EXPECT_EQ(file.next_text(4), "JSON");
+  file.next_text(json_size);
+  const auto binary_size = file.next<std::uint32_t>();
+  EXPECT_EQ(binary_size, first.size() - file.position() - 4);
+  EXPECT_EQ(binary_size % 4, 0U);
+  EXPECT_EQ(file.next_text(4), std::string("BIN\0", 4));
+}
+
+TEST(GlbTemplate, RefusesWhatIsNotFiniteOrDoesNotFit) {
+  const SmallMesh mesh;
+  const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
+  Positions positions = testing::random_positions(8, 1);
+  const Positions normals = vertex_normals(mesh.topology, positions);
+  testing::expect_error(ExitCode::kBadData, {"mob_3", "expected 8 positions, got 0"},
+                        [&] { form.encode(positions, {}, "mob_3"); });
+  positions(3, 0) = std::numeric_limits<double>::quiet_NaN();
+  testing::expect_error(ExitCode::kBadData, {"mob_3", "not finite"},
+                        [&] { form.encode(positions, normals, "mob_3"); });
+  testing::expect_error(ExitCode::kBadData, {"16777216"}, [] {
+    GlbTemplate(testing::make_topology((1 << 24) + 1, {{0, 1, 2}}), {}, {});
+  });
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/ply_template.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/normals.h"
+
+#include "support/binary_reader.h"
+#include "support/expect_error.h"
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+/// A triangle, a quad and a pentagon on nine vertices, one of them in no face.
+Topology mixed_topology() {
+  return testing::make_topology(9, {{0, 1, 2}, {2, 1, 3, 4}, {4, 3, 5, 6, 7}});
+}
+
+TEST(PlyTemplate, ReadsBackWithNormals) {
+  const Topology topology = mixed_topology();
+  const Positions positions = testing::random_positions(9, 1);
+  const Positions normals = vertex_normals(topology, positions);
+  const PlyTemplate form(topology);
+  testing::BinaryReader file(form.encode(positions, normals, "head").text());
+  for (const std::string line :
+       {"ply", "format binary_little_endian 1.0", "element vertex 9", "property float x",
+        "property float y", "property float z", "property float nx", "property float ny",
+        "property float nz", "element face 3", "property list uchar int vertex_indices",
+        "end_header"}) {
+    EXPECT_EQ(file.next_line(), line + "\n");
+  }
+  for (Index i = 0; i < 9; ++i) {
+    for (Index c = 0; c < 3; ++c) {
+      EXPECT_EQ(file.next<float>(), static_cast<float>(positions(i, c)));
+    }
+    for (Index c = 0; c < 3; ++c) EXPECT_EQ(file.next<float>(), static_cast<float>(normals(i, c)));
+  }
+  for (Index f = 0; f < 3; ++f) {
+    ASSERT_EQ(file.next<std::uint8_t>(), topology.face(f).size());
+    for (const std::uint32_t vertex : topology.face(f))
+      EXPECT_EQ(file.next<std::uint32_t>(), vertex);
+  }
+  EXPECT_TRUE(file.at_end());
+}
+
+TEST(PlyTemplate, HasTheSameBytesForAnyNumberOfThreads) {
+  const Topology grid = testing::grid_topology(300, 200);  // several blocks
+  const Positions positions = testing::random_positions(grid.vertex_count, 2);
+  const PlyTemplate form(grid);
+  std::string first;
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    const EncodedFile file = form.encode(positions, {}, "grid");
+    if (first.empty()) first = file.text();
+    EXPECT_TRUE(file.text() == first) << threads << " threads";
+    EXPECT_EQ(file.digest(), hash_bytes(first));
+  }
+  const std::size_t faces = 17 * 60000, vertices = 12 * 301 * 201;
+  EXPECT_EQ(form.memory_bytes(), faces);
+  EXPECT_EQ(form.encode_bytes(PlyTemplate::Normals::kNone), vertices);
+  EXPECT_EQ(first.size(), first.find("end_header\n") + 11 + vertices + faces);
+}
+
+TEST(PlyTemplate, HasNoNegativeZero) {
+  const PlyTemplate form(testing::make_topology(3, {{0, 1, 2}}));
+  const std::string text = form.encode(-1 * Positions::Zero(3, 3), {}, "t").text();
+  EXPECT_EQ(text.substr(text.find("end_header\n") + 11, 36), std::string(36, '\0'));
+}
+
+TEST(PlyTemplate, RefusesWhatIsNotFiniteOrDoesNotFit) {
+  const PlyTemplate form(mixed_topology());
+  Positions positions = testing::random_positions(9, 1);
+  testing::expect_error(ExitCode::kBadData, {"head_3", "expected 9 positions, got 8"},
+                        [&] { form.encode(positions.topRows(8), {}, "head_3"); });
+  positions(8, 2) = std::numeric_limits<double>::infinity();
+  testing::expect_error(ExitCode::kBadData, {"head_3", "not finite"},
+                        [&] { form.encode(positions, {}, "head_3"); });
+  std::vector<std::uint32_t> face(256);
+  for (std::uint32_t i = 0; i < 256; ++i) face[i] = i;
+  testing::expect_error(ExitCode::kBadData, {"at most 255 corners", "256", "face 1"},
+                        [&] { PlyTemplate(testing::make_topology(256, {face})); });
+}
+
+}  // namespace
+}  // namespace crowdface
