@@ -4,8 +4,8 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/face_builder.h"
 #include "crowdface/job/mesh_writers.h"
-#include "crowdface/job/pipeline.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -53,7 +53,9 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
   } else {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.cache_path());
   }
-  const Positions positions = build_face(job, prepared, line.recipe);
+  const Recipe* recipe = &line.recipe;
+  Positions positions;
+  FaceBuilder(job, prepared).build(std::span(&recipe, 1), std::span(&positions, 1));
   const MeshWriters writers(job.config, job.inputs, {*format}, {&line.recipe, 1});
   write_mesh(writers.encode(line.recipe, positions).front(), out);
   log_info(concat(line.recipe.id, " written to ", out));

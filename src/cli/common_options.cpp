@@ -3,6 +3,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/head_cache.h"
 
@@ -67,10 +68,24 @@ void WriteOptions::add_to(CLI::App& command) {
   command.add_flag("--force", force, "Replace another config's crowd in the output folder");
   command.add_flag("--dry-run", dry_run,
                    "Check everything, say what would be written, write nothing");
+  command
+      .add_option("--memory", memory,
+                  "How much the run may take, such as \"4 GiB\" (default: three quarters of what "
+                  "there is): sets how many faces are in flight")
+      ->type_name("SIZE");
 }
 
 GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {
-  return {cache, force ? Replace::kForce : Replace::kRefuse, dry_run};
+  std::uint64_t bytes = 0;
+  if (!memory.empty()) {
+    const auto given = parse_bytes(memory);
+    if (!given || *given == 0) {
+      throw UsageError(concat("--memory: expected a size with its unit, such as \"4 GiB\", found ",
+                              quoted(memory)));
+    }
+    bytes = *given;
+  }
+  return {cache, force ? Replace::kForce : Replace::kRefuse, dry_run, bytes};
 }
 
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,

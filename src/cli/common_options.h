@@ -42,6 +42,7 @@ struct ConfigOptions {
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
+  std::string memory;
 
   void add_to(CLI::App& command);
   GenerateOptions with_cache(const std::filesystem::path& cache) const;

@@ -90,5 +90,38 @@ TEST(ThreadLimit, HoldsWhileItLives) {
   EXPECT_GE(thread_count(), 1);
 }
 
+TEST(BackgroundTasks, AreAllDoneWhenWaitedForAndMayBeUsedAgain) {
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    BackgroundTasks tasks;
+    std::atomic<int> done = 0;
+    for (int round = 1; round <= 3; ++round) {
+      for (int i = 0; i < 40; ++i) {
+        tasks.run([&] { parallel_for_each(3, [&](std::ptrdiff_t) { ++done; }); });
+      }
+      std::atomic<int> beside = 0;  // what the caller does meanwhile
+      parallel_for_each(50, [&](std::ptrdiff_t) { ++beside; });
+      EXPECT_EQ(beside, 50);
+      tasks.wait();
+      EXPECT_EQ(done, round * 120);
+    }
+  }
+}
+
+TEST(BackgroundTasks, TellTheFirstExceptionAndGoOnAfterwards) {
+  BackgroundTasks tasks;
+  for (int i = 0; i < 10; ++i) {
+    tasks.run([i] {
+      if (i % 3 == 1) throw std::runtime_error("no");
+    });
+  }
+  EXPECT_THROW(tasks.wait(), std::runtime_error);
+  bool done = false;
+  tasks.run([&] { done = true; });
+  tasks.wait();
+  EXPECT_TRUE(done);
+  tasks.run([] { throw std::runtime_error("dropped with the tasks"); });
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -86,6 +86,33 @@ TEST(Generate, CubicLevelsMatchALeastSquaresFit) {
   expect_crowd_is_right(crowd);
 }
 
+TEST(Generate, MemoryChangesNothingButTheSpeedAndTooLittleIsRefused) {
+  for (const char* levels : {"basis", "exact"}) {
+    SmallCrowd crowd;
+    crowd.levels = levels;
+    crowd.regions = 2;
+    crowd.count = 7;
+    const SmallCrowdFolder folder(crowd);
+    const auto run = [&](std::uint64_t memory) {
+      generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false, memory});
+    };
+    testing::expect_error(ExitCode::kUsage, {"needs", "--memory"}, [&] { run(20'000); });
+    EXPECT_FALSE(std::filesystem::exists(folder.out() / "meshes"));
+    run(0);
+    const auto first = testing::crowd_files(folder.out());
+    std::uint64_t tight = 20'000;  // the least that will do: one face at a time
+    for (;; tight += 10'000) {
+      try {
+        run(tight);
+        break;
+      } catch (const UsageError&) {
+      }
+    }
+    EXPECT_THAT(testing::differing_files(testing::crowd_files(folder.out()), first),
+                ::testing::IsEmpty());
+  }
+}
+
 TEST(Generate, BasisLevelsMatchThePlainMethodWithinTheirTolerance) {
   for (const char* kind : {"umbrella", "lazy"}) {
     SmallCrowd crowd;

@@ -32,26 +32,43 @@ Columns target_less_sources(const FaceSet& faces, const Recipe& recipe) {
 
 }  // namespace
 
-Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
-                      const RegionWeights& regions, const Recipe& recipe) {
-  require_fit(faces, regions, recipe);
-  const Columns difference = target_less_sources(faces, recipe);
-  std::vector<ChebyshevSeries> series;
-  for (const RegionRecipe& region : recipe.regions) {
-    series.push_back(power_series(filter.kind(), region.iterations));
+void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
+                 std::span<const Recipe* const> recipes, std::span<Positions> results) {
+  std::vector<Columns> differences;
+  std::vector<FilterInput<double>> inputs;
+  for (const Recipe* recipe : recipes) {
+    require_fit(faces, regions, *recipe);
+    differences.push_back(target_less_sources(faces, *recipe));
+    for (std::size_t k = 0; k < recipe->regions.size(); ++k) {
+      inputs.push_back({filter.rows_of<double>(differences.back(), static_cast<Index>(k)),
+                        {power_series(filter.kind(), recipe->regions[k].iterations)}});
+    }
   }
-  const Columns smoothed = filter_each(filter, difference, series);
-  Positions result = positions_of(faces, recipe.target);
-  parallel_blocks(result.rows(), kRowBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      for (Index k = 0; k < regions.alpha.cols(); ++k) {
-        const double alpha = regions.alpha(i, k);
-        for (Index c = 0; c < 3; ++c) {
-          result(i, c) += alpha * (smoothed(i, 3 * k + c) - difference(i, 3 * k + c));  // Eq. 7
+  const auto smoothed = filter.run<double>(inputs);
+  const Index region_count = regions.alpha.cols();
+  for (std::size_t f = 0; f < recipes.size(); ++f) {
+    results[f] = positions_of(faces, recipes[f]->target);
+    const auto* of_face = smoothed.data() + f * static_cast<std::size_t>(region_count);
+    parallel_blocks(results[f].rows(), kRowBlock, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i) {
+        const std::size_t row = filter.row_of_vertex()[static_cast<std::size_t>(i)];
+        for (Index k = 0; k < region_count; ++k) {
+          const double alpha = regions.alpha(i, k);
+          const double* level = of_face[k].front()[row].value;
+          for (Index c = 0; c < 3; ++c) {
+            results[f](i, c) += alpha * (level[c] - differences[f](i, 3 * k + c));  // Eq. 7
+          }
         }
       }
-    }
-  });
+    });
+  }
+}
+
+Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
+                      const RegionWeights& regions, const Recipe& recipe) {
+  const Recipe* one = &recipe;
+  Positions result;
+  blend_exact(faces, filter, regions, std::span(&one, 1), std::span(&result, 1));
   return result;
 }
 

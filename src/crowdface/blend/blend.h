@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "crowdface/blend/recipe.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/region/region_weights.h"
@@ -20,5 +22,10 @@ namespace crowdface {
 /// \throws InvalidInput if recipe, regions and face set do not fit together.
 Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe);
+
+/// Several faces in one pass of the filter over the mesh; the same bits as one by one.
+/// \param results  one for each recipe.
+void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
+                 std::span<const Recipe* const> recipes, std::span<Positions> results);
 
 }  // namespace crowdface

@@ -5,6 +5,7 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <utility>
 #include <vector>
 
 namespace crowdface {
@@ -116,6 +118,31 @@ void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdi
   };
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(items, run, tbb::simple_partitioner()); });
   error.rethrow();
+}
+
+struct BackgroundTasks::Group {
+  tbb::task_group tasks;
+  FirstError error;
+  LoopOrder order;
+};
+
+BackgroundTasks::BackgroundTasks() : group_(std::make_unique<Group>()) {}
+
+BackgroundTasks::~BackgroundTasks() {
+  group_->tasks.wait();
+}
+
+void BackgroundTasks::run(std::function<void()> task) {
+  group_->tasks.run([group = group_.get(), task = std::move(task)] {
+    const LoopOrder::Item item(group->order);
+    group->error.guard(task);
+  });
+}
+
+void BackgroundTasks::wait() {
+  group_->tasks.wait();
+  const std::unique_ptr<Group> done = std::exchange(group_, std::make_unique<Group>());
+  done->error.rethrow();
 }
 
 double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,

@@ -32,6 +32,25 @@ void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
 /// Calls `body(i)` for each i in [0, count), one task each: for few, heavy items.
 void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body);
 
+/// Work that is done beside what the caller does next, by threads that have nothing else to do, or
+/// while somebody waits for it.
+class BackgroundTasks {
+ public:
+  BackgroundTasks();
+  ~BackgroundTasks();  ///< waits, and drops any exception
+  BackgroundTasks(const BackgroundTasks&) = delete;
+  BackgroundTasks& operator=(const BackgroundTasks&) = delete;
+
+  void run(std::function<void()> task);
+  /// Returns when all tasks are done. \throws the first exception of one; tasks that had not begun
+  /// by then are left out.
+  void wait();
+
+ private:
+  struct Group;
+  std::unique_ptr<Group> group_;
+};
+
 /// Sum of `term(begin, end)` over the fixed blocks of [0, count), added in block order.
 double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,
                     const std::function<double(std::ptrdiff_t, std::ptrdiff_t)>& term);

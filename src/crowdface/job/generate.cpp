@@ -14,12 +14,14 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/face_stages.h"
 #include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/pipeline.h"
 #include "crowdface/job/report.h"
@@ -115,28 +117,6 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
   return warnings;
 }
 
-/// Builds, writes and renders every face; several at once.
-std::vector<FaceFiles> build_faces(const Job& job, const Prepared& prepared,
-                                   const CrowdDirectory& directory, const CrowdRenders* renders,
-                                   const std::vector<Recipe>& crowd) {
-  const std::vector<MeshFormat>& formats = job.config.output.meshes;
-  const MeshWriters writers(job.config, job.inputs, formats, crowd);
-  if (!formats.empty()) make_directories(directory.meshes());
-  writers.write_shared(directory);
-  if (renders != nullptr) make_directories(directory.renders());
-  std::vector<FaceFiles> files(crowd.size());
-  Progress progress("faces", crowd.size());
-  parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
-    throw_if_interrupted();
-    const Recipe& recipe = crowd[static_cast<std::size_t>(i)];
-    const Positions positions = build_face(job, prepared, recipe);
-    files[static_cast<std::size_t>(i)].meshes = writers.write(recipe, positions, directory);
-    if (renders != nullptr) write_file(directory.render(recipe.id), renders->render_png(positions));
-    progress.step();
-  });
-  return files;
-}
-
 std::vector<std::string> ids_of(const std::vector<Recipe>& crowd) {
   std::vector<std::string> ids;
   for (const Recipe& recipe : crowd) ids.push_back(recipe.id);
@@ -178,8 +158,10 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const Gener
   const auto& sheet = job.config.output.contact_sheet;
   std::unique_ptr<CrowdRenders> renders;
   if (sheet) renders = std::make_unique<CrowdRenders>(job.config, *sheet, job.inputs);
-  const std::vector<FaceFiles> files = timed(
-      stages, "build", [&] { return build_faces(job, prepared, directory, renders.get(), crowd); });
+  const BuiltFaces built = timed(stages, "build", [&] {
+    const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
+    return build_faces(job, prepared, directory, renders.get(), crowd, memory);
+  });
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {
@@ -188,8 +170,10 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const Gener
           [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
     });
   }
-  write_file(directory.report(), format_report(job, prepared, crowd_cast, files, pages, warnings));
-  write_file(directory.timings(), format_timings(stages, crowd.size(), prepared.from_cache));
+  write_file(directory.report(),
+             format_report(job, prepared, crowd_cast, built.files, pages, warnings));
+  write_file(directory.timings(),
+             format_timings(stages, built.busy, crowd.size(), prepared.from_cache));
   log_info(concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ",
                   directory.root.string(),
                   pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : ""));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "crowdface/job/config_reader.h"
@@ -12,6 +13,9 @@ struct GenerateOptions {
   std::filesystem::path cache;         ///< folder of prepared heads
   Replace replace = Replace::kRefuse;  ///< what to do about another config's crowd in the folder
   bool dry_run = false;                ///< say what would be written, and write nothing
+  /// Bytes the process may take, which sets how many faces are in flight; 0: three quarters of what
+  /// the machine, or its control group, has.
+  std::uint64_t memory = 0;
 };
 
 /// The whole job: read, prepare, cast, blend, write, render, report. Nothing is written before all

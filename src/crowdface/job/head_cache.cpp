@@ -145,6 +145,7 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   levels.fields = {reinterpret_cast<const float*>(bytes.data() + places.fields),
                    static_cast<std::size_t>(3 * header.vertices * header.rank)};
   levels.owner = file;
+  levels.mapped = true;
   return head;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/pipeline.h"
 
-#include "crowdface/blend/blend.h"
 #include "crowdface/core/text.h"
 #include "crowdface/smooth/level_size.h"
 
@@ -109,13 +108,6 @@ Cast cast(const Job& job, const Prepared& prepared) {
                              config.blending.normalization, level_scale(config, job.inputs)});
   space.find_nearest(result.crowd);
   return result;
-}
-
-Positions build_face(const Job& job, const Prepared& prepared, const Recipe& recipe) {
-  return job.config.smoothing.levels == Levels::kExact
-             ? blend_exact(job.inputs.faces, *prepared.filter, job.inputs.regions, recipe)
-             : CrowdBlender(job.inputs.faces, head_levels(job.config, prepared), job.inputs.regions)
-                   .blend(recipe);
 }
 
 std::string format_plan(const Job& job, const std::vector<Recipe>& crowd) {

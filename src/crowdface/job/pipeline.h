@@ -38,9 +38,6 @@ struct Cast {
 };
 Cast cast(const Job& job, const Prepared& prepared);
 
-/// The mesh of one recipe, #V by 3 in file units, with the levels the config asks for.
-Positions build_face(const Job& job, const Prepared& prepared, const Recipe& recipe);
-
 /// The plan as it stands in plan.jsonl.
 std::string format_plan(const Job& job, const std::vector<Recipe>& crowd);
 

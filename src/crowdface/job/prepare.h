@@ -21,6 +21,7 @@ struct StoredLevels {
   Index rank = 0;
   std::span<const float> fields;      ///< rank times #V by 3: all of c_0, then all of c_1, …
   std::shared_ptr<const void> owner;  ///< of the fields
+  bool mapped = false;                ///< the fields lie in a file, not in memory of ours
   Eigen::MatrixXd mixing;             ///< `levels: basis`: #nodes by rank, see LevelBasis
   BasisError error;                   ///< `levels: basis`
 };

@@ -134,7 +134,7 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   return report.dump(2) + "\n";
 }
 
-std::string format_timings(const StageSeconds& stages, std::size_t faces,
+std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
                            std::size_t heads_from_cache) {
   Json timings;
   timings["crowdface"] = kVersion;
@@ -148,6 +148,14 @@ std::string format_timings(const StageSeconds& stages, std::size_t faces,
     total += seconds;
   }
   timings["seconds"]["total"] = rounded(total);
+  const std::pair<const char*, double> parts[] = {{"blend", busy.blend},
+                                                  {"encode", busy.encode},
+                                                  {"write", busy.write},
+                                                  {"render", busy.render}};
+  const auto* slowest = std::max_element(std::begin(parts), std::end(parts),
+                                         [](auto& a, auto& b) { return a.second < b.second; });
+  for (const auto& [part, seconds] : parts) timings["busy_seconds"][part] = rounded(seconds);
+  timings["slowest"] = slowest->first;
   return timings.dump(2) + "\n";
 }
 

@@ -24,8 +24,14 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
 /// How long each stage took, in the order it ran.
 using StageSeconds = std::vector<std::pair<std::string, double>>;
 
+/// How long threads were busy with each stage of making faces, in seconds; together more than the
+/// time it took, as stages overlap and several threads work.
+struct StageBusy {
+  double blend = 0, encode = 0, write = 0, render = 0;
+};
+
 /// timings.json: times and machine, which may differ from run to run.
-std::string format_timings(const StageSeconds& stages, std::size_t faces,
+std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
                            std::size_t heads_from_cache);
 
 }  // namespace crowdface

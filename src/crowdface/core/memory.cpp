@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/memory.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// A control group's limit; nothing if there is none.
+std::optional<std::uint64_t> group_limit(const char* file) {
+  std::ifstream stream(file);
+  std::string text;
+  if (!(stream >> text)) return std::nullopt;
+  return parse_unsigned(text);  // "max" is no number: no limit
+}
+
+}  // namespace
+
+std::uint64_t machine_memory() {
+  std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+  for (const char* file :
+       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    if (const auto limit = group_limit(file)) bytes = std::min(bytes, *limit);
+  }
+  return bytes;
+}
+
+std::optional<std::uint64_t> parse_bytes(std::string_view text) {
+  const std::size_t end = text.find_first_not_of("0123456789.");
+  if (end == std::string_view::npos) return std::nullopt;
+  const auto number = parse_double(text.substr(0, end));
+  std::string_view unit = text.substr(end);
+  unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
+  struct Unit {
+    std::string_view name;
+    double bytes;
+  };
+  constexpr Unit kUnits[] = {
+      {"KiB", 1024.0}, {"MiB", 1048576.0}, {"GiB", 1073741824.0}, {"TiB", 1099511627776.0},
+      {"kB", 1e3},     {"MB", 1e6},        {"GB", 1e9},           {"TB", 1e12}};
+  for (const Unit& known : kUnits) {
+    if (unit != known.name || !number) continue;
+    const double bytes = *number * known.bytes;
+    if (bytes < 9e18) return static_cast<std::uint64_t>(bytes);
+  }
+  return std::nullopt;
+}
+
+std::string format_bytes(std::uint64_t bytes) {
+  const double value = static_cast<double>(bytes);
+  if (value >= 1073741824.0) return concat(format_fixed(value / 1073741824.0, 1), " GiB");
+  return concat(format_fixed(value / 1048576.0, 0), " MiB");
+}
+
+}  // namespace crowdface

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace crowdface {
+
+/// Bytes of memory that this process may use: the machine's, or its control group's if that is less.
+std::uint64_t machine_memory();
+
+/// "4 GiB", "512 MiB", "3 GB" as bytes; nothing if it is no such size.
+std::optional<std::uint64_t> parse_bytes(std::string_view text);
+
+/// "3.2 GiB", "47 MiB".
+std::string format_bytes(std::uint64_t bytes);
+
+}  // namespace crowdface

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/face_builder.h"
+
+#include "crowdface/blend/blend.h"
+
+namespace crowdface {
+
+FaceBuilder::FaceBuilder(const Job& job, const Prepared& prepared)
+    : job_(job), prepared_(prepared) {
+  if (job.config.smoothing.levels != Levels::kExact) {
+    blender_.emplace(job.inputs.faces, head_levels(job.config, prepared), job.inputs.regions);
+  }
+}
+
+void FaceBuilder::build(std::span<const Recipe* const> recipes,
+                        std::span<Positions> results) const {
+  if (blender_) return blender_->blend(recipes, results);
+  blend_exact(job_.inputs.faces, *prepared_.filter, job_.inputs.regions, recipes, results);
+}
+
+std::uint64_t FaceBuilder::bytes(std::size_t faces) const {
+  const auto vertices = static_cast<std::uint64_t>(job_.inputs.faces.topology.vertex_count);
+  std::uint64_t of_face = 3 * sizeof(double) * vertices;
+  if (!blender_) {
+    // Per region the difference, its rows, four vectors of the recurrence and one sum.
+    const auto regions = static_cast<std::uint64_t>(job_.inputs.regions.alpha.cols());
+    of_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
+  }
+  return faces * of_face;
+}
+
+}  // namespace crowdface

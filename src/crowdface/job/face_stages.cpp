@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/face_stages.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/memory.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// Faces blended together at most: more gain nothing, as the fields are long read by then.
+constexpr std::size_t kMostAtOnce = 32;
+/// What rendering takes per vertex of a face while it runs: its triangles, normals and ray tree.
+constexpr std::uint64_t kRenderBytesAVertex = 400;
+
+/// Adds the time until its end to a stage.
+class Busy {
+ public:
+  explicit Busy(std::atomic<double>& stage) : stage_(stage) {}
+  ~Busy() {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+    stage_ += took.count();
+  }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  std::atomic<double>& stage_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// What the process holds whatever the number of faces at once.
+std::uint64_t standing_bytes(const Job& job, const Prepared& prepared, const MeshWriters& writers) {
+  const auto vertices = static_cast<std::uint64_t>(job.inputs.faces.topology.vertex_count);
+  std::uint64_t bytes = job.inputs.faces.heads.size() * vertices * 3 * sizeof(double);
+  bytes += static_cast<std::uint64_t>(job.inputs.regions.alpha.size()) * sizeof(double);
+  bytes += writers.memory_bytes();
+  for (const StoredLevels& levels : prepared.levels) {
+    if (!levels.mapped) bytes += levels.fields.size_bytes();
+  }
+  return bytes;
+}
+
+/// How many faces are blended together within the memory.
+std::size_t faces_at_once(const Job& job, const Prepared& prepared, const FaceBuilder& builder,
+                          const MeshWriters& writers, bool rendered, std::uint64_t memory) {
+  const auto vertices = static_cast<std::uint64_t>(job.inputs.faces.topology.vertex_count);
+  const auto threads = static_cast<std::uint64_t>(thread_count());
+  const std::uint64_t work =
+      threads * (writers.encode_bytes() + (rendered ? kRenderBytesAVertex * vertices : 0));
+  const std::uint64_t standing = standing_bytes(job, prepared, writers) + work;
+  const std::uint64_t least = standing + 2 * builder.bytes(1);
+  if (least > memory) {
+    throw UsageError(concat("this job needs ", format_bytes(least), " of memory, ",
+                            format_bytes(memory),
+                            " are allowed (--memory); fewer threads (--threads) need less"));
+  }
+  const std::uint64_t fit = (memory - standing) / (2 * builder.bytes(1));
+  return static_cast<std::size_t>(std::min<std::uint64_t>(fit, kMostAtOnce));
+}
+
+/// Encodes, writes and renders one face after the other, on any thread.
+class FaceOutput {
+ public:
+  FaceOutput(const MeshWriters& writers, const CrowdDirectory& directory,
+             const CrowdRenders* renders)
+      : writers_(writers), directory_(directory), renders_(renders) {}
+
+  FaceFiles write(const Recipe& recipe, const Positions& positions) {
+    throw_if_interrupted();
+    FaceFiles files;
+    std::vector<EncodedMesh> meshes;
+    {
+      const Busy busy(encode_);
+      meshes = writers_.encode(recipe, positions);
+    }
+    {
+      const Busy busy(write_);
+      for (const EncodedMesh& mesh : meshes) {
+        files.meshes.push_back(write_mesh(mesh, directory_.mesh(recipe.id, mesh.format)));
+      }
+    }
+    if (renders_ != nullptr) {
+      const Busy busy(render_);
+      write_file(directory_.render(recipe.id), renders_->render_png(positions));
+    }
+    return files;
+  }
+
+  void add_to(StageBusy& busy) const {
+    busy.encode += encode_;
+    busy.write += write_;
+    busy.render += render_;
+  }
+
+ private:
+  const MeshWriters& writers_;
+  const CrowdDirectory& directory_;
+  const CrowdRenders* renders_;
+  std::atomic<double> encode_ = 0, write_ = 0, render_ = 0;
+};
+
+/// A group of faces in memory, and what is still being done with it.
+struct Slot {
+  std::vector<Positions> positions;
+  BackgroundTasks tasks;  // after what it uses, so that it ends first
+};
+
+}  // namespace
+
+BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDirectory& directory,
+                       const CrowdRenders* renders, const std::vector<Recipe>& crowd,
+                       std::uint64_t memory) {
+  const std::vector<MeshFormat>& formats = job.config.output.meshes;
+  const MeshWriters writers(job.config, job.inputs, formats, crowd);
+  const FaceBuilder builder(job, prepared);
+  BuiltFaces built;
+  built.files.resize(crowd.size());
+  built.at_once = faces_at_once(job, prepared, builder, writers, renders != nullptr, memory);
+  if (!formats.empty()) make_directories(directory.meshes());
+  writers.write_shared(directory);
+  if (renders != nullptr) make_directories(directory.renders());
+
+  FaceOutput output(writers, directory, renders);
+  std::atomic<double> blend_seconds = 0;
+  Progress progress("faces", crowd.size());
+  std::array<Slot, 2> slots;
+  std::size_t turn = 0;
+  for (std::size_t first = 0; first < crowd.size(); first += built.at_once, turn ^= 1) {
+    Slot& slot = slots[turn];
+    slot.tasks.wait();
+    throw_if_interrupted();
+    const std::size_t count = std::min(built.at_once, crowd.size() - first);
+    std::vector<const Recipe*> recipes;
+    for (std::size_t f = 0; f < count; ++f) recipes.push_back(&crowd[first + f]);
+    slot.positions.resize(count);
+    {
+      const Busy busy(blend_seconds);
+      builder.build(recipes, slot.positions);
+    }
+    for (std::size_t f = 0; f < count; ++f) {
+      slot.tasks.run([&, f, first, positions = &slot.positions[f]] {
+        built.files[first + f] = output.write(crowd[first + f], *positions);
+        progress.step();
+      });
+    }
+  }
+  for (Slot& slot : slots) slot.tasks.wait();
+  output.add_to(built.busy);
+  built.busy.blend = blend_seconds;
+  return built;
+}
+
+}  // namespace crowdface
