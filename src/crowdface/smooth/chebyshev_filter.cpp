@@ -36,11 +36,7 @@ class Recurrence {
       : tiling_(tiling), input_(input), now_(input.values), previous_(input.values.size()) {
     for (const ChebyshevSeries& series : input.series) {
       terms_ = std::max(terms_, static_cast<Index>(series.size()));
-      RowVector<T> sum = input.values;
-      for (Row<T>& row : sum) {
-        for (T& value : row.value) value *= static_cast<T>(series[0]);
-      }
-      sums_.push_back(std::move(sum));
+      sums_.emplace_back(input.values.size());
     }
     for (const Tile& tile : tiling.tiles) {  // what rests is the same in every T_k
       std::copy_n(now_.begin() + tile.first, resting_rows(tile), previous_.begin() + tile.first);
@@ -50,6 +46,16 @@ class Recurrence {
   }
 
   Index terms() const { return terms_; }
+
+  /// On one tile, T_0: what every sum begins with.
+  void begin(const Tile& tile) {
+    for (std::size_t s = 0; s < sums_.size(); ++s) {
+      const T a = static_cast<T>(input_.series[s][0]);
+      for (std::uint32_t r = tile.first; r < tile.first + tile.count; ++r) {
+        for (int c = 0; c < 4; ++c) sums_[s][r].value[c] = a * input_.values[r].value[c];
+      }
+    }
+  }
 
   /// On one tile, from T_k on: up to kStepsARound terms more, in the order of k.
   /// \param visit  called with each k and the tile's own rows of T_k(W) x.
@@ -78,7 +84,7 @@ class Recurrence {
     previous_.swap(next_previous_);
   }
 
-  std::vector<RowVector<T>> take_sums() {
+  std::vector<RowArray<T>> take_sums() {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T sum = static_cast<T>(sum_of(input_.series[s]));
       for (const Tile& tile : tiling_.tiles) {
@@ -108,7 +114,7 @@ class Recurrence {
   const Tiling& tiling_;
   const FilterInput<T>& input_;
   RowVector<T> now_, previous_, next_now_, next_previous_;
-  std::vector<RowVector<T>> sums_;
+  std::vector<RowArray<T>> sums_;
   Index terms_ = 1;
 };
 
@@ -146,7 +152,7 @@ class ProbeRows {
   std::vector<std::vector<Place>> of_tile_;
 };
 
-Positions positions_of(const ChebyshevFilter& filter, const RowVector<double>& rows) {
+Positions positions_of(const ChebyshevFilter& filter, const RowArray<double>& rows) {
   Positions positions(filter.vertex_count(), 3);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (Index c = 0; c < 3; ++c) positions(filter.vertex_of_row()[r], c) = rows[r].value[c];
@@ -177,8 +183,8 @@ std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) cons
 }
 
 template <class T>
-std::vector<std::vector<std::vector<Row<T>>>> ChebyshevFilter::run(
-    std::span<const FilterInput<T>> inputs, Probes* probes) const {
+std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const FilterInput<T>> inputs,
+                                                           Probes* probes) const {
   std::vector<Recurrence<T>> recurrences;
   recurrences.reserve(inputs.size());
   Index terms = 1;
@@ -196,11 +202,12 @@ std::vector<std::vector<std::vector<Row<T>>>> ChebyshevFilter::run(
       probe_rows->take(t, 0, inputs.front().values.data() + tiling_.tiles[t].first);
     }
   }
-  for (Index k = 0; k + 1 < terms; k += kStepsARound) {
+  for (Index k = 0; k == 0 || k + 1 < terms; k += kStepsARound) {
     throw_if_interrupted();
     parallel_for_each(tiles, [&](std::ptrdiff_t t) {
       const Tile& tile = tiling_.tiles[static_cast<std::size_t>(t)];
       for (Recurrence<T>& recurrence : recurrences) {
+        if (k == 0) recurrence.begin(tile);
         if (k + 1 >= recurrence.terms()) continue;
         const bool probed = probe_rows && &recurrence == &recurrences.front();
         recurrence.round(tile, k, [&](Index term, const Row<T>* rows) {
@@ -210,16 +217,16 @@ std::vector<std::vector<std::vector<Row<T>>>> ChebyshevFilter::run(
     });
     for (Recurrence<T>& recurrence : recurrences) recurrence.end_round();
   }
-  std::vector<std::vector<std::vector<Row<T>>>> results;
+  std::vector<std::vector<RowArray<T>>> results;
   for (Recurrence<T>& recurrence : recurrences) results.push_back(recurrence.take_sums());
   return results;
 }
 
 template std::vector<Row<float>> ChebyshevFilter::rows_of(const Columns&, Index) const;
 template std::vector<Row<double>> ChebyshevFilter::rows_of(const Columns&, Index) const;
-template std::vector<std::vector<std::vector<Row<float>>>> ChebyshevFilter::run(
+template std::vector<std::vector<RowArray<float>>> ChebyshevFilter::run(
     std::span<const FilterInput<float>>, Probes*) const;
-template std::vector<std::vector<std::vector<Row<double>>>> ChebyshevFilter::run(
+template std::vector<std::vector<RowArray<double>>> ChebyshevFilter::run(
     std::span<const FilterInput<double>>, Probes*) const;
 
 std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
@@ -227,7 +234,7 @@ std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Position
   const FilterInput<double> input = {filter.rows_of<double>(x), std::move(series)};
   const auto of_input = filter.run<double>({&input, 1});
   std::vector<Positions> results;
-  for (const RowVector<double>& rows : of_input.front()) {
+  for (const RowArray<double>& rows : of_input.front()) {
     results.push_back(positions_of(filter, rows));
   }
   return results;

@@ -53,8 +53,8 @@ class ChebyshevFilter {
   /// \return        for each input and each of its series #V rows. A row that no iteration moves
   ///                is x times the sum of the coefficients, to the bit.
   template <class T>
-  std::vector<std::vector<std::vector<Row<T>>>> run(std::span<const FilterInput<T>> inputs,
-                                                    Probes* probes = nullptr) const;
+  std::vector<std::vector<RowArray<T>>> run(std::span<const FilterInput<T>> inputs,
+                                            Probes* probes = nullptr) const;
 
  private:
   OperatorKind kind_;

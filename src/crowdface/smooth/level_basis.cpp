@@ -2,6 +2,7 @@
 #include "crowdface/smooth/level_basis.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -13,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-using FieldRows = std::vector<Row<float>>;
+using FieldRows = RowArray<float>;
 
 /// A level's displacement may miss this share of the head's size to the end of its series: some
 /// 10⁻⁴ mm.
@@ -22,7 +23,7 @@ constexpr double kFieldSeriesTolerance = 1e-6;
 constexpr std::size_t kProbes = 1024;
 /// Vertices that choose the principal directions and the rank; the error is then measured at all.
 constexpr std::size_t kSampleRows = 4096;
-constexpr Index kMeasureBlock = 2048;
+constexpr Index kMeasureBlock = 256;
 
 /// Every n-th of `count` rows, `most` at most.
 std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
@@ -75,7 +76,7 @@ class CombinedRows {
     std::vector<const Row<float>*> inputs;
     for (const FieldRows& rows : displacements_) inputs.push_back(rows.data() + begin);
     std::vector<Row<float>*> outputs;
-    for (FieldRows& rows : outputs_) {
+    for (std::vector<Row<float>>& rows : outputs_) {
       rows.resize(end - begin);
       outputs.push_back(rows.data());
     }
@@ -91,7 +92,7 @@ class CombinedRows {
  private:
   const std::vector<FieldRows>& displacements_;
   std::vector<float> factors_;
-  std::vector<FieldRows> outputs_;
+  std::vector<std::vector<Row<float>>> outputs_;
 };
 
 /// The largest distance that something misses, and at which tested level.
@@ -123,9 +124,9 @@ Worst worst_missed(const Directions& directions, const CombinedRows& fields, std
 }
 
 /// Writes the fields of the first `rank` directions in the order of vertices, and measures what the
-/// others would have added, at every vertex.
+/// others would have added, at every vertex; gives up as soon as that exceeds the budget.
 Worst write_fields(const ChebyshevFilter& filter, const Directions& directions,
-                   const std::vector<FieldRows>& displacements, Index rank,
+                   const std::vector<FieldRows>& displacements, Index rank, double budget,
                    std::vector<float>& fields) {
   const Index nodes = directions.functions.cols(), vertices = filter.vertex_count();
   std::vector<double> peak;  // of |φ_p| over the levels
@@ -138,7 +139,9 @@ Worst write_fields(const ChebyshevFilter& filter, const Directions& directions,
   const Index worst_of_sample = worst.level;
   worst.squared = known * known;
   std::mutex mutex;
+  std::atomic<bool> too_few = false;
   parallel_blocks(vertices, kMeasureBlock, [&](Index begin, Index end) {
+    if (too_few) return;
     CombinedRows rows(displacements, directions.combining);
     rows.compute(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
     Worst mine{known * known, worst_of_sample};
@@ -160,6 +163,7 @@ Worst write_fields(const ChebyshevFilter& filter, const Directions& directions,
     }
     const std::lock_guard lock(mutex);
     worst.see(mine.squared, mine.level);
+    if (worst.squared > budget * budget) too_few = true;
   });
   return worst;
 }
@@ -257,7 +261,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   basis.max_level = nodes.max_level();
   basis.vertex_count = filter.vertex_count();
   for (Index rank = directions.rank; rank <= directions.mixing.cols(); ++rank) {
-    const Worst worst = write_fields(filter, directions, displacements, rank, basis.fields);
+    const Worst worst = write_fields(filter, directions, displacements, rank, budget, basis.fields);
     if (std::sqrt(worst.squared) > budget) continue;  // a vertex beside the sample is worse
     basis.mixing = directions.mixing.leftCols(rank);
     basis.error.max = std::sqrt(worst.squared) + of_nodes.max;

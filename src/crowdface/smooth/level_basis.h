@@ -40,9 +40,9 @@ std::vector<double> basis_functions(const LevelNodes& nodes, const Eigen::Matrix
 
 /// What one pass of the filter says about a head.
 struct NodeFields {
-  std::vector<std::vector<Row<float>>> displacements;  ///< S_{N_n} x − x for each node, in the
-                                                       ///< filter's order of rows
-  Probes probes;                                       ///< the filter itself at some vertices
+  std::vector<RowArray<float>> displacements;  ///< S_{N_n} x − x for each node, in the
+                                               ///< filter's order of rows
+  Probes probes;                               ///< the filter itself at some vertices
 };
 
 /// All levels of the nodes in one pass, in single precision.

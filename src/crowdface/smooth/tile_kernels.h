@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "crowdface/smooth/tiles.h"
 
@@ -12,6 +13,25 @@ namespace crowdface {
 template <class T>
 struct alignas(4 * sizeof(T)) Row {
   T value[4];
+};
+
+/// Rows whose memory is not initialised, so that the threads that compute them are the first to touch
+/// it.
+template <class T>
+class RowArray {
+ public:
+  RowArray() = default;
+  explicit RowArray(std::size_t size)
+      : rows_(std::make_unique_for_overwrite<Row<T>[]>(size)), size_(size) {}
+  std::size_t size() const { return size_; }
+  Row<T>* data() { return rows_.get(); }
+  const Row<T>* data() const { return rows_.get(); }
+  Row<T>& operator[](std::size_t i) { return rows_[i]; }
+  const Row<T>& operator[](std::size_t i) const { return rows_[i]; }
+
+ private:
+  std::unique_ptr<Row<T>[]> rows_;
+  std::size_t size_ = 0;
 };
 
 /// One step of the recurrence on the rows of the runs, in place:
