@@ -14,7 +14,7 @@ TEST(Synth, TagsAreWhatAConfigTakes) {
   const std::string heads = (folder / "heads").string();
   crowdface(0, {"synth", "-o", heads, "--count", "12", "--vertices", "5000", "--tags"});
   const std::string tags = read_text(folder / "heads/tags.yaml");
-  for (const char* tag : {"female", " male", "young", "adult", "old"}) {
+  for (const char* tag : {"[female", "[male", "young", "adult", "old"}) {
     EXPECT_THAT(tags, HasSubstr(tag)) << "among twelve people";
   }
   const fs::path config = folder.write(
