@@ -46,6 +46,14 @@ TEST(BandMasks, OneTileEachAndEveryPaintedPixelAddsUp) {
   EXPECT_EQ(at(1001, 50, 2), (Pixel{0, 0, 0})) << "nothing far away";
 }
 
+TEST(BandMasks, WhereFacesShareAPlaceTheFirstCounts) {
+  Mesh mesh = two_tiles();
+  mesh.topology.corner_uvs = {0, 1, 2, 3, 3, 2, 1, 0};  // the other way up, over the first
+  const auto tiles = band_masks(mesh, {5, 3}, 64);
+  ASSERT_EQ(tiles.size(), 1U);
+  EXPECT_EQ(tiles.at(1001)[3 * (64 * 2 + 5)], 255);
+}
+
 TEST(BandMasks, WhatCannotBePaintedIsRefused) {
   expect_error(ExitCode::kBadData, {"size"}, [] { band_masks(two_tiles(), {5, 3}, 0); });
   expect_error(ExitCode::kBadData, {"eyes above the mouth"}, [] {

@@ -32,7 +32,8 @@ class Tile {
  public:
   explicit Tile(int size) : size_(size), height_(count(), 0), painted_(count(), false) {}
 
-  /// Paints a triangle at places in pixels, heights running evenly between its corners.
+  /// Paints a triangle at places in pixels, heights running evenly between its corners. What is
+  /// painted already stays: eyes and lashes may lie over the face's texture.
   void paint(const std::array<Vector2d, 3>& at, const std::array<double, 3>& height) {
     const Vector2d low = at[0].cwiseMin(at[1]).cwiseMin(at[2]);
     const Vector2d high = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
@@ -43,7 +44,7 @@ class Tile {
         const Vector2d p(x + 0.5, y + 0.5);
         const double b = cross(p - at[0], at[2] - at[0]) / area;
         const double c = cross(at[1] - at[0], p - at[0]) / area;
-        if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) continue;
+        if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9 || painted_[pixel(x, y)]) continue;
         set(pixel(x, y), height[0] + b * (height[1] - height[0]) + c * (height[2] - height[0]));
       }
     }
