@@ -92,7 +92,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.base + fold.aged * aged +
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      if (factor > 0.02) add_stroke(i, side, 1.4 * fold.depth * std::min(factor, 1.7) * lopsided);
+      if (factor > 0.02) add_stroke(i, side, 1.5 * fold.depth * std::min(factor, 1.9) * lopsided);
     }
   }
   const double rough = 1 + 0.25 * aged + 0.15 * identity.person().male;
