@@ -65,7 +65,7 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
   const double size = 0.018 * person_.male + 0.02 * normal("size");
   scale_ = Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,
                     1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
-  face_length_ = 0.01 * person_.male + 0.04 * normal("face_length");
+  face_length_ = 0.014 * person_.male + 0.04 * normal("face_length");
   pulls_.push_back(
       {{0, -2.5, 11}, {2.5, 4, 3}, {0.07 * normal("nose_lean"), 0, 0}, Vector3d::Zero()});
   pulls_.push_back({{0, -9, 8}, {7, 6, 8}, {0.08 * normal("jaw_lean"), 0, 0}, Vector3d::Zero()});

@@ -75,7 +75,7 @@ Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, doub
   if (sheet == Sheet::kEye) return into_eye(edge, c, b);
   if (sheet == Sheet::kNostril) {
     const Vector3d centre(0.80, -4.2, 10.35);
-    const Vector3d goal = centre + 0.6 * (edge - centre) + Vector3d(-0.1, 1.15, -0.35);
+    const Vector3d goal = centre + 0.35 * (edge - centre) + Vector3d(-0.1, 1.15, -0.35);
     return edge + t * (goal - edge);
   }
   return edge + t * Vector3d(-0.2 * edge.x(), 0.35 * c.y(), -0.9);

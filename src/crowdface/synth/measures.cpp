@@ -32,7 +32,7 @@ std::span<const Measure> measures() {
       Measure{"brow_height", -0.5, -0.2, 0, 0.9, shifted({3, 1.8, 8.6}, {4, 1.8, 4}, {0, 0.17, 0})},
       Measure{"brow_tail", -0.4, -0.6, 0, 0.8, shifted({4.7, 1.5, 7.2}, {2.2, 1.7, 3}, {0, 0.17, 0})},
       // eyes
-      Measure{"eye_spacing", 0, 0, 0, 1.2, shifted({3.12, 0, 8}, {3.0, 3.2, 4.5}, {0.13, 0, 0})},
+      Measure{"eye_spacing", -0.25, 0, 0, 1.2, shifted({3.12, 0, 8}, {3.0, 3.2, 4.5}, {0.13, 0, 0})},
       Measure{"eye_size", -0.5, -0.1, 0, 1.1, stretched({3.12, 0, 8.2}, {2.6, 2.2, 3}, {0.05, 0.07, 0.03})},
       Measure{"eye_opening", -0.35, -0.35, 0, 0.9, stretched({3.12, 0, 8.3}, {2.4, 1.5, 2.5}, {0, 0.12, 0})},
       Measure{"eye_tilt", -0.3, -0.3, 0, 1, shifted({4.6, 0.1, 7.4}, {1.9, 2.0, 2.8}, {0, 0.13, 0})},
