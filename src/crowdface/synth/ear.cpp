@@ -50,7 +50,7 @@ Vector3d raised(const Vector2d& place, double height) {
 double stand_off(const Vector2d& round) {
   const double back = smooth_step(-0.9, 0.9, round.x());
   const double lobe = smooth_step(-0.3, -1.0, round.y());
-  return (0.45 + 1.15 * back) * (1 - 0.45 * lobe);
+  return (0.5 + 1.35 * back) * (1 - 0.45 * lobe);
 }
 
 double height_at(const Vector2d& round, double b) {

@@ -52,7 +52,7 @@ double jaw(const Vector3d& p) {
 double cheek(const Vector3d& p) {
   const double front = ellipsoid(p, {3.5, -3.2, 6.0}, {2.4, 2.4, 2.4});
   const double bone = rod(p, {4.6, -2.3, 5.6}, {6.1, -1.8, 1.4}, 1.0, 0.6);
-  const double hollow = ellipsoid(p, {3.2, -5.8, 4.8}, {2.2, 2.6, 2.9});
+  const double hollow = ellipsoid(p, {3.0, -6.6, 4.8}, {2.3, 3.2, 3.0});
   const double masseter = ellipsoid(p, {4.15, -5.0, 2.8}, {1.5, 2.6, 2.0});
   return melt(melt(melt(front, bone, 2.0), hollow, 2.2), masseter, 2.0);
 }
