@@ -25,7 +25,7 @@ for file in "$heads"/*.obj; do names+=("$(basename "$file" .obj)"); done
   echo "smoothing: {max_iterations: 1}"
   echo "recipes:"
   for name in "${names[@]}"; do
-    echo "  - {id: ${name}_, target: $name," \
+    echo "  - {id: $name, target: $name," \
       "regions: {all: {weights: {$name: 1}, iterations: 0, extrapolation: 1}}}"
   done
   echo "output:"

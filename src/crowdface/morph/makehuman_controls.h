@@ -20,7 +20,7 @@ struct MakeHumanPerson {
 MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index);
 
 /// The targets that make this head of the base mesh, each with its weight: the person's, then some
-/// ninety drawn measures of head, forehead, brows, eyes, nose, mouth, chin, cheeks, ears, neck, and
+/// hundred drawn measures of head, forehead, brows, eyes, nose, mouth, chin, cheeks, ears, neck, and
 /// what makes left and right differ.
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index);

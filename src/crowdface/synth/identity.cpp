@@ -77,7 +77,9 @@ Vector3d Identity::deform(const Vector3d& point) const {
   // Everything below the eyes longer or shorter, without a kink at the eyes.
   moved.y() += face_length_ * (point.y() - std::sqrt(point.y() * point.y() + 4)) / 2;
   const double uneven = lopsided_.at(point), other = lopsided_.at(point + Vector3d(40, 0, 0));
-  moved += 0.05 * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
+  // Faces grow less even with the years (Skomina et al. 2020).
+  const double reach = 0.05 * (1 + 0.25 * person_.aged());
+  moved += reach * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
   return moved.cwiseProduct(scale_);
 }
 
