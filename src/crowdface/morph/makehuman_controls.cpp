@@ -192,8 +192,9 @@ void add_person(const MakeHumanPerson& person, double male_share, std::vector<Ta
 
 MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index) {
   MakeHumanPerson person;
-  person.male = random_unit({seed, index, "makehuman/sex"}) < 0.5;
-  person.years = std::floor(random_between({seed, index, "makehuman/age"}, 20, 80));
+  // Evenly spread, so that a handful of heads has both sexes and several ages.
+  person.male = random_stratified({seed, index, "makehuman/sex"}, 2) < 0.5;
+  person.years = std::floor(20 + 60 * random_stratified({seed, index, "makehuman/age"}, 5));
   double sum = 0;
   for (std::uint32_t a = 0; a < 3; ++a) {
     // The fourth power: one ancestry prevails in most.
