@@ -112,11 +112,15 @@ MakeHumanStandIn write_makehuman(const fs::path& package) {
 void write_ict(const fs::path& checkout, int modes) {
   for (int k = -1; k < modes; ++k) {
     std::string text = "mtllib ICTFaceModelMaterial.mtl\n";
+    const double step = k < 0 ? 0 : (k + 1) / 100.0;
     for (int v = 0; v < 20; ++v) {
-      const double step = k < 0 ? 0 : (k + 1) / 100.0;
-      text += concat("v ", v % 4 + step * (v % 3), " ", v / 4 + step, " ", 10 - step, "\n");
+      const int column = v % 4, row = v / 4;
+      text += concat("v ", column + step * (v % 3), " ", row + step, " ", 10 - step, "\n");
     }
-    for (int v = 0; v < 20; ++v) text += concat("vt ", 0.6 * (v % 4), " ", 0.2 * (v / 4), "\n");
+    for (int v = 0; v < 20; ++v) {
+      const int column = v % 4, row = v / 4;
+      text += concat("vt ", 0.6 * column, " ", 0.2 * row, "\n");
+    }
     const auto quad = [&](int a) {
       text += "f";
       for (const int corner : {a, a + 1, a + 5, a + 4}) text += concat(' ', corner, '/', corner);
