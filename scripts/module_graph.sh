@@ -29,6 +29,7 @@ smooth 2
 region 3
 render 3
 synth 3
+morph 3
 blend 4
 cast 5
 job 6

@@ -18,6 +18,7 @@ Run add_blend(CLI::App& program);
 Run add_smooth(CLI::App& program);
 Run add_sheet(CLI::App& program);
 Run add_synth(CLI::App& program);
+Run add_import(CLI::App& program);
 Run add_check(CLI::App& program);
 Run add_init(CLI::App& program);
 Run add_cache(CLI::App& program);

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
        {crowdface::cli::add_generate, crowdface::cli::add_check, crowdface::cli::add_init,
         crowdface::cli::add_plan, crowdface::cli::add_prepare, crowdface::cli::add_blend,
         crowdface::cli::add_smooth, crowdface::cli::add_sheet, crowdface::cli::add_synth,
-        crowdface::cli::add_cache}) {
+        crowdface::cli::add_import, crowdface::cli::add_cache}) {
     const std::size_t before = program.get_subcommands({}).size();
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(

@@ -8,10 +8,12 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/synth/identity.h"
 #include "crowdface/synth/synthetic_head.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/head_tags.h"
 
 namespace crowdface::cli {
 namespace {
@@ -23,13 +25,8 @@ constexpr int kMaskSize = 1024;
 struct Options {
   CommonOptions common;
   std::string out, count = "8", vertices = "20000", seed = "1", mask;
+  bool tags = false;
 };
-
-std::string head_name(std::uint64_t index) {
-  std::string number = concat(index);
-  if (number.size() < 2) number.insert(0, 1, '0');
-  return concat("synth_", number);
-}
 
 void synth(const Options& options) {
   const std::uint64_t count = whole_number("--count", options.count, 0, kMostHeads);
@@ -45,9 +42,17 @@ void synth(const Options& options) {
       throw_if_interrupted();
       write_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},
                 concat("synthetic head ", i, " of seed ", seed, ", made by crowdface synth; cm"),
-                directory / concat(head_name(i), ".obj"));
+                directory / concat(head_name("synth", i), ".obj"));
       progress.step();
     }
+  }
+  if (options.tags) {
+    std::vector<TaggedHead> tagged;
+    for (std::uint64_t i = 1; i <= count; ++i) {
+      const synth::Person person = synth::draw_person(seed, i);
+      tagged.push_back({head_name("synth", i), person.male > 0, person.age});
+    }
+    write_tags(tagged, concat("Synthetic heads of seed ", seed), directory);
   }
   const std::filesystem::path mask =
       options.mask.empty() ? directory / "regions.png" : std::filesystem::path(options.mask);
@@ -78,6 +83,8 @@ Run add_synth(CLI::App& program) {
   command
       ->add_option("--mask", options->mask, "Where the region mask goes (default: DIR/regions.png)")
       ->type_name("FILE");
+  command->add_flag("--tags", options->tags,
+                    "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
   options->common.add_to(*command);
   return [options] {
     const auto threads = options->common.apply();

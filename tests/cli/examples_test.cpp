@@ -21,11 +21,14 @@ class Examples : public ::testing::Test {
     fs::copy(kSource / "masks", folder_ / "masks");
     const fs::path heads = folder_ / "out/demo_heads";
     crowdface(0, {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "8"}, {});
-    // Stand-ins for the heads that the user of ict.yaml brings: one UDIM tile is all they touch.
-    fs::create_directories(folder_ / "heads/ict");
-    for (const char* name : {"synth_01.obj", "synth_02.obj", "synth_03.obj"}) {
-      fs::copy(heads / name, folder_ / "heads/ict" / name);
+    // Stand-ins for the heads that scripts/get_heads.sh brings; one UDIM tile is all they touch.
+    for (const char* model : {"ict", "makehuman"}) {
+      fs::create_directories(folder_ / "heads" / model);
+      for (const char* name : {"synth_01.obj", "synth_02.obj", "synth_03.obj"}) {
+        fs::copy(heads / name, folder_ / "heads" / model / name);
+      }
     }
+    fs::copy(folder_ / "masks/synth_bands.png", folder_ / "heads/makehuman/makehuman_bands.png");
     fs::copy(folder_ / "masks/synth_bands.png", folder_ / "heads/ict/ict_bands.1001.png");
   }
 

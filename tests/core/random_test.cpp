@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/random.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -52,6 +53,26 @@ TEST(Random, NormalHasUnitVariance) {
   }
   EXPECT_NEAR(sum / kDraws, 0, 0.03);
   EXPECT_NEAR(squares / kDraws, 1, 0.04);
+}
+
+TEST(Random, StratifiedFillsEachPartOnceARun) {
+  double sum = 0;
+  int first_part = 0;
+  for (std::uint64_t run = 0; run < 400; ++run) {
+    std::array<int, 5> parts{};
+    for (std::uint64_t i = 0; i < 5; ++i) {
+      const double x = random_stratified({8, 5 * run + i, "test"}, 5);
+      ASSERT_GE(x, 0);
+      ASSERT_LT(x, 1);
+      ++parts[static_cast<std::size_t>(5 * x)];
+      sum += x;
+      first_part += i == 0 && x < 0.2 ? 1 : 0;
+    }
+    EXPECT_EQ(parts, (std::array<int, 5>{1, 1, 1, 1, 1}));
+  }
+  EXPECT_NEAR(sum / 2000, 0.5, 0.01);
+  EXPECT_NEAR(first_part, 80, 30) << "runs begin anywhere";
+  EXPECT_EQ(random_stratified({8, 3, "test"}, 5), random_stratified({8, 3, "test"}, 5));
 }
 
 }  // namespace

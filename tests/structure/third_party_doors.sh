@@ -31,6 +31,7 @@ door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/[a-z_]*\.cpp' 'crowdface/render/[a-z_]*\.cpp'
 door 'embree' 'crowdface/render/[a-z_]*\.cpp'
 door 'yaml-cpp/' 'crowdface/job/[a-z_]*\.cpp'
-door 'nlohmann/' 'crowdface/job/[a-z_]*\.cpp' 'crowdface/io/[a-z_]*\.cpp'
+door 'nlohmann/' 'crowdface/job/[a-z_]*\.cpp' 'crowdface/io/[a-z_]*\.cpp' \
+  'crowdface/morph/[a-z_]*\.cpp'
 door 'CLI/' 'cli/[a-z_]*\.(cpp|h)'
 exit $status

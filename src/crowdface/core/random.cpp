@@ -37,6 +37,18 @@ double random_between(const RandomKey& key, double low, double high) {
   return low + (high - low) * random_unit(key);
 }
 
+double random_stratified(const RandomKey& key, std::uint64_t strata) {
+  // Each run of indices goes round the parts, forwards or backwards, from a place of its own.
+  constexpr std::uint32_t kRunLane = 0x5A17;
+  const RandomKey run{key.seed, key.index / strata, key.purpose, key.attempt};
+  const auto [place, direction] = random_pair(run, kRunLane);
+  const auto count = static_cast<double>(strata);
+  const std::uint64_t at = key.index % strata;
+  const std::uint64_t step = direction < 0.5 ? at : strata - at;
+  const std::uint64_t part = (static_cast<std::uint64_t>(place * count) + step) % strata;
+  return (static_cast<double>(part) + random_unit(key)) / count;
+}
+
 double random_normal(const RandomKey& key, std::uint32_t lane) {
   double sum = -6;
   for (std::uint32_t i = 0; i < 6; ++i) {

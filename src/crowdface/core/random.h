@@ -28,6 +28,10 @@ double random_unit(const RandomKey& key, std::uint32_t lane = 0);
 /// Uniform in [low, high).
 double random_between(const RandomKey& key, double low, double high);
 
+/// Uniform in [0, 1), evenly spread over successive indices: of each run of `strata` of them that
+/// begins at a multiple of `strata`, one number lies in each of as many equal parts.
+double random_stratified(const RandomKey& key, std::uint64_t strata);
+
 /// Approximately standard normal (sum of twelve uniforms less six, cut at ±6): free of the C
 /// library's log and cos, whose last bits differ between machines.
 double random_normal(const RandomKey& key, std::uint32_t lane = 0);

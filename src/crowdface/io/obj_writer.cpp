@@ -2,6 +2,7 @@
 #include "crowdface/io/obj_writer.h"
 
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "crowdface/core/parallel.h"
@@ -53,8 +54,13 @@ Digest write_obj_like(const ObjFile& target, const Topology& topology, const Pos
   return file.digest();
 }
 
-void write_obj(const Mesh& mesh, const std::string& comment, const std::filesystem::path& path) {
+void write_obj(const Mesh& mesh, const std::string& comment, const std::filesystem::path& path,
+               const std::vector<MaterialRange>& materials) {
   const Topology& topology = mesh.topology;
+  std::map<Index, std::string> material_lines;
+  for (const MaterialRange& range : materials) {
+    material_lines[range.first_face] += concat("usemtl ", range.name, '\n');
+  }
   require_finite(mesh.positions, topology.vertex_count, path.string());
   const auto vertices = format_blocks(topology.vertex_count, [&](std::string& out, Index i) {
     out += "v ";
@@ -69,6 +75,7 @@ void write_obj(const Mesh& mesh, const std::string& comment, const std::filesyst
     out += '\n';
   });
   const auto faces = format_blocks(topology.face_count(), [&](std::string& out, Index f) {
+    if (const auto line = material_lines.find(f); line != material_lines.end()) out += line->second;
     out += 'f';
     for (auto c = topology.face_offsets[static_cast<std::size_t>(f)];
          c < topology.face_offsets[static_cast<std::size_t>(f) + 1]; ++c) {

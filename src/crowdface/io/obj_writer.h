@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "crowdface/core/hash.h"
 #include "crowdface/io/obj_file.h"
@@ -19,7 +20,9 @@ Digest write_obj_like(const ObjFile& target, const Topology& topology, const Pos
                       const std::filesystem::path& path);
 
 /// Writes a mesh of our own making: positions, texture coordinates, faces.
-/// \param comment  one line for the file's head, may be empty.
-void write_obj(const Mesh& mesh, const std::string& comment, const std::filesystem::path& path);
+/// \param comment    one line for the file's head, may be empty.
+/// \param materials  of the faces, ascending; may be empty.
+void write_obj(const Mesh& mesh, const std::string& comment, const std::filesystem::path& path,
+               const std::vector<MaterialRange>& materials = {});
 
 }  // namespace crowdface

@@ -22,7 +22,7 @@ constexpr std::size_t kKnots = 9;
 constexpr double kAttached = 0.18;  // up to here the ring lies on the head
 constexpr std::array<double, kKnots> kRing = {0, kAttached, 0.32, 0.44, 0.54, 0.64, 0.76, 0.88, 1};
 constexpr std::array<double, kKnots> kReach = {1.3, 0.80, 0.84, 1.0, 0.97, 0.86, 0.74, 0.58, 0.46};
-constexpr std::array<double, kKnots> kHeight = {0, 0.0, 0.5, 0.90, 1.02, 0.80, 0.84, 0.72, 0.18};
+constexpr std::array<double, kKnots> kHeight = {0, 0.0, 0.5, 0.92, 1.02, 0.70, 0.92, 0.62, 0.12};
 
 /// Monotone enough: cubic through the knots with the chords' slopes.
 double along(const std::array<double, kKnots>& values, double b) {
@@ -39,8 +39,8 @@ double along(const std::array<double, kKnots>& values, double b) {
 
 /// A disc place of the ear: y up, x towards the back, 1 on the outline.
 Vector3d raised(const Vector2d& place, double height) {
-  const double up = place.y() * (place.y() > 0 ? 2.9 : 3.0);
-  const double back = place.x() * (place.x() > 0 ? 1.8 : 1.25) * (1 + 0.22 * place.y());
+  const double up = place.y() * (place.y() > 0 ? 2.75 : 2.85);
+  const double back = place.x() * (place.x() > 0 ? 1.6 : 1.1) * (1 + 0.22 * place.y());
   Vector3d guide(0, ear_centre().y() + up, ear_centre().z() - back - 0.2 * up);
   const Vector3d skin = onto_skin({0, guide.y(), guide.z()}, {6.5, guide.y(), guide.z()});
   return skin + height * Vector3d(0.86, 0.0, -0.5);
@@ -50,7 +50,7 @@ Vector3d raised(const Vector2d& place, double height) {
 double stand_off(const Vector2d& round) {
   const double back = smooth_step(-0.9, 0.9, round.x());
   const double lobe = smooth_step(-0.3, -1.0, round.y());
-  return (0.45 + 1.15 * back) * (1 - 0.45 * lobe);
+  return (0.5 + 1.35 * back) * (1 - 0.45 * lobe);
 }
 
 double height_at(const Vector2d& round, double b) {

@@ -12,7 +12,7 @@ Eigen::Vector3d ear_point(const Address& address);
 
 /// The middle of the ear on the head's side.
 inline Eigen::Vector3d ear_centre() {
-  return {6.9, -1.4, -1.1};
+  return {6.9, -2.55, -1.0};
 }
 
 }  // namespace crowdface::synth

@@ -35,8 +35,9 @@ Pull mirrored(Pull pull) {
 
 Person draw_person(std::uint64_t seed, std::uint64_t index) {
   Person person;
-  person.male = random_unit({seed, index, "synth/sex"}) < 0.5 ? -1 : 1;
-  person.age = std::floor(random_between({seed, index, "synth/age"}, 18, 78));
+  // Evenly spread, so that a handful of heads has both sexes and several ages.
+  person.male = random_stratified({seed, index, "synth/sex"}, 2) < 0.5 ? -1 : 1;
+  person.age = std::floor(18 + 60 * random_stratified({seed, index, "synth/age"}, 5));
   person.build = std::clamp(random_normal({seed, index, "synth/build"}), -2.0, 2.0);
   return person;
 }
@@ -62,10 +63,11 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
     pulls_.push_back(pull);
     if (pull.centre.x() != 0) pulls_.push_back(mirrored(pull));
   }
-  const double size = 0.02 * person_.male + 0.018 * normal("size");
-  scale_ = Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build,
-                    1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
-  face_length_ = 0.015 * person_.male + 0.03 * normal("face_length");
+  const double size = 0.018 * person_.male + 0.02 * normal("size");
+  scale_ =
+      Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,
+               1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
+  face_length_ = 0.014 * person_.male + 0.04 * normal("face_length");
   pulls_.push_back(
       {{0, -2.5, 11}, {2.5, 4, 3}, {0.07 * normal("nose_lean"), 0, 0}, Vector3d::Zero()});
   pulls_.push_back({{0, -9, 8}, {7, 6, 8}, {0.08 * normal("jaw_lean"), 0, 0}, Vector3d::Zero()});
@@ -77,7 +79,9 @@ Vector3d Identity::deform(const Vector3d& point) const {
   // Everything below the eyes longer or shorter, without a kink at the eyes.
   moved.y() += face_length_ * (point.y() - std::sqrt(point.y() * point.y() + 4)) / 2;
   const double uneven = lopsided_.at(point), other = lopsided_.at(point + Vector3d(40, 0, 0));
-  moved += 0.05 * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
+  // Faces grow less even with the years (Skomina et al. 2020).
+  const double reach = 0.05 * (1 + 0.25 * person_.aged());
+  moved += reach * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
   return moved.cwiseProduct(scale_);
 }
 

@@ -19,6 +19,8 @@ struct Person {
   /// −1 … 1.9: 40 years is 0, 60 is 1.
   double aged() const { return (age - 40) / 20; }
 };
+/// Of two successive heads (indices 2k and 2k + 1) one is female and one male; of five (from 5k on)
+/// each is of another fifth of the ages.
 Person draw_person(std::uint64_t seed, std::uint64_t index);
 
 /// A smooth displacement of part of the head: (1 − r²)³ · (shift + stretch · (p − centre)), r being

@@ -33,7 +33,7 @@ GuideRay mouth_edge(const Vector2d& c) {
   const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.15 - 0.15 * q);
   // The line between the lips: a dip in the middle, corners a little lower than the bows.
   const double line = -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
-  const double gap = 0.026 * c.y() * (1 + 1.8 * q);
+  const double gap = 0.03 * c.y() * (1 + 2.2 * q);
   return {{0.4 * x, line + gap, 3}, {x, line + gap, 9.9 - 0.18 * x * x}};
 }
 
@@ -62,10 +62,10 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   if (b <= 1.2) return edge + (foot - edge) * ((b - 1) / 0.2);
   const double t = (b - 1.2) / 0.8;
   const Vector2d rim(foot.x() - eye_centre().x(), foot.y());
-  const Vector2d flat = rim + t * (0.2 * c - rim);
+  const Vector2d flat = rim + t * (0.26 * c - rim);
   const double r2 = kEyeRadius * kEyeRadius;
   // The iris is a shallow dish, as sculptors cut it.
-  const double dish = 0.07 * smooth_step(0.6, 0.5, flat.norm());
+  const double dish = 0.10 * smooth_step(0.62, 0.42, flat.norm());
   return eye_centre() +
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);
 }
@@ -75,7 +75,7 @@ Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, doub
   if (sheet == Sheet::kEye) return into_eye(edge, c, b);
   if (sheet == Sheet::kNostril) {
     const Vector3d centre(0.80, -4.2, 10.35);
-    const Vector3d goal = centre + 0.75 * (edge - centre) + Vector3d(0, 0.75, -0.25);
+    const Vector3d goal = centre + 0.35 * (edge - centre) + Vector3d(-0.1, 1.15, -0.35);
     return edge + t * (goal - edge);
   }
   return edge + t * Vector3d(-0.2 * edge.x(), 0.35 * c.y(), -0.9);

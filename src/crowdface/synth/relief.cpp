@@ -89,10 +89,10 @@ Relief::Relief(const Identity& identity, double edge_cm)
       const std::string purpose = concat("synth/fold/", fold.name);
       const std::string lean = concat(purpose, side > 0 ? "/left" : "/right");
       const double factor =
-          fold.base + fold.aged * aged +
+          fold.base + 1.25 * fold.aged * aged +
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      if (factor > 0.02) add_stroke(i, side, 1.4 * fold.depth * std::min(factor, 1.7) * lopsided);
+      if (factor > 0.02) add_stroke(i, side, 1.5 * fold.depth * std::min(factor, 2.2) * lopsided);
     }
   }
   const double rough = 1 + 0.25 * aged + 0.15 * identity.person().male;

@@ -36,68 +36,73 @@ double carve(double a, double b, double k) {
 }
 
 double skull(const Vector3d& p) {
-  double d = ellipsoid(p, {0, 2.6, -0.7}, {7.3, 8.4, 9.4});
-  d = melt(d, ellipsoid(p, {0, 4.0, 2.7}, {6.1, 5.8, 6.5}), 2.0);
+  double d = ellipsoid(p, {0, 2.7, -1.0}, {7.75, 8.3, 9.35});
+  d = melt(d, ellipsoid(p, {0, 3.9, 2.5}, {6.4, 5.9, 6.4}), 2.0);
   return melt(d, ellipsoid(p, {0, -3.0, 2.4}, {6.0, 7.4, 6.4}), 1.6);
 }
 
 double jaw(const Vector3d& p) {
-  const double mandible = rod(p, {4.05, -7.0, 1.5}, {1.2, -9.9, 7.0}, 1.05, 1.3);
-  const double ramus = rod(p, {5.4, -2.5, 0.6}, {4.05, -7.0, 1.5}, 1.2, 1.05);
-  const double chin = ellipsoid(p, {0, -10.0, 7.7}, {1.9, 1.4, 1.85});
-  return melt(melt(mandible, ramus, 1.0), chin, 1.2);
+  const double mandible = rod(p, {3.95, -6.9, 1.5}, {1.65, -10.0, 6.6}, 0.95, 1.2);
+  const double ramus = rod(p, {5.5, -2.3, 0.4}, {3.95, -6.8, 1.5}, 1.2, 0.95);
+  const double chin = ellipsoid(p, {0, -10.15, 7.45}, {2.2, 1.65, 1.95});
+  const double floor = ellipsoid(p, {0, -9.2, 3.7}, {3.2, 2.5, 4.5});
+  return melt(melt(melt(mandible, ramus, 1.4), chin, 2.4), floor, 2.0);
 }
 
 double cheek(const Vector3d& p) {
   const double front = ellipsoid(p, {3.5, -3.2, 6.0}, {2.4, 2.4, 2.4});
-  const double bone = rod(p, {4.5, -2.2, 5.7}, {6.0, -1.6, 1.4}, 1.1, 0.7);
-  const double hollow = ellipsoid(p, {3.2, -5.8, 4.8}, {2.2, 2.6, 2.9});
-  const double masseter = ellipsoid(p, {4.4, -5.4, 2.8}, {1.5, 2.6, 2.0});
-  return melt(melt(melt(front, bone, 1.2), hollow, 1.5), masseter, 1.5);
+  const double bone = rod(p, {4.6, -2.3, 5.6}, {6.1, -1.8, 1.4}, 1.0, 0.6);
+  const double hollow = ellipsoid(p, {3.0, -6.6, 4.8}, {2.3, 3.2, 3.0});
+  const double masseter = ellipsoid(p, {4.15, -5.0, 2.8}, {1.5, 2.6, 2.0});
+  return melt(melt(melt(front, bone, 2.0), hollow, 2.2), masseter, 2.0);
 }
 
 double nose(const Vector3d& p) {
-  double d = rod(p, {0, 1.0, 8.8}, {0, -3.1, 11.05}, 0.5, 0.68);
+  double d = rod(p, {0, 0.7, 8.7}, {0, -3.1, 10.75}, 0.42, 0.74);
   d = melt(d, ellipsoid(p, {0, -3.2, 9.5}, {1.35, 1.7, 1.5}), 0.7);
   d = melt(d, rod(p, {0.35, 0.2, 8.6}, {0.85, -2.8, 9.5}, 0.4, 0.5), 1.1);
-  d = melt(d, ellipsoid(p, {0, -3.45, 11.15}, {0.85, 0.75, 0.8}), 0.4);
-  d = melt(d, rod(p, {0, -3.9, 11.3}, {0, -4.6, 9.9}, 0.3, 0.36), 0.25);
-  d = melt(d, rod(p, {0.35, -3.55, 11.0}, {1.05, -3.75, 10.1}, 0.55, 0.5), 0.4);
+  d = melt(d, ellipsoid(p, {0, -3.4, 10.82}, {0.95, 0.85, 0.85}), 0.6);
+  d = melt(d, rod(p, {0, -3.95, 11.0}, {0, -4.6, 9.9}, 0.32, 0.36), 0.3);
+  d = melt(d, rod(p, {0.4, -3.55, 10.75}, {1.1, -3.75, 10.05}, 0.56, 0.52), 0.4);
   return melt(d, ellipsoid(p, {1.15, -3.85, 10.0}, {0.6, 0.66, 0.95}), 0.35);
 }
 
 double upper_lip(const Vector3d& p) {
-  const double side = rod(p, {0.5, -6.47, 9.58}, {2.42, -6.95, 8.6}, 0.44, 0.2);
-  return melt(side, ellipsoid(p, {0, -6.6, 9.66}, {0.55, 0.45, 0.5}), 0.5);
+  const double side = rod(p, {0.5, -6.52, 9.62}, {2.5, -6.97, 8.4}, 0.38, 0.2);
+  return melt(side, ellipsoid(p, {0, -6.62, 9.68}, {0.5, 0.4, 0.44}), 0.5);
 }
 
 double lower_lip(const Vector3d& p) {
-  return melt(rod(p, {0.5, -7.45, 9.46}, {2.36, -7.1, 8.6}, 0.52, 0.2),
-              ellipsoid(p, {0, -7.5, 9.5}, {0.65, 0.5, 0.5}), 0.6);
+  return melt(rod(p, {0.5, -7.42, 9.52}, {2.45, -7.06, 8.4}, 0.44, 0.2),
+              ellipsoid(p, {0, -7.48, 9.52}, {0.65, 0.45, 0.45}), 0.6);
 }
 
 double neck(const Vector3d& p) {
-  // An upright, slanted sleeve that widens towards the shoulders and ends inside the head.
+  // An upright sleeve that widens towards the shoulders and ends inside the head; its back stands
+  // upright, its front runs down and back from under the chin.
   const double down = std::max(0.0, -10 - p.y());
-  const double z = p.z() + 1.7 + 0.13 * (-10 - p.y());
-  const double wide = 4.75 + 0.03 * down * down, deep = 4.6 + 0.012 * down * down;
+  const double z = p.z() + 2.3 + 0.1 * (-10 - p.y());
+  const double wide = 4.9 + 0.03 * down * down, deep = 5.15 + 0.014 * down * down;
   const double r = std::sqrt(p.x() * p.x() / (wide * wide) + z * z / (deep * deep));
-  return -melt((1 - r) * std::min(wide, deep), -(p.y() + 5.5), 3.0);
+  return -melt((1 - r) * std::min(wide, deep), -(p.y() + 2.5), 3.5);
 }
 
 }  // namespace
 
 double skin_distance(const Vector3d& point) {
-  const Vector3d p(std::abs(point.x()), point.y(), point.z());
+  // Left and right are one, joined softly: a plain |x| would leave a crease down the middle.
+  constexpr double kJoint = 0.3;
+  const double x = std::sqrt(point.x() * point.x() + kJoint * kJoint);
+  const Vector3d p(x, point.y(), point.z());
   double d = skull(p);
   d = melt(d, jaw(p), 1.4);
-  d = melt(d, cheek(p), 2.0);
+  d = melt(d, cheek(p), 2.4);
   d = melt(d, neck(p), 1.6);
   if (p.z() < 3) return d;
   d = melt(d, ellipsoid(p, {0, -6.9, 6.7}, {2.9, 2.6, 3.0}), 1.6);
   d = melt(d, rod(p, {0.8, 1.8, 8.45}, {4.3, 1.65, 6.8}, 0.8, 0.5), 1.2);
-  d = melt(d, rod(p, {4.3, 1.65, 6.8}, {5.2, -1.2, 5.4}, 0.5, 0.5), 1.4);
-  d = melt(d, ellipsoid(p, {0, 0.6, 7.9}, {1.0, 2.4, 1.5}), 0.9);
+  d = melt(d, rod(p, {4.3, 1.65, 6.7}, {5.3, -1.2, 5.3}, 0.5, 0.5), 2.2);
+  d = melt(d, ellipsoid(p, {0, 0.9, 7.8}, {1.5, 2.3, 1.45}), 1.2);
   d = carve(d, ellipsoid(p, {3.2, -0.1, 9.7}, {1.8, 1.15, 2.2}), 0.8);
   d = carve(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
   d = melt(d, (p - eye_centre()).norm() - (kEyeRadius + 0.13), 0.35);
@@ -105,7 +110,7 @@ double skin_distance(const Vector3d& point) {
   // The groove between the lips runs out towards the corners.
   const double groove = 0.1 + 0.5 * smooth_step(1.5, 2.4, p.x());
   const double lips = melt(upper_lip(p), lower_lip(p), groove);
-  d = melt(d, lips, 0.3 + 0.3 * smooth_step(-7.6, -8.4, p.y()));
+  d = melt(d, lips, 0.4 + 0.4 * smooth_step(-7.6, -8.4, p.y()));
   return d;
 }
 

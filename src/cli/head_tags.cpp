@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/head_tags.h"
+
+#include <algorithm>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface::cli {
+namespace {
+
+constexpr double kAdultFrom = 35, kOldFrom = 55;
+
+}  // namespace
+
+std::string_view age_class(double years) {
+  if (years >= kOldFrom) return "old";
+  return years >= kAdultFrom ? "adult" : "young";
+}
+
+std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view about) {
+  std::string out = concat("# ", about, ". For the config's section faces.\n# young: under ",
+                           kAdultFrom, " years; old: from ", kOldFrom, " on; adult: between.\n",
+                           "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
+  for (const TaggedHead& head : heads) {
+    out += concat("    ", head.name, ": [", head.male ? "male" : "female", ", ",
+                  age_class(head.years), "]  # ", format_fixed(head.years, 0), " years\n");
+  }
+  return out;
+}
+
+void write_tags(const std::vector<TaggedHead>& heads, std::string_view about,
+                const std::filesystem::path& directory) {
+  write_file(directory / "tags.yaml", format_tags(heads, about));
+}
+
+std::string head_name(std::string_view kind, std::uint64_t index) {
+  std::string number = concat(index);
+  if (number.size() < 2) number.insert(0, 1, '0');
+  return concat(kind, "_", number);
+}
+
+}  // namespace crowdface::cli

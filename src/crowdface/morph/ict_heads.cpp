@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/morph/ict_heads.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/random.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostModes = 1000;
+constexpr double kLimit = 2;  // standard deviations
+
+std::vector<fs::path> identity_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  while (files.size() < kMostModes) {
+    std::string number = concat(files.size());
+    number.insert(0, 3 - number.size(), '0');
+    const fs::path file = folder / concat("identity", number, ".obj");
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) break;
+    files.push_back(file);
+  }
+  if (files.empty()) {
+    throw MissingInput(concat((folder / "identity000.obj").string(),
+                              ": expected the model's first identity mode, found no such file"));
+  }
+  return files;
+}
+
+}  // namespace
+
+IctHeads::IctHeads(const fs::path& checkout)
+    : file_(read_obj(checkout / "FaceXModel/generic_neutral_mesh.obj")),
+      neutral_{file_.topology, file_.positions, file_.uvs} {
+  const std::vector<fs::path> files = identity_files(checkout / "FaceXModel");
+  modes_.resize(files.size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(files.size()), [&](std::ptrdiff_t i) {
+    const ObjFile mode = read_obj(files[static_cast<std::size_t>(i)]);
+    const std::string difference = first_difference(neutral_.topology, mode.topology);
+    if (!difference.empty()) {
+      throw InvalidInput(concat(mode.path.string(), ": not the same mesh as ", file_.path.string(),
+                                ": ", difference));
+    }
+    modes_[static_cast<std::size_t>(i)] = mode.positions - neutral_.positions;
+  });
+}
+
+Positions IctHeads::positions(std::uint64_t seed, std::uint64_t index) const {
+  Positions head = neutral_.positions;
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    const double weight =
+        std::clamp(random_normal({seed, index, concat("ict/mode/", i)}), -kLimit, kLimit);
+    head += weight * modes_[i];
+  }
+  return head;
+}
+
+std::optional<HeadPerson> IctHeads::person(std::uint64_t /*seed*/, std::uint64_t /*index*/) const {
+  return std::nullopt;
+}
+
+FaceHeights IctHeads::heights() const {
+  const auto height = [&](const std::vector<std::string>& words) {
+    return mean_of(neutral_.positions,
+                   vertices_of_material(neutral_.topology, file_.materials, words))
+        .y();
+  };
+  return {height({"Sclera"}), height({"Teeth"})};
+}
+
+}  // namespace crowdface

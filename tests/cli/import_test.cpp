@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/text.h"
+#include "crowdface/io/obj_file.h"
+
+#include "cli/program_test.h"
+#include "support/model_files.h"
+
+namespace crowdface::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+  EXPECT_TRUE(fs::exists(path)) << path;
+  return read_text(path);
+}
+
+/// A config for what was imported, with the tags as they stand.
+std::string config_of(const std::string& tags, const std::string& mask) {
+  return concat("schema: 1\ncrowd: {name: mob, count: 1}\noutput: {directory: out}\n",
+                tags.empty() ? "faces:\n" : tags, "  directory: heads\n  units: cm\n",
+                "  align: none\nregions: {names: [top, middle, bottom], mask: heads/", mask, "}\n");
+}
+
+TEST(Import, MakeHumanHeadsAreReadyForACrowd) {
+  const TemporaryFolder folder;
+  write_makehuman(folder / "package");
+  const auto import = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"import",  "makehuman",
+                                          "--data",  (folder / "package").string(),
+                                          "-o",      (folder / out).string(),
+                                          "--count", "3",
+                                          "--seed",  "5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    crowdface(0, arguments, {"3 heads"});
+  };
+  import("heads", {});
+  const fs::path config = folder.write(
+      "crowd.yaml", config_of(read(folder / "heads/tags.yaml"), "makehuman_bands.png"));
+  crowdface(0, {"check", config.string()}, {"is fine", "3: makehuman_01"});
+  const std::string head = read(folder / "heads/makehuman_02.obj");
+  EXPECT_THAT(head, ::testing::HasSubstr("\nusemtl eyeball_l\n"));
+  import("again", {"--threads", "1"});
+  EXPECT_EQ(head, read(folder / "again/makehuman_02.obj"));
+  import("fine", {"--vertices", "1100"});
+  const Index fine = read_obj(folder / "fine/makehuman_01.obj").topology.vertex_count;
+  EXPECT_GT(fine, 700);
+  EXPECT_LT(fine, 1700);
+  EXPECT_THAT(face_materials(read_obj(folder / "fine/makehuman_01.obj")).back(),
+              ::testing::Eq("eyeball_l"));
+}
+
+TEST(Import, IctHeadsKeepTheirFileAndTiles) {
+  const TemporaryFolder folder;
+  write_ict(folder / "kit", 2);
+  const std::string kit = (folder / "kit").string(), out = (folder / "heads").string();
+  crowdface(0, {"import", "ict", "--data", kit, "-o", out, "--count", "2"},
+            {"2 heads", "2 identity modes"});
+  EXPECT_THAT(read(folder / "heads/ict_01.obj"), ::testing::HasSubstr("\ng face\nusemtl M_Face\n"));
+  read(folder / "heads/ICTFaceModelMaterial.mtl");
+  EXPECT_FALSE(fs::exists(folder / "heads/tags.yaml"));
+  const fs::path config = folder.write("crowd.yaml", config_of("", "ict_bands.<UDIM>.png"));
+  crowdface(0, {"check", config.string()}, {"is fine"});
+  crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--vertices", "9000"}, {"--vertices"});
+}
+
+TEST(Import, WhatIsNotThereIs66) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "heads").string();
+  for (const std::string model : {"makehuman", "ict"}) {
+    crowdface(66, {"import", model, "--data", folder.path().string(), "-o", out},
+              {folder.path().string()});
+  }
+  crowdface(64, {"import", "basel", "--data", out, "-o", out});
+}
+
+}  // namespace
+}  // namespace crowdface::testing
