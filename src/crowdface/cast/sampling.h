@@ -20,11 +20,15 @@ struct Range {
 /// Where on the weight plane a region's position is drawn.
 struct PositionDistribution {
   enum class Kind {
-    kUniform,  ///< anywhere in the convex hull of the sources' anchors
-    kAround,   ///< in the disc of `radius` around a head's anchor
-    kFixed,    ///< always at `at`
+    kAnchored,  ///< near the anchor of a source drawn at random, see `pull`
+    kUniform,   ///< anywhere in the convex hull of the sources' anchors
+    kAround,    ///< in the disc of `radius` around a head's anchor
+    kFixed,     ///< always at `at`
   };
-  Kind kind = Kind::kUniform;
+  Kind kind = Kind::kAnchored;
+  /// kAnchored: how far, at most, from that anchor towards a point anywhere in the hull; 0 stays on
+  /// it, 1 may go all the way.
+  double pull = 0.25;
   std::optional<Eigen::Index> head;    ///< kAround: whose anchor; none: the face's own target's
   double radius = 0;                   ///< kAround: in units of the plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed
@@ -38,7 +42,7 @@ struct SmoothnessDistribution {
     kSize,        ///< millimetres: the wavelength that is halved (docs/method.md)
   };
   Unit unit = Unit::kFraction;
-  Range range = {0.2, 0.8};
+  Range range = {0.2, 0.9};
 };
 
 /// The distributions of one region.
