@@ -88,18 +88,20 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights)
     : heads_(std::move(heads)) {
   build_basis(weights);
   build_directions();
+  if (heads_.alpha.cols() > 1) build_region_metrics();
 }
 
 /// Every face is a sum of the heads and of their smoothed-away fields under the masks. Orthonormal
 /// scalar functions that span all of those turn the samples of a face into #P by 3 numbers, in
 /// which rotations and distances are what they are at the samples, and the centre is the origin.
 void FaceSpace::build_basis(const std::vector<double>& weights) {
-  std::vector<Index> counting;
+  std::vector<Index>& counting = counting_;
   for (Index s = 0; s < heads_.mean.rows(); ++s) {
     if (weights[static_cast<std::size_t>(s)] > 0) counting.push_back(s);
   }
   const auto size = static_cast<Index>(counting.size());
-  Eigen::VectorXf roots(size);
+  Eigen::VectorXf& roots = roots_;
+  roots.resize(size);
   for (Index i = 0; i < size; ++i) {
     const auto s = static_cast<std::size_t>(counting[static_cast<std::size_t>(i)]);
     roots[i] = static_cast<float>(std::sqrt(weights[s]));
@@ -327,6 +329,64 @@ FaceSpace::Place FaceSpace::place_head(Index head) const {
 double FaceSpace::distance(const Place& a, const Place& b) {
   return std::sqrt(
       std::min(squared_distance(a.as_built, b.as_built), squared_distance(a.unit, b.unit)));
+}
+
+/// The metric of region k is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s), carried over to the main directions
+/// once: with the basis' values at the samples G_k = U diag(α_k) Uᵀ on the functions, then V G_k Vᵀ.
+void FaceSpace::build_region_metrics() {
+  const Index functions = basis_.rows(), rank = directions_.rows();
+  for (Index k = 0; k < heads_.alpha.cols(); ++k) {
+    double share = 0;
+    FloatRows masked = basis_;  // its values hold √w_s
+    for (Index i = 0; i < basis_.cols(); ++i) {
+      const double alpha = heads_.alpha(counting_[static_cast<std::size_t>(i)], k);
+      share += static_cast<double>(roots_[i]) * static_cast<double>(roots_[i]) * alpha;
+      const auto root = static_cast<float>(std::sqrt(std::max(alpha, 0.0)));
+      for (Index p = 0; p < functions; ++p) masked(p, i) *= root;
+    }
+    region_shares_.push_back(share);
+    FloatRows gram(functions, functions);
+    parallel_for_each(functions, [&](Index p) {
+      for (Index q = 0; q < functions; ++q) {
+        gram(p, q) = static_cast<float>(
+            fixed_dot(masked.row(p).data(), masked.row(q).data(), masked.cols()));
+      }
+    });
+    FloatRows metric(rank, rank);
+    parallel_for_each(rank, [&](Index d) {
+      // G_k applied to direction d, coordinate by coordinate.
+      std::vector<float> along(static_cast<std::size_t>(3 * functions), 0.F);
+      for (Index p = 0; p < functions; ++p) {
+        for (Index q = 0; q < functions; ++q) {
+          for (Index c = 0; c < 3; ++c) {
+            along[static_cast<std::size_t>(3 * p + c)] += gram(p, q) * directions_(d, 3 * q + c);
+          }
+        }
+      }
+      for (Index e = 0; e < rank; ++e) {
+        metric(e, d) =
+            static_cast<float>(fixed_dot(directions_.row(e).data(), along.data(), 3 * functions));
+      }
+    });
+    region_metrics_.push_back(std::move(metric));
+  }
+}
+
+double FaceSpace::region_distance(const Place& a, const Place& b, Index region) const {
+  if (region_metrics_.empty()) return distance(a, b);
+  const auto k = static_cast<std::size_t>(region);
+  const FloatRows& metric = region_metrics_[k];
+  if (!(region_shares_[k] > 0)) return 0;
+  const auto squared = [&](const Eigen::VectorXf& x, const Eigen::VectorXf& y) {
+    const Eigen::VectorXf d = x.head(metric.rows()) - y.head(metric.rows());
+    double sum = 0;
+    for (Index i = 0; i < metric.rows(); ++i) {
+      sum += static_cast<double>(d[i]) * fixed_dot(metric.row(i).data(), d.data(), metric.rows());
+    }
+    return std::max(sum, 0.0);
+  };
+  return std::sqrt(std::min(squared(a.as_built, b.as_built), squared(a.unit, b.unit)) /
+                   region_shares_[k]);
 }
 
 Eigen::MatrixXd FaceSpace::head_distances() const {

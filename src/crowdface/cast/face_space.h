@@ -73,6 +73,7 @@ class FaceSpace {
 
   void build_basis(const std::vector<double>& weights);
   void build_directions();
+  void build_region_metrics();
   Shape shape_of(const Recipe& recipe, Variant variant) const;
   std::vector<float> aligned(const Shape& shape) const;
   Eigen::VectorXf coordinates(const Shape& shape) const;
@@ -80,13 +81,16 @@ class FaceSpace {
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
+  std::vector<Index> counting_;  ///< samples that count in a distance
+  Eigen::VectorXf roots_;        ///< √w of each
   FloatRows basis_;             ///< #P by #S: orthonormal functions on the samples
   Shape mean_shape_;            ///< #P by 3
   std::vector<Shape> shapes_;   ///< of the heads
   std::vector<float> fields_;   ///< α_k (S_L x_h − x_h): regions, heads, rows, then #P by 3
   FloatRows directions_;        ///< #D by 3·#P: main directions of faces' aligned shapes
   FloatRows directions_transposed_;
-  std::vector<FloatRows> region_metrics_;  ///< #regions, #D by #D: squared distances over a region
+  std::vector<FloatRows> region_metrics_;  ///< #regions (none of one), #D by #D, times its share
+  std::vector<double> region_shares_;      ///< of the face's area
 };
 
 }  // namespace crowdface

@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "crowdface/blend/normalization.h"
+#include "crowdface/cast/believability.h"
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/face_area.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/job/mesh_format.h"
@@ -77,6 +80,14 @@ struct Config {
   } plane;
 
   SamplingOptions sampling;
+
+  /// What counts when two faces are compared.
+  struct Distance {
+    FaceArea area = FaceArea::kFront;
+    std::optional<std::string> mask;  ///< image path, may hold <UDIM>; its first channel counts
+  } distance;
+  DiversityOptions diversity;
+  BelievabilityOptions believability;
   std::vector<HandRecipe> recipes;
 
   struct ContactSheet {

@@ -39,7 +39,7 @@ void read_parts(const YamlNode* node, Complaints& complaints) {
 void read_root(const YamlNode& node, ConfigDraft& draft) {
   const MapReader root(&node,
                        {"schema", "crowd", "faces", "regions", "smoothing", "blending", "parts",
-                        "plane", "sampling", "recipes", "output"},
+                        "plane", "sampling", "distance", "diversity", "believability", "recipes", "output"},
                        draft.complaints);
   if (node.kind != YamlNode::Kind::kMap) return;
   read_schema(root, draft.complaints);
@@ -51,6 +51,9 @@ void read_root(const YamlNode& node, ConfigDraft& draft) {
   read_parts(root.find("parts"), draft.complaints);
   read_plane(root.find("plane"), draft);
   read_sampling(root.find("sampling"), draft);
+  read_distance(root.find("distance"), draft);
+  read_diversity(root.find("diversity"), draft);
+  read_believability(root.find("believability"), draft);
   read_recipes(root.find("recipes"), draft);
   read_output(root.find("output"), draft);
 }

@@ -91,7 +91,7 @@ void read_per_region(const YamlNode* node, const Words& parameters, Value Region
   }
 }
 
-const Words kPositionKeys = {"distribution", "face", "radius", "position"};
+const Words kPositionKeys = {"distribution", "pull", "face", "radius", "position"};
 
 /// Which of the keys a distribution has no use for.
 void refuse_keys(const YamlNode& node, const std::string& distribution, const Words& keys,
@@ -120,25 +120,33 @@ void read_around(const MapReader& map, PositionDistribution& position, ConfigDra
 
 std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDraft& draft) {
   const MapReader map(&node, kPositionKeys, draft.complaints);
-  const YamlNode* kind = map.require("distribution", "uniform, around or fixed");
+  const YamlNode* kind = map.require("distribution", "anchored, uniform, around or fixed");
   if (kind == nullptr) return std::nullopt;
   using Kind = PositionDistribution::Kind;
-  const Choices<Kind> choices = {
-      {"uniform", Kind::kUniform}, {"around", Kind::kAround}, {"fixed", Kind::kFixed}};
+  const Choices<Kind> choices = {{"anchored", Kind::kAnchored},
+                                 {"uniform", Kind::kUniform},
+                                 {"around", Kind::kAround},
+                                 {"fixed", Kind::kFixed}};
   const auto chosen = read_choice(*kind, choices, draft.complaints);
   if (!chosen) return std::nullopt;
   PositionDistribution position;
   position.kind = *chosen;
   switch (*chosen) {
+    case Kind::kAnchored:
+      refuse_keys(node, "anchored", {"face", "radius", "position"}, draft);
+      if (const YamlNode* pull = map.find("pull")) {
+        position.pull = read_number(*pull, 0, 1, draft.complaints).value_or(position.pull);
+      }
+      break;
     case Kind::kUniform:
-      refuse_keys(node, "uniform", {"face", "radius", "position"}, draft);
+      refuse_keys(node, "uniform", {"pull", "face", "radius", "position"}, draft);
       break;
     case Kind::kAround:
-      refuse_keys(node, "around", {"position"}, draft);
+      refuse_keys(node, "around", {"pull", "position"}, draft);
       read_around(map, position, draft);
       break;
     case Kind::kFixed:
-      refuse_keys(node, "fixed", {"face", "radius"}, draft);
+      refuse_keys(node, "fixed", {"pull", "face", "radius"}, draft);
       if (const YamlNode* at = map.require("position", "a point of the plane, [x, y]")) {
         position.at = read_point(*at, draft.complaints).value_or(PlanePoint::Zero());
       }

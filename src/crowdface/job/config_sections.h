@@ -39,6 +39,9 @@ void read_smoothing(const YamlNode* node, ConfigDraft& draft);
 void read_blending(const YamlNode* node, ConfigDraft& draft);
 void read_plane(const YamlNode* node, ConfigDraft& draft);
 void read_sampling(const YamlNode* node, ConfigDraft& draft);
+void read_distance(const YamlNode* node, ConfigDraft& draft);
+void read_diversity(const YamlNode* node, ConfigDraft& draft);
+void read_believability(const YamlNode* node, ConfigDraft& draft);
 void read_recipes(const YamlNode* node, ConfigDraft& draft);
 void read_output(const YamlNode* node, ConfigDraft& draft);
 

@@ -71,6 +71,7 @@ class Writer {
     write_regions();
     write_methods();
     write_sampling();
+    write_casting();
     write_recipes();
     write_output();
     return std::move(text_);
@@ -207,9 +208,11 @@ class Writer {
       case Kind::kFixed:
         return flow_map({"distribution: fixed", concat("position: ", flow_point(position.at))});
       case Kind::kUniform:
+        return flow_map({"distribution: uniform"});
+      case Kind::kAnchored:
         break;
     }
-    return flow_map({"distribution: uniform"});
+    return flow_map({"distribution: anchored", concat("pull: ", position.pull)});
   }
 
   /// One line a region; without regions the one line is called `default`.
@@ -239,6 +242,31 @@ class Writer {
                      [](const RegionSampling& r) { return flow_factor(r.extrapolation); });
     const auto& most = config_.sampling.max_sources;
     line("  max_sources: ", most ? concat(*most) : "all");
+  }
+
+  void write_casting() {
+    line("distance:");
+    line("  area: ", config_.distance.area == FaceArea::kFront ? "front" : "skin");
+    if (config_.distance.mask) line("  mask: ", path(*config_.distance.mask));
+    const DiversityOptions& diversity = config_.diversity;
+    line("diversity:");
+    line("  mode: ",
+         diversity.mode == DiversityOptions::Mode::kSpread ? "spread" : "first_fit");
+    line("  min_distance: ", mm(diversity.min_distance_mm));
+    line("  min_distance_to_faces: ", mm(diversity.min_distance_to_faces_mm));
+    line("  max_weight: ", diversity.max_weight);
+    std::vector<std::string> quotas;
+    for (const Quota& quota : diversity.quotas) {
+      quotas.push_back(concat(write_scalar(quota.name), ": ", quota.share));
+    }
+    line("  quotas: ", flow_map(quotas));
+    if (diversity.candidates) line("  candidates: ", *diversity.candidates);
+    line("  pool: ", diversity.pool);
+    line("  max_attempts: ", diversity.max_attempts);
+    const BelievabilityOptions& believability = config_.believability;
+    if (!believability.check) return line("believability: none");
+    line("believability:");
+    line("  max_deviation: ", believability.max_deviation);
   }
 
   std::string flow_recipe_region(const HandRecipe::Region& region) const {

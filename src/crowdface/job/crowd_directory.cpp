@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/crowd_directory.h"
 
+#include <unistd.h>
+
 #include <system_error>
 #include <vector>
 
@@ -63,8 +65,8 @@ void remove_crowd(const CrowdDirectory& directory) {
   }
   for (const fs::path& path :
        {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
-        directory.report(), directory.timings(), directory.table(), directory.plan(),
-        directory.log(), directory.config()}) {
+        directory.report(), directory.casting(), directory.timings(), directory.table(),
+        directory.plan(), directory.log(), directory.config()}) {
     remove_file(path);
   }
 }
@@ -90,24 +92,38 @@ fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
   return meshes() / concat(id, extension_of(format));
 }
 
-void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
-                          Replace replace) {
-  make_directories(directory.root);
+void check_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                           Replace replace) {
   std::error_code ignored;
-  if (fs::exists(directory.config(), ignored)) {
+  if (fs::exists(directory.config(), ignored) && replace == Replace::kRefuse) {
     const std::string old = read_file(directory.config());
     if (old != effective_config) {
-      if (replace == Replace::kRefuse) {
-        throw UsageError(concat(directory.root.string(),
-                                ": holds another config's crowd (its config.yaml differs from this "
-                                "run's at line ",
-                                first_different_line(old, effective_config),
-                                "); choose another folder with --out, or replace it with --force"));
-      }
-      remove_crowd(directory);
+      throw UsageError(concat(directory.root.string(),
+                              ": holds another config's crowd (its config.yaml differs from this "
+                              "run's at line ",
+                              first_different_line(old, effective_config),
+                              "); choose another folder with --out, or replace it with --force"));
     }
   }
-  // Written at once: a folder that cannot be written to is refused before the heavy work.
+  fs::path existing = fs::absolute(directory.root);
+  while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
+    existing = existing.parent_path();
+  }
+  if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
+    throw CannotCreate(concat(directory.root.string(), ": cannot be written to, because of ",
+                              existing.string()));
+  }
+}
+
+void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                          Replace replace) {
+  check_crowd_directory(directory, effective_config, replace);
+  make_directories(directory.root);
+  std::error_code ignored;
+  if (fs::exists(directory.config(), ignored) &&
+      read_file(directory.config()) != effective_config) {
+    remove_crowd(directory);
+  }
   write_file(directory.config(), effective_config);
 }
 

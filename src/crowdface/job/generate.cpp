@@ -20,8 +20,8 @@
 #include "crowdface/io/material_files.h"
 #include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/casting.h"
 #include "crowdface/job/mesh_writers.h"
-#include "crowdface/job/pipeline.h"
 #include "crowdface/job/report.h"
 
 namespace crowdface {
@@ -56,6 +56,24 @@ class CrowdLog {
   CrowdLog& operator=(const CrowdLog&) = delete;
 };
 
+/// What the crowd is like, in two lines.
+void tell_casting(const Cast& cast) {
+  const CrowdDistances& distances = cast.distances;
+  const auto mm = [](double value) { return format_fixed(value, 2); };
+  if (distances.crowd.count > 0) {
+    log_info(concat("distances between faces: closest ", mm(distances.crowd.min), " mm, median ",
+                    mm(distances.crowd.median), " mm; between the input heads: closest ",
+                    mm(distances.heads.min), " mm, median ", mm(distances.heads.median),
+                    " mm; ratio of the medians ", mm(distances.ratio)));
+  }
+  std::vector<std::string> thrown;
+  for (std::size_t r = 0; r < kReasonCount; ++r) {
+    const std::uint64_t count = cast.rejections.count[r];
+    if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
+  }
+  if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
+}
+
 /// \throws UsageError if a head lies where this run writes meshes and removes those of an old
 /// crowd.
 void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory) {
@@ -69,14 +87,30 @@ void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory)
   }
 }
 
-void open_directory(const Job& job, const CrowdDirectory& directory, Replace replace) {
+/// Prepared heads and the crowd cast from them.
+struct CastJob {
+  Prepared prepared;
+  Cast cast;
+};
+
+/// Everything that comes before a file is written: a crowd that cannot be cast leaves nothing
+/// behind, and no other crowd in the folder is touched for it.
+CastJob cast_job(const Job& job, const CrowdDirectory& directory, const GenerateOptions& options,
+                 StageSeconds& stages) {
   refuse_to_write_over_heads(job, directory);
-  open_crowd_directory(directory, effective_config(job.config, directory.root), replace);
+  check_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+  Prepared prepared = timed(stages, "prepare", [&] {
+    return prepare(job.config, job.inputs, job.smoothing, options.cache);
+  });
+  Cast crowd = timed(stages, "cast", [&] { return cast(job, prepared); });
+  tell_casting(crowd);
+  return {std::move(prepared), std::move(crowd)};
 }
 
-void write_plan(const Job& job, const CrowdDirectory& directory, const std::vector<Recipe>& crowd) {
-  write_file(directory.plan(), format_plan(job, crowd));
-  write_file(directory.table(), format_csv(crowd, job.names));
+void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast) {
+  write_file(directory.plan(), format_plan(job, cast.crowd));
+  write_file(directory.table(), format_csv(cast.crowd, job.names));
+  write_file(directory.casting(), format_casting(job, cast));
 }
 
 /// Copies material files and textures of all heads that are targets. \return warnings, each once
@@ -158,15 +192,12 @@ void tell_dry_run(const Job& job) {
                   config.output.directory.string(), "; nothing was written"));
 }
 
-/// Everything after the inputs are checked and the folder is ready.
-void fill_directory(const Job& job, const CrowdDirectory& directory, const GenerateOptions& options,
+/// Everything after the crowd is cast and the folder is ready.
+void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
                     StageSeconds& stages) {
-  const Prepared prepared = timed(stages, "prepare", [&] {
-    return prepare(job.config, job.inputs, job.smoothing, options.cache);
-  });
-  const Cast crowd_cast = timed(stages, "cast", [&] { return cast(job, prepared); });
-  const std::vector<Recipe>& crowd = crowd_cast.crowd;
-  write_plan(job, directory, crowd);
+  const Prepared& prepared = cast_job.prepared;
+  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
+  write_plan(job, directory, cast_job.cast);
 
   std::vector<std::string> warnings = job.inputs.warnings;
   const auto& formats = job.config.output.meshes;
@@ -188,7 +219,8 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const Gener
           [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
     });
   }
-  write_file(directory.report(), format_report(job, prepared, crowd_cast, files, pages, warnings));
+  write_file(directory.report(),
+             format_report(job, prepared, cast_job.cast, files, pages, warnings));
   write_file(directory.timings(), format_timings(stages, crowd.size(), prepared.from_cache));
   log_info(concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ",
                   directory.root.string(),
@@ -203,12 +235,13 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
   if (options.dry_run) return tell_dry_run(job);
   const CrowdDirectory directory{job.config.output.directory};
-  open_directory(job, directory, options.replace);
+  const CastJob crowd = cast_job(job, directory, options, stages);
+  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
   const CrowdLog log(directory.log());
   // Said before there was a folder for the log; at this level they reach the file alone.
   for (const std::string& warning : job.inputs.warnings) log_debug(warning);
   try {
-    fill_directory(job, directory, options, stages);
+    fill_directory(job, directory, crowd, stages);
   } catch (const std::exception& error) {
     log_debug(error.what());  // `main` says it aloud, when this log is closed
     throw;
@@ -220,11 +253,11 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
   const Job job = load_job(config_file, overrides);
   if (options.dry_run) return tell_dry_run(job);
   const CrowdDirectory directory{job.config.output.directory};
-  open_directory(job, directory, options.replace);
-  const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, options.cache);
-  const Cast crowd_cast = cast(job, prepared);
-  write_plan(job, directory, crowd_cast.crowd);
-  log_info(concat(crowd_cast.crowd.size(), " recipes in ", directory.plan().string()));
+  StageSeconds stages;
+  const CastJob crowd = cast_job(job, directory, options, stages);
+  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+  write_plan(job, directory, crowd.cast);
+  log_info(concat(crowd.cast.crowd.size(), " recipes in ", directory.plan().string()));
 }
 
 void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set) {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "crowdface/job/casting.h"
 #include "crowdface/job/mesh_writers.h"
-#include "crowdface/job/pipeline.h"
 
 namespace crowdface {
 

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/cast/crowd_statistics.h"
+#include "crowdface/job/pipeline.h"
+
+namespace crowdface {
+
+/// The space that this job's faces are compared in.
+FaceSpace face_space(const Job& job, const Prepared& prepared);
+
+/// What casting is to do, from the config.
+Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances);
+
+/// The distances of a crowd beside those of its heads.
+struct CrowdDistances {
+  Quartiles heads;                 ///< between input heads
+  Quartiles crowd;                 ///< between faces of the crowd
+  std::vector<Quartiles> regions;  ///< the same over each region, if there are several
+  Quartiles to_nearest_head, to_nearest_face;
+  double ratio = 0;  ///< of the medians, crowd to heads; 0 if there are none to compare
+};
+
+/// A crowd cast: where the heads stand on the plane, and one recipe a face.
+struct Cast {
+  std::vector<PlanePoint> anchors;  ///< #heads
+  std::vector<Recipe> crowd;        ///< with their nearest neighbours
+  std::vector<int> quotas;          ///< of each sampled face, or −1
+  Rejections rejections;
+  CrowdDistances distances;
+};
+
+/// Casts the crowd. \throws Unsatisfiable if the constraints cannot be met: which one binds, how far
+/// it went, and what would help.
+Cast cast(const Job& job, const Prepared& prepared);
+
+/// The casting part of the report: what was asked, what was reached, what was thrown away.
+std::string format_casting(const Job& job, const Cast& cast);
+
+}  // namespace crowdface
