@@ -29,7 +29,7 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
           [&casting, &targets, index](std::uint32_t attempt) {
             return draw_face(casting, index, attempt, targets);
           },
-          judge, casting.diversity);
+          judge, casting.diversity, casting.diversity.candidates_for(index));
     }
     parallel_for_each(static_cast<Index>(searches.size()), [&](Index i) {
       searches[static_cast<std::size_t>(i)].prepare(crowd);

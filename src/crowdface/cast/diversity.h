@@ -31,12 +31,15 @@ struct DiversityOptions {
   double max_weight = 1;                ///< of one head in one region
   std::vector<Quota> quotas;            ///< no head in two of them
   /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept. None: 1
-  /// where min_distance is asked for, else 16.
+  /// where min_distance is asked for; else 32 for the first thousand faces and 8 for all others.
   std::optional<int> candidates;
   int pool = 10;             ///< kSpread: pool size, in crowds
   int max_attempts = 1000;   ///< draws of one face before casting gives up
 
-  int candidate_count() const { return candidates.value_or(min_distance_mm > 0 ? 1 : 16); }
+  /// For the face with that number, from 1: it must not depend on how many there will be.
+  int candidates_for(std::uint64_t index) const {
+    return candidates.value_or(min_distance_mm > 0 ? 1 : index <= 1000 ? 32 : 8);
+  }
 };
 
 /// Why a candidate was thrown away.

@@ -6,17 +6,17 @@
 namespace crowdface {
 
 FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity,
-                       std::uint32_t first_attempt)
+                       int candidates, std::uint32_t first_attempt)
     : draw_(std::move(draw)),
       judge_(judge),
       diversity_(diversity),
+      wanted_(static_cast<std::size_t>(candidates)),
       next_attempt_(first_attempt),
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)) {}
 
 /// Draws until there are as many candidates as asked for, or no attempts left.
 void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
-  const auto wanted = static_cast<std::size_t>(diversity_.candidate_count());
-  while (candidates_.size() < wanted && next_attempt_ < last_attempt_) {
+  while (candidates_.size() < wanted_ && next_attempt_ < last_attempt_) {
     Candidate candidate;
     candidate.recipe = draw_(next_attempt_++);
     candidate.place = judge_.space().place(candidate.recipe);
@@ -25,7 +25,7 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
       continue;
     }
     // Only one candidate: how far it is does not matter once it is far enough.
-    const double limit = wanted == 1 ? diversity_.min_distance_mm : HUGE_VAL;
+    const double limit = wanted_ == 1 ? diversity_.min_distance_mm : HUGE_VAL;
     candidate.nearest_mm = crowd.index().nearest(candidate.place, limit).mm;
     if (candidate.nearest_mm < diversity_.min_distance_mm) {
       rejections_.add(Reason::kMinDistance);

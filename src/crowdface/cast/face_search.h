@@ -23,7 +23,7 @@ class FaceSearch {
   using Refuses = std::function<bool(const FaceSpace::Place&)>;
 
   FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity,
-             std::uint32_t first_attempt = 0);
+             int candidates, std::uint32_t first_attempt = 0);
 
   /// Draws candidates ahead, against the crowd as it is now. May run beside others.
   void prepare(const CrowdSoFar& crowd);
@@ -50,6 +50,7 @@ class FaceSearch {
   Draw draw_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
+  std::size_t wanted_;
   std::uint32_t next_attempt_, last_attempt_;
   Index compared_ = 0;  ///< faces of the crowd that the candidates were compared with
   std::vector<Candidate> candidates_;

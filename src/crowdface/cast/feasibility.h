@@ -13,7 +13,8 @@ struct Remedy {
   std::optional<double> largest_mm;
 };
 
-/// Looks for it by casting again with smaller distances, halving the interval a few times.
+/// Looks for it by casting again with smaller distances, closing in from both sides until what works
+/// and what fails are an eighth apart or a hundred thousand candidates were drawn.
 Remedy find_remedy(const Casting& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const Shortfall& shortfall);
 

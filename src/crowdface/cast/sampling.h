@@ -26,12 +26,12 @@ struct PositionDistribution {
     kFixed,     ///< always at `at`
   };
   Kind kind = Kind::kAnchored;
-  /// kAnchored: how far, at most, from that anchor towards a point anywhere in the hull; 0 stays on
-  /// it, 1 may go all the way.
-  double pull = 0.25;
   std::optional<Eigen::Index> head;    ///< kAround: whose anchor; none: the face's own target's
   double radius = 0;                   ///< kAround: in units of the plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed
+  /// kAnchored: how far, at most, from that anchor towards a point anywhere in the hull; 0 stays on
+  /// it, 1 may go all the way.
+  double pull = 0.25;
 };
 
 /// How much is smoothed away, L.
