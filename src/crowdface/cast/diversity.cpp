@@ -14,11 +14,11 @@ std::string_view name_of(Reason reason) {
     case Reason::kImplausible:
       return "max_deviation";
     case Reason::kFlipped:
-      return "flipped";
+      return "max_flipped";
     case Reason::kStretched:
       return "max_stretch";
     case Reason::kIntersecting:
-      return "intersections";
+      return "max_intersecting";
     case Reason::kFamily:
       break;
   }

@@ -51,8 +51,26 @@ void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
   compared_ = crowd.size();
 }
 
+/// Of equally far ones the one drawn first.
+void FaceSearch::farthest_first() {
+  std::sort(
+      candidates_.begin(), candidates_.end(),
+      [](const Candidate& a, const Candidate& b) {
+        return a.nearest_mm != b.nearest_mm ? a.nearest_mm > b.nearest_mm
+                                            : a.recipe.attempt < b.recipe.attempt;
+      });
+}
+
+void FaceSearch::judge_closely(Candidate& candidate) const {
+  if (candidate.judged) return;
+  candidate.broken = judge_.closely(candidate.recipe);
+  candidate.judged = true;
+}
+
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
   draw_candidates(crowd);
+  farthest_first();
+  if (!candidates_.empty()) judge_closely(candidates_.front());  // most likely the one
 }
 
 std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
@@ -61,13 +79,15 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
     compare_with_newer(crowd);
     draw_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
-    // The farthest first; of equally far ones the one drawn first.
-    std::stable_sort(
-        candidates_.begin(), candidates_.end(),
-        [](const Candidate& a, const Candidate& b) { return a.nearest_mm > b.nearest_mm; });
+    farthest_first();
     for (Candidate& candidate : candidates_) {
       if (refuses && refuses(candidate.place)) {
         rejections_.add(Reason::kFamily);
+        continue;
+      }
+      judge_closely(candidate);
+      if (candidate.broken) {
+        rejections_.add(*candidate.broken);
         continue;
       }
       return Found{std::move(candidate.recipe), std::move(candidate.place)};

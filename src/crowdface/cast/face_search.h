@@ -41,11 +41,15 @@ class FaceSearch {
   struct Candidate {
     Recipe recipe;
     FaceSpace::Place place;
-    double nearest_mm;
+    double nearest_mm = 0;
+    bool judged = false;  ///< closely
+    std::optional<Reason> broken = std::nullopt;
   };
 
   void draw_candidates(const CrowdSoFar& crowd);
   void compare_with_newer(const CrowdSoFar& crowd);
+  void farthest_first();
+  void judge_closely(Candidate& candidate) const;
 
   Draw draw_;
   const FaceJudge& judge_;

@@ -58,30 +58,33 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
 
 Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
   Positions face = heads.heads[static_cast<std::size_t>(recipe.target)];
-  Positions change(face.rows(), 3);
+  // In single precision, as the trajectories are: casting does this for every face it accepts.
+  std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     const RegionRecipe& region = recipe.regions[k];
     const double e = variant == Variant::kUnit ? 1 : region.extrapolation;
-    change.setZero();
+    std::fill(change.begin(), change.end(), 0.F);
     // S_L D − D at the samples, D = B − e Σ ω̂_i C_i.
     for (const LevelTerm& term : level_terms(heads.levels, region.iterations)) {
       const auto add = [&](Index head, double factor) {
         const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(head)];
         const float* row = trajectory.data() + term.row * trajectory.cols();
-        const double f = factor * term.factor * heads.mm_per_unit;
-        for (Index i = 0; i < change.size(); ++i) {
-          change.data()[i] += f * static_cast<double>(row[i]);
-        }
+        const auto f = static_cast<float>(factor * term.factor * heads.mm_per_unit);
+        float* out = change.data();
+        for (std::size_t i = 0; i < change.size(); ++i) out[i] += f * row[i];
       };
       add(recipe.target, 1);
       for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
     }
     for (Index s = 0; s < face.rows(); ++s) {
       const double alpha = heads.alpha(s, static_cast<Index>(k));
-      for (Index c = 0; c < 3; ++c) face(s, c) += alpha * change(s, c);  // Eq. 7
+      if (alpha == 0) continue;
+      for (Index c = 0; c < 3; ++c) {
+        face(s, c) += alpha * static_cast<double>(change[static_cast<std::size_t>(3 * s + c)]);
+      }
     }
   }
-  return face;
+  return face;  // Eq. 7
 }
 
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights)

@@ -18,7 +18,8 @@ double whole_hundredths(double mm) {
 }  // namespace
 
 Remedy find_remedy(const Casting& casting, const FaceSpace& space,
-                   const BelievabilityOptions& believability, const Shortfall& shortfall) {
+                   const BelievabilityOptions& believability, const ProxySkin* skin,
+                   const Shortfall& shortfall) {
   Remedy remedy;
   remedy.binding = shortfall.rejections.main();
   Casting easier = casting;
@@ -41,7 +42,7 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
   for (std::uint64_t draws = 0; draws < kMostDraws || works == 0;) {
     *distance = whole_hundredths(next);
     if (*distance <= works) break;
-    const FaceJudge judge(space, easier.diversity, believability);
+    const FaceJudge judge(space, easier.diversity, believability, skin);
     const CrowdCast cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() + cast.crowd.size();
     if (cast.shortfall) {

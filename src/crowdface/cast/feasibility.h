@@ -16,6 +16,7 @@ struct Remedy {
 /// Looks for it by casting again with smaller distances, closing in from both sides until what works
 /// and what fails are an eighth apart or a hundred thousand candidates were drawn.
 Remedy find_remedy(const Casting& casting, const FaceSpace& space,
-                   const BelievabilityOptions& believability, const Shortfall& shortfall);
+                   const BelievabilityOptions& believability, const ProxySkin* skin,
+                   const Shortfall& shortfall);
 
 }  // namespace crowdface

@@ -121,7 +121,14 @@ void cast_spread(const Casting& casting, const FaceJudge& judge,
   for (std::uint64_t index = 1; index <= casting.count; ++index) {
     throw_if_interrupted();
     const int quota = result.quotas[index - 1];
-    const FarthestPoints::Pick pick = points.farthest(quota);
+    FarthestPoints::Pick pick = points.farthest(quota);
+    while (pick.candidate >= 0) {
+      const auto broken = judge.closely(pool.recipes[static_cast<std::size_t>(pick.candidate)]);
+      if (!broken) break;
+      result.rejections.add(*broken);
+      points.drop(pick.candidate);
+      pick = points.farthest(quota);
+    }
     if (pick.candidate < 0 || pick.mm < casting.diversity.min_distance_mm) {
       Rejections why = pool.rejections;
       if (pick.candidate >= 0) why.add(Reason::kMinDistance, why.total() + 1);

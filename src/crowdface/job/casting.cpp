@@ -135,7 +135,7 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
 
 }  // namespace
 
-FaceSpace face_space(const Job& job, const Prepared& prepared) {
+CastingGround casting_ground(const Job& job, const Prepared& prepared) {
   const Inputs& inputs = job.inputs;
   const Config& config = job.config;
   const Positions mean = mean_head(inputs.faces);
@@ -143,10 +143,13 @@ FaceSpace face_space(const Job& job, const Prepared& prepared) {
       face_areas(inputs.faces.topology, inputs.components, mean, config.distance.area,
                  config.faces.front, inputs.distance_mask);
   const SampleCells cells = find_sample_cells(inputs.adjacency, mean, prepared.samples);
-  return FaceSpace(sample_heads(inputs.faces, inputs.regions, prepared.samples,
-                                prepared.trajectories, inputs.max_level,
-                                mm_per(config.faces.units)),
-                   sample_weights(cells, prepared.samples, areas));
+  FaceSpace space(
+      sample_heads(inputs.faces, inputs.regions, prepared.samples, prepared.trajectories,
+                   inputs.max_level, mm_per(config.faces.units)),
+      sample_weights(cells, prepared.samples, areas));
+  ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
+                 space.sampled().heads);
+  return {std::move(space), std::move(skin)};
 }
 
 Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances) {
@@ -164,14 +167,16 @@ Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances) {
 }
 
 Cast cast(const Job& job, const Prepared& prepared) {
-  const FaceSpace space = face_space(job, prepared);
+  const CastingGround ground = casting_ground(job, prepared);
+  const FaceSpace& space = ground.space;
   const Eigen::MatrixXd head_distances = space.head_distances();
   const Casting casting = casting_of(job, head_distances);
-  const FaceJudge judge(space, casting.diversity, job.config.believability);
+  const BelievabilityOptions& believability = job.config.believability;
+  const FaceJudge judge(space, casting.diversity, believability, &ground.skin);
   CrowdCast crowd = cast_crowd(casting, judge);
   if (crowd.shortfall) {
-    const BelievabilityOptions& believability = job.config.believability;
-    tell_shortfall(job, find_remedy(casting, space, believability, *crowd.shortfall),
+    tell_shortfall(job,
+                   find_remedy(casting, space, believability, &ground.skin, *crowd.shortfall),
                    *crowd.shortfall);
   }
   find_nearest(judge, crowd);

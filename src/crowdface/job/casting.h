@@ -10,8 +10,12 @@
 
 namespace crowdface {
 
-/// The space that this job's faces are compared in.
-FaceSpace face_space(const Job& job, const Prepared& prepared);
+/// Where this job's faces are compared and judged.
+struct CastingGround {
+  FaceSpace space;
+  ProxySkin skin;
+};
+CastingGround casting_ground(const Job& job, const Prepared& prepared);
 
 /// What casting is to do, from the config.
 Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances);

@@ -149,11 +149,18 @@ void read_believability(const YamlNode* node, ConfigDraft& draft) {
     believability.check = false;
     return;
   }
-  const MapReader map(node, {"max_deviation"}, draft.complaints);
-  if (const YamlNode* deviation = map.find("max_deviation")) {
-    believability.max_deviation =
-        read_number(*deviation, 0, 1000, draft.complaints).value_or(believability.max_deviation);
-  }
+  const MapReader map(node, {"max_deviation", "max_stretch", "max_flipped", "max_intersecting"},
+                      draft.complaints);
+  const auto read = [&](std::string_view key, double low, double high, double& value) {
+    const YamlNode* limit = map.find(key);
+    if (limit != nullptr) {
+      value = read_number(*limit, low, high, draft.complaints).value_or(value);
+    }
+  };
+  read("max_deviation", 0, 1000, believability.max_deviation);
+  read("max_stretch", 1, 1000, believability.max_stretch);
+  read("max_flipped", 0, 1, believability.max_flipped);
+  read("max_intersecting", 0, 1, believability.max_intersecting);
 }
 
 }  // namespace crowdface

@@ -267,6 +267,9 @@ class Writer {
     if (!believability.check) return line("believability: none");
     line("believability:");
     line("  max_deviation: ", believability.max_deviation);
+    line("  max_stretch: ", believability.max_stretch);
+    line("  max_flipped: ", believability.max_flipped);
+    line("  max_intersecting: ", believability.max_intersecting);
   }
 
   std::string flow_recipe_region(const HandRecipe::Region& region) const {

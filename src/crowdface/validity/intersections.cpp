@@ -99,7 +99,7 @@ std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
 
 NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index vertex_count,
                                    const std::vector<TrianglePair>& target_pairs)
-    : triangles_(triangles), excused_(triangles.size(), false) {
+    : excused_(triangles.size(), false) {
   std::vector<bool> there(static_cast<std::size_t>(vertex_count), false);
   const auto mark = [&](std::uint32_t triangle) {
     for (const std::uint32_t vertex : triangles[triangle]) there[vertex] = true;
@@ -115,9 +115,14 @@ NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index
 }
 
 Index NewIntersections::count(const std::vector<TrianglePair>& face_pairs) const {
-  return std::count_if(face_pairs.begin(), face_pairs.end(), [&](const TrianglePair& pair) {
-    return !excused_[pair.first] || !excused_[pair.second];
-  });
+  std::vector<std::uint32_t> taking_part;
+  for (const auto& [a, b] : face_pairs) {
+    if (excused_[a] && excused_[b]) continue;
+    taking_part.push_back(a);
+    taking_part.push_back(b);
+  }
+  std::sort(taking_part.begin(), taking_part.end());
+  return std::unique(taking_part.begin(), taking_part.end()) - taking_part.begin();
 }
 
 }  // namespace crowdface

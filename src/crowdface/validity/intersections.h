@@ -22,9 +22,9 @@ std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
                                        const Positions& positions,
                                        const std::vector<TrianglePair>& pairs);
 
-/// How many intersections a face has that its target has not. Where the target intersects itself
-/// already, at the corner of a mouth, say, the next triangles may too: pairs that both touch a
-/// vertex there are not counted.
+/// How many triangles of a face take part in intersections that its target has not. Where the target
+/// intersects itself already, at the corner of a mouth, say, the next triangles may too: pairs that
+/// both touch a vertex there are not counted.
 class NewIntersections {
  public:
   /// \param target_pairs  the target's own intersecting pairs.
@@ -33,7 +33,6 @@ class NewIntersections {
   Index count(const std::vector<TrianglePair>& face_pairs) const;
 
  private:
-  const std::vector<Triangle>& triangles_;
   std::vector<bool> excused_;  ///< #T: touches a triangle that intersects another in the target
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <map>
+#include <set>
 #include <vector>
 
 #include "crowdface/validity/intersections.h"
@@ -11,29 +12,28 @@ namespace crowdface {
 /// What is wrong with a face's skin against that of its target.
 struct SkinDefects {
   LocalDefects local;
-  Index new_intersections = 0;
+  Index intersecting = 0;  ///< triangles that pass through others, where the target's do not
 };
 
-/// Judges whole meshes of one topology against their targets. What depends on a target alone is
-/// found once, when it is asked for first; any thread may ask.
+/// Judges whole meshes of one topology against their targets, from any thread.
 class SkinCheck {
  public:
-  /// \param heads  the targets, #V by 3 each; must outlive this.
-  SkinCheck(const Topology& topology, const Components& components,
-            const std::vector<Head>& heads);
-  ~SkinCheck();
-  SkinCheck(const SkinCheck&) = delete;
-  SkinCheck& operator=(const SkinCheck&) = delete;
+  /// \param heads    #V by 3 each.
+  /// \param targets  heads that will be asked about.
+  SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
+            const std::set<Index>& targets);
 
-  SkinDefects compare(const Positions& positions, Index target, double least_area_share) const;
+  /// \param target  one of those named to the constructor.
+  SkinDefects compare(const Positions& positions, Index target) const;
+  Index triangle_count() const { return static_cast<Index>(triangles_.size()); }
 
  private:
-  struct Target;
-  const Target& target(Index head) const;
-
-  const std::vector<Head>& heads_;
+  struct Target {
+    TargetTriangles triangles;
+    NewIntersections intersections;
+  };
   std::vector<Triangle> triangles_;
-  mutable std::vector<std::unique_ptr<Target>> targets_;
+  std::map<Index, Target> targets_;
 };
 
 }  // namespace crowdface

@@ -22,22 +22,6 @@ Vector cross(const Vector& a, const Vector& b) {
           a.x() * b.y() - a.y() * b.x()};
 }
 
-/// The largest singular value of the linear map that carries two edges of a triangle to their
-/// images.
-double stretch_of(const Vector& from_u, const Vector& from_v, const Vector& to_u,
-                  const Vector& to_v) {
-  // With an orthonormal frame in the plane: from_u = (l, 0), from_v = (s, h).
-  const double l = std::sqrt(dot(from_u, from_u));
-  const double s = dot(from_v, from_u) / l;
-  const double h = std::sqrt(std::max(dot(from_v, from_v) - s * s, 0.0));
-  const Vector x = to_u / l;            // image of the first axis
-  const Vector y = (to_v - s * x) / h;  // of the second
-  const double a = dot(x, x), b = dot(x, y), c = dot(y, y);
-  const double half = 0.5 * (a + c);
-  const double root = std::sqrt(std::max(0.25 * (a - c) * (a - c) + b * b, 0.0));
-  return std::sqrt(half + root);
-}
-
 /// Where triangle `t`, whose corners have these distances from the other's plane, meets the line
 /// that both planes share, along `axis`. False if it does not cross the plane.
 bool interval_on_line(const std::array<Vector, 3>& t, const std::array<double, 3>& distance,
@@ -78,22 +62,45 @@ std::vector<Triangle> triangles_of(const Topology& topology, const Components& c
   return triangles;
 }
 
-LocalDefects local_defects(const std::vector<Triangle>& triangles, const Positions& positions,
-                           const Positions& target, double least_area_share) {
-  LocalDefects defects;
+TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target) {
+  constexpr double kSliver = 1e-4;
   for (const Triangle& t : triangles) {
-    const Vector from_u = at(target, t[1]) - at(target, t[0]);
-    const Vector from_v = at(target, t[2]) - at(target, t[0]);
-    const Vector to_u = at(positions, t[1]) - at(positions, t[0]);
-    const Vector to_v = at(positions, t[2]) - at(positions, t[0]);
-    const Vector before = cross(from_u, from_v), after = cross(to_u, to_v);
-    const double area = dot(before, before);
-    // A sliver has no direction worth comparing.
-    if (!(area > 1e-8 * dot(from_u, from_u) * dot(from_v, from_v))) continue;
-    if (dot(before, after) < 0) ++defects.flipped;
-    if (dot(after, after) < least_area_share * least_area_share * area) ++defects.collapsed;
-    defects.worst_stretch =
-        std::max(defects.worst_stretch, stretch_of(from_u, from_v, to_u, to_v));
+    const Vector u = at(target, t[1]) - at(target, t[0]);
+    const Vector v = at(target, t[2]) - at(target, t[0]);
+    const Vector normal = cross(u, v);
+    if (!(dot(normal, normal) > kSliver * kSliver * dot(u, u) * dot(v, v))) continue;
+    const double length = std::sqrt(dot(u, u));
+    const double shift = dot(u, v) / length;
+    frames_.push_back({t, normal, length, shift, std::sqrt(dot(normal, normal)) / length});
+  }
+}
+
+LocalDefects TargetTriangles::compare(const Positions& positions) const {
+  constexpr double kCollapsed = 0.02, kPercentile = 0.99;
+  LocalDefects defects;
+  std::vector<double> stretches;
+  stretches.reserve(frames_.size());
+  for (const Frame& frame : frames_) {
+    const Vector origin = at(positions, frame.corners[0]);
+    const Vector u = at(positions, frame.corners[1]) - origin;
+    const Vector v = at(positions, frame.corners[2]) - origin;
+    const Vector normal = cross(u, v);
+    const bool turned = dot(normal, frame.normal) < 0;
+    const bool collapsed =
+        dot(normal, normal) < kCollapsed * kCollapsed * dot(frame.normal, frame.normal);
+    if (turned || collapsed) ++defects.flipped;
+    // The largest singular value, squared, of the map from the frame: images of its two axes.
+    const Vector x = u / frame.length;
+    const Vector y = (v - frame.shift * x) / frame.height;
+    const double a = dot(x, x), b = dot(x, y), c = dot(y, y);
+    stretches.push_back(0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b));
+  }
+  defects.compared = static_cast<Index>(stretches.size());
+  if (!stretches.empty()) {
+    const auto at = stretches.begin() + static_cast<std::ptrdiff_t>(
+                                            kPercentile * static_cast<double>(stretches.size()));
+    std::nth_element(stretches.begin(), at, stretches.end());
+    defects.stretch = std::sqrt(*at);
   }
   return defects;
 }

@@ -18,16 +18,29 @@ std::vector<Triangle> triangles_of(const Topology& topology, const Components& c
 
 /// What a map from one mesh to another does to single triangles.
 struct LocalDefects {
-  Index flipped = 0;         ///< turned by more than a right angle
-  Index collapsed = 0;       ///< left with less than the share of the area asked for
-  double worst_stretch = 1;  ///< largest factor by which a length in a triangle grows
+  Index compared = 0;  ///< triangles that have an area in the target
+  Index flipped = 0;   ///< turned by more than a right angle, or left with a fiftieth of their area
+  double stretch = 1;  ///< factor by which lengths grow that all but one in a hundred stay below
 };
 
-/// Compares the triangles of a face with those of its target. Triangles without area in the target
-/// are passed over.
-/// \param positions, target  #V by 3, in one frame.
-LocalDefects local_defects(const std::vector<Triangle>& triangles, const Positions& positions,
-                           const Positions& target, double least_area_share);
+/// The triangles of a target, ready to be compared with those of faces. Scans have slivers that any
+/// change turns over, so counts and a percentile tell more than the worst.
+class TargetTriangles {
+ public:
+  /// \param target  #V by 3.
+  TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target);
+  /// \param positions  #V by 3, in the same frame.
+  LocalDefects compare(const Positions& positions) const;
+
+ private:
+  /// A triangle in an orthonormal frame of its plane: (0, 0), (length, 0), (shift, height).
+  struct Frame {
+    Triangle corners;
+    Eigen::Vector3d normal;  ///< as long as twice the area
+    double length, shift, height;
+  };
+  std::vector<Frame> frames_;  ///< of those with an area
+};
 
 /// Whether two triangles pass through each other. Such as only touch, or lie in one plane, do not.
 /// Source: Möller 1997, "A fast triangle-triangle intersection test".
