@@ -17,7 +17,7 @@ constexpr std::uint64_t kBatch = 64;
 
 /// Faces 1 … count, each against all before it.
 void cast_first_fit(const Casting& casting, const FaceJudge& judge,
-                    const std::vector<std::vector<WeightedHead>>& targets_of, CrowdSoFar& crowd,
+                    const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
                     CrowdCast& result) {
   for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
     throw_if_interrupted();
@@ -36,7 +36,8 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
     });
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
-      auto found = search.settle(crowd);
+      auto found = search.settle(
+          crowd, [&](const FaceSpace::Place& place) { return kinship.intrudes(place); });
       result.rejections.add(search.rejections());
       if (!found) {
         result.shortfall = Shortfall{index - 1, search.rejections(), result.quotas[index - 1]};
@@ -49,6 +50,15 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
 
 }  // namespace
 
+TargetsOfQuota targets_by_quota(const Casting& casting) {
+  const auto& quotas = casting.diversity.quotas;
+  TargetsOfQuota targets_of;
+  for (int quota = -1; quota < static_cast<int>(quotas.size()); ++quota) {
+    targets_of.push_back(targets_of_quota(casting.sampling.targets, quotas, quota));
+  }
+  return targets_of;
+}
+
 CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge) {
   CrowdCast result;
   CrowdSoFar crowd(judge.space().dimensions());
@@ -57,19 +67,31 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge) {
     FaceSpace::Place place = judge.space().place(recipe);
     crowd.add(std::move(recipe), std::move(place));
   }
-  const auto& quotas = casting.diversity.quotas;
-  result.quotas = schedule_quotas(quotas, casting.count);
-  std::vector<std::vector<WeightedHead>> targets_of;  // the first for faces of no quota
-  for (int quota = -1; quota < static_cast<int>(quotas.size()); ++quota) {
-    targets_of.push_back(targets_of_quota(casting.sampling.targets, quotas, quota));
+  Kinship kinship;
+  for (const FamilyOptions& family : casting.families) {
+    Rejections rejections;
+    auto cast = cast_family(casting, family, judge, crowd, kinship, rejections);
+    result.rejections.add(rejections);
+    if (!cast) {
+      result.shortfall = Shortfall{0, rejections, -1, family.name};
+      return result;
+    }
+    result.families.push_back(std::move(*cast));
   }
+  result.quotas = schedule_quotas(casting.diversity.quotas, casting.count);
+  const TargetsOfQuota targets_of = targets_by_quota(casting);
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
-    cast_spread(casting, judge, targets_of, crowd, result);
+    cast_spread(casting, judge, targets_of, kinship, crowd, result);
   } else {
-    cast_first_fit(casting, judge, targets_of, crowd, result);
+    cast_first_fit(casting, judge, targets_of, kinship, crowd, result);
   }
   result.crowd = crowd.recipes();
   result.places = crowd.places();
+  if (result.shortfall) return result;
+  find_nearest(judge, result);
+  for (const Review& review : casting.reviews) {
+    if (!result.shortfall) apply_review(casting, judge, review, result);
+  }
   return result;
 }
 

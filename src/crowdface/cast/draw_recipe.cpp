@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/ageing.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
@@ -167,6 +168,7 @@ Recipe draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey
         k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
     recipe.regions.push_back(draw_region(casting, k, recipe.target, draws, region));
   }
+  apply_age(recipe, draws.in(hand.age.value_or(casting.sampling.age), "age", ""), casting.sampling);
   return recipe;
 }
 

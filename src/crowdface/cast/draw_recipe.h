@@ -7,6 +7,8 @@
 
 #include "crowdface/blend/recipe.h"
 #include "crowdface/cast/diversity.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
@@ -31,6 +33,8 @@ struct Casting {
   Normalization normalization = Normalization::kPartition;
   LevelScale scale;
   DiversityOptions diversity = {};
+  std::vector<FamilyOptions> families = {};
+  std::vector<Review> reviews = {};  ///< one after the other
 };
 
 /// Whole iterations of a smoothness: the nearest to smoothness·L_max.

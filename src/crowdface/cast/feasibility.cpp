@@ -24,6 +24,8 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
   remedy.binding = shortfall.rejections.main();
   Casting easier = casting;
   double* distance = nullptr;
+  if (!shortfall.family.empty() || !shortfall.reviewed.empty()) return remedy;
+  easier.reviews.clear();
   if (remedy.binding == Reason::kMinDistance) {
     distance = &easier.diversity.min_distance_mm;
   } else if (remedy.binding == Reason::kMinDistanceToFaces) {

@@ -64,6 +64,9 @@ struct SamplingOptions {
   std::vector<Eigen::Index> sources;    ///< heads whose details take part, ascending
   std::vector<RegionSampling> regions;  ///< one for each region (one in all without regions)
   std::optional<int> max_sources;       ///< keep only the largest weights of a position; none: all
+  Range age = {0, 0};                   ///< of sampled faces, see apply_age
+  std::vector<Eigen::Index> old_heads;  ///< tagged old, ascending
+  std::vector<Eigen::Index> young_heads;
 };
 
 /// A face spelled out by hand; what is left out is drawn as for a sampled face.
@@ -77,6 +80,7 @@ struct HandRecipe {
   std::string id;
   std::optional<Eigen::Index> target;
   std::vector<Region> regions;  ///< one for each region
+  std::optional<Range> age;     ///< none: as for sampled faces
 };
 
 }  // namespace crowdface

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/quotas.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 
@@ -44,7 +43,7 @@ double squared_up_to(const FaceSpace::Place& a, const FaceSpace::Place& b, doubl
 }  // namespace
 
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
-                        const std::vector<std::vector<WeightedHead>>& targets_of,
+                        const TargetsOfQuota& targets_of,
                         std::uint64_t size) {
   const std::vector<int> schedule = schedule_quotas(casting.diversity.quotas, size);
   std::vector<std::optional<std::pair<Recipe, FaceSpace::Place>>> drawn(size);
@@ -112,7 +111,7 @@ void FarthestPoints::pick(Index candidate) {
 }
 
 void cast_spread(const Casting& casting, const FaceJudge& judge,
-                 const std::vector<std::vector<WeightedHead>>& targets_of, CrowdSoFar& crowd,
+                 const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
                  CrowdCast& result) {
   const auto size = static_cast<std::uint64_t>(casting.diversity.pool) * casting.count;
   CandidatePool pool = draw_pool(casting, judge, targets_of, size);
@@ -123,9 +122,11 @@ void cast_spread(const Casting& casting, const FaceJudge& judge,
     const int quota = result.quotas[index - 1];
     FarthestPoints::Pick pick = points.farthest(quota);
     while (pick.candidate >= 0) {
-      const auto broken = judge.closely(pool.recipes[static_cast<std::size_t>(pick.candidate)]);
-      if (!broken) break;
-      result.rejections.add(*broken);
+      const auto at = static_cast<std::size_t>(pick.candidate);
+      std::optional<Reason> why = judge.closely(pool.recipes[at]);
+      if (!why && kinship.intrudes(pool.places[at])) why = Reason::kFamily;
+      if (!why) break;
+      result.rejections.add(*why);
       points.drop(pick.candidate);
       pick = points.farthest(quota);
     }

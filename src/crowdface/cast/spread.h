@@ -7,6 +7,7 @@
 
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_so_far.h"
+#include "crowdface/cast/quotas.h"
 
 namespace crowdface {
 
@@ -21,7 +22,7 @@ struct CandidatePool {
 /// Draws a pool. Quotas are met by the pool as they are by a crowd.
 /// \param targets_of  targets for faces of no quota, then for those of each.
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
-                        const std::vector<std::vector<WeightedHead>>& targets_of,
+                        const TargetsOfQuota& targets_of,
                         std::uint64_t size);
 
 /// Picks one of a pool's candidates after the other, each the one that is farthest from those
@@ -52,7 +53,7 @@ class FarthestPoints {
 
 /// Faces 1 … count as the most spread set out of a pool.
 void cast_spread(const Casting& casting, const FaceJudge& judge,
-                 const std::vector<std::vector<WeightedHead>>& targets_of, CrowdSoFar& crowd,
+                 const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
                  CrowdCast& result);
 
 }  // namespace crowdface

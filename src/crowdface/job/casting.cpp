@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/casting.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/sample_cells.h"
@@ -69,6 +72,33 @@ CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_dista
   return distances;
 }
 
+std::vector<FamilyReport> report_families(const CrowdCast& cast) {
+  std::vector<FamilyReport> reports;
+  PlaceIndex index(cast.places.empty() ? 1 : cast.places[0].as_built.size());
+  for (const FaceSpace::Place& place : cast.places) index.add(place);
+  for (std::size_t f = 0; f < cast.families.size(); ++f) {
+    const FamilyCast& family = cast.families[f];
+    FamilyReport report;
+    report.name = family.name;
+    report.members = static_cast<std::uint64_t>(family.end - family.begin);
+    const std::vector<FaceSpace::Place> members(cast.places.begin() + family.begin,
+                                                cast.places.begin() + family.end);
+    report.within = quartiles(pair_distances(members));
+    std::vector<double> to_founder;
+    double nearest = HUGE_VAL;
+    for (const FaceSpace::Place& member : members) {
+      to_founder.push_back(FaceSpace::distance(member, family.founder_place));
+      nearest = std::min(nearest, index.nearest(member, nearest, 0, family.begin).mm);
+      nearest = std::min(nearest, index.nearest(member, nearest, family.end, index.size()).mm);
+    }
+    report.to_founder = quartiles(std::move(to_founder));
+    report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
+    report.silhouette = silhouette(cast.families, f, cast.places);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
 std::string asked_of(const Config& config, Reason reason) {
   const DiversityOptions& diversity = config.diversity;
   switch (reason) {
@@ -80,9 +110,14 @@ std::string asked_of(const Config& config, Reason reason) {
       return concat("diversity.max_weight, ", diversity.max_weight);
     case Reason::kImplausible:
       return concat("believability.max_deviation, ", config.believability.max_deviation);
-    default:
-      return std::string(name_of(reason));
+    case Reason::kFamily:
+      return "what keeps families together";
+    case Reason::kStretched:
+    case Reason::kFlipped:
+    case Reason::kIntersecting:
+      break;
   }
+  return concat("believability.", name_of(reason));
 }
 
 /// What a user can change, most promising first.
@@ -105,8 +140,13 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
              remedy.binding == Reason::kMaxWeight) {
     advice.emplace_back("a larger pull or distribution: uniform, which mix more heads into a face");
     advice.emplace_back("another range of smoothness");
+  } else if (remedy.binding == Reason::kFamily) {
+    advice.emplace_back("another max_distance or min_distance of the family, fewer members or families");
+    advice.emplace_back("more heads, so that families have more room between them");
+    if (!config.families.empty()) advice.emplace_back("a smaller range of age");
   } else {
     advice.emplace_back("extrapolation nearer to 1");
+    advice.emplace_back("a larger limit under believability");
   }
   return advice;
 }
@@ -117,11 +157,21 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   const std::uint64_t thrown = shortfall.rejections.total();
   const std::uint64_t by_main =
       shortfall.rejections.count[static_cast<std::size_t>(remedy.binding)];
-  std::string message = concat(
-      config.file.string(), ": ", config.crowd.count, " faces cannot be cast: ",
-      asked_of(config, remedy.binding), ", cannot be kept; reached ", shortfall.reached, " of ",
-      config.crowd.count, " faces");
-  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
+  std::string message = concat(config.file.string(), ": ");
+  if (!shortfall.family.empty()) {
+    message += concat("the family ", shortfall.family, " cannot be cast: its members cannot be ",
+                      "within max_distance of a founder, min_distance apart and nearer to each ",
+                      "other than to everyone else (most candidates failed by ",
+                      asked_of(config, remedy.binding), ")");
+  } else if (!shortfall.reviewed.empty()) {
+    message += concat(shortfall.reviewed, ", which the review rejects, cannot be drawn anew: ",
+                      asked_of(config, remedy.binding), ", cannot be kept");
+  } else {
+    message += concat(config.crowd.count, " faces cannot be cast: ",
+                      asked_of(config, remedy.binding), ", cannot be kept; reached ",
+                      shortfall.reached, " of ", config.crowd.count, " faces");
+  }
+  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty()) {
     message += concat(" (for the next one ", by_main, " of ", thrown,
                       " candidates were thrown away for that)");
   }
@@ -163,7 +213,9 @@ Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances) {
           config.recipes,
           config.blending.normalization,
           level_scale(job),
-          config.diversity};
+          config.diversity,
+          config.families,
+          config.review.reviews};
 }
 
 Cast cast(const Job& job, const Prepared& prepared) {
@@ -179,9 +231,9 @@ Cast cast(const Job& job, const Prepared& prepared) {
                    find_remedy(casting, space, believability, &ground.skin, *crowd.shortfall),
                    *crowd.shortfall);
   }
-  find_nearest(judge, crowd);
   Cast result;
   result.distances = measure(space, head_distances, crowd);
+  result.families = report_families(crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
   result.quotas = std::move(crowd.quotas);

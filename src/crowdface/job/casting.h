@@ -29,6 +29,16 @@ struct CrowdDistances {
   double ratio = 0;  ///< of the medians, crowd to heads; 0 if there are none to compare
 };
 
+/// How alike a family is.
+struct FamilyReport {
+  std::string name;
+  std::uint64_t members = 0;
+  Quartiles within;       ///< between members
+  Quartiles to_founder;   ///< of each member
+  double nearest_other_mm = 0;  ///< from any member to anyone else; 0 if there is nobody
+  double silhouette = 0;
+};
+
 /// A crowd cast: where the heads stand on the plane, and one recipe a face.
 struct Cast {
   std::vector<PlanePoint> anchors;  ///< #heads
@@ -36,6 +46,7 @@ struct Cast {
   std::vector<int> quotas;          ///< of each sampled face, or −1
   Rejections rejections;
   CrowdDistances distances;
+  std::vector<FamilyReport> families;
 };
 
 /// Casts the crowd. \throws Unsatisfiable if the constraints cannot be met: which one binds, how far

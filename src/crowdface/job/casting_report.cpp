@@ -73,6 +73,19 @@ Json rejections_to_json(const Rejections& rejections) {
   return json;
 }
 
+Json families_to_json(const Cast& cast) {
+  Json json = Json::array();
+  for (const FamilyReport& family : cast.families) {
+    json.push_back({{"name", family.name},
+                    {"members", family.members},
+                    {"within_mm", to_json(family.within)},
+                    {"to_founder_mm", nearest_to_json(family.to_founder)},
+                    {"nearest_other_mm", rounded(family.nearest_other_mm)},
+                    {"silhouette", rounded(family.silhouette)}});
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string format_casting(const Job& job, const Cast& cast) {
@@ -81,6 +94,7 @@ std::string format_casting(const Job& job, const Cast& cast) {
   json["faces"] = cast.crowd.size();
   json["distances"] = distances_to_json(job, cast.distances);
   json["quotas"] = quotas_to_json(job, cast);
+  json["families"] = families_to_json(cast);
   json["thrown_away"] = rejections_to_json(cast.rejections);
   return json.dump(2) + "\n";
 }

@@ -12,6 +12,8 @@
 #include "crowdface/cast/believability.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_area.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/job/mesh_format.h"
@@ -89,6 +91,12 @@ struct Config {
   DiversityOptions diversity;
   BelievabilityOptions believability;
   std::vector<HandRecipe> recipes;
+  std::vector<FamilyOptions> families;
+
+  struct Reviews {
+    std::vector<std::filesystem::path> files;
+    std::vector<Review> reviews;  ///< what stands in each
+  } review;
 
   struct ContactSheet {
     int columns = 6;

@@ -149,8 +149,15 @@ void read_believability(const YamlNode* node, ConfigDraft& draft) {
     believability.check = false;
     return;
   }
-  const MapReader map(node, {"max_deviation", "max_stretch", "max_flipped", "max_intersecting"},
+  const MapReader map(node, {"max_deviation", "max_stretch", "max_flipped", "max_intersecting",
+                             "meshes"},
                       draft.complaints);
+  using Meshes = BelievabilityOptions::Meshes;
+  if (const YamlNode* meshes = map.find("meshes")) {
+    const Choices<Meshes> choices = {
+        {"auto", Meshes::kAuto}, {"all", Meshes::kAll}, {"none", Meshes::kNone}};
+    believability.meshes = read_choice(*meshes, choices, draft.complaints).value_or(Meshes::kAuto);
+  }
   const auto read = [&](std::string_view key, double low, double high, double& value) {
     const YamlNode* limit = map.find(key);
     if (limit != nullptr) {

@@ -225,7 +225,33 @@ std::vector<Eigen::Index> all_heads(const ConfigDraft& draft) {
   return heads;
 }
 
+std::vector<Eigen::Index> heads_tagged(std::string_view tag, const ConfigDraft& draft) {
+  std::vector<Eigen::Index> heads;
+  const auto& tags = draft.config.faces.tags;
+  for (std::size_t h = 0; h < tags.size(); ++h) {
+    if (std::find(tags[h].begin(), tags[h].end(), tag) != tags[h].end()) {
+      heads.push_back(static_cast<Eigen::Index>(h));
+    }
+  }
+  return heads;
+}
+
 }  // namespace
+
+std::optional<Range> read_age(const YamlNode& node, ConfigDraft& draft) {
+  const auto range = read_range(node, draft.complaints, [&](const YamlNode& value) {
+    return read_number(value, -1, 1, draft.complaints);
+  });
+  if (!range || !draft.tags_known || !draft.heads_known) return range;
+  const auto need = [&](bool needed, const std::vector<Eigen::Index>& heads, const char* tag) {
+    if (needed && heads.empty()) {
+      draft.complaints.about(node, concat("no head is tagged ", tag, " under faces.tags"));
+    }
+  };
+  need(range->high > 0, draft.config.sampling.old_heads, "old");
+  need(range->low < 0, draft.config.sampling.young_heads, "young");
+  return range;
+}
 
 std::optional<SmoothnessDistribution> read_smoothness(const YamlNode& node, ConfigDraft& draft) {
   using Unit = SmoothnessDistribution::Unit;
@@ -281,8 +307,10 @@ void read_sampling(const YamlNode* node, ConfigDraft& draft) {
   SamplingOptions& sampling = draft.config.sampling;
   sampling.regions.assign(draft.config.region_names().size(), RegionSampling{});
   const MapReader map(
-      node, {"targets", "sources", "position", "smoothness", "extrapolation", "max_sources"},
+      node, {"targets", "sources", "position", "smoothness", "extrapolation", "max_sources", "age"},
       draft.complaints);
+  sampling.old_heads = heads_tagged("old", draft);
+  sampling.young_heads = heads_tagged("young", draft);
   sampling.targets = read_targets(map.find("targets"), draft);
   const YamlNode* sources = map.find("sources");
   sampling.sources = sources == nullptr ? all_heads(draft) : read_head_list(*sources, draft);
@@ -297,6 +325,9 @@ void read_sampling(const YamlNode* node, ConfigDraft& draft) {
       !(max_sources->kind == YamlNode::Kind::kScalar && max_sources->text == "all")) {
     const auto most = read_whole(*max_sources, 1, kMostSources, draft.complaints);
     if (most) sampling.max_sources = static_cast<int>(*most);
+  }
+  if (const YamlNode* age = map.find("age")) {
+    sampling.age = read_age(*age, draft).value_or(Range{0, 0});
   }
 }
 

@@ -73,6 +73,8 @@ class Writer {
     write_sampling();
     write_casting();
     write_recipes();
+    write_families();
+    write_reviews();
     write_output();
     return std::move(text_);
   }
@@ -242,6 +244,7 @@ class Writer {
                      [](const RegionSampling& r) { return flow_factor(r.extrapolation); });
     const auto& most = config_.sampling.max_sources;
     line("  max_sources: ", most ? concat(*most) : "all");
+    line("  age: ", flow_factor(config_.sampling.age));
   }
 
   void write_casting() {
@@ -270,6 +273,10 @@ class Writer {
     line("  max_stretch: ", believability.max_stretch);
     line("  max_flipped: ", believability.max_flipped);
     line("  max_intersecting: ", believability.max_intersecting);
+    using Meshes = BelievabilityOptions::Meshes;
+    line("  meshes: ", believability.meshes == Meshes::kAll    ? "all"
+                       : believability.meshes == Meshes::kNone ? "none"
+                                                               : "auto");
   }
 
   std::string flow_recipe_region(const HandRecipe::Region& region) const {
@@ -297,11 +304,45 @@ class Writer {
     for (const HandRecipe& recipe : config_.recipes) {
       line("  - id: ", write_scalar(recipe.id));
       if (recipe.target) line("    target: ", head_key(*recipe.target));
+      if (recipe.age) line("    age: ", flow_factor(*recipe.age));
       line("    regions:");
       for (std::size_t i = 0; i < names.size(); ++i) {
         line("      ", write_scalar(names[i]), ": ", flow_recipe_region(recipe.regions[i]));
       }
     }
+  }
+
+  void write_families() {
+    line(config_.families.empty() ? "families: []" : "families:");
+    const std::vector<std::string> names = config_.region_names();
+    for (const FamilyOptions& family : config_.families) {
+      line("  - name: ", write_scalar(family.name));
+      line("    members: ", family.members);
+      if (family.target) line("    target: ", head_key(*family.target));
+      if (!family.parents.empty()) {
+        const auto parent = [&](std::size_t p) { return write_scalar(family.parents[p].id); };
+        line("    parents: ",
+             flow_map({concat("mother: ", parent(0)), concat("father: ", parent(1))}));
+        std::vector<std::string> inherit;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+          const int from = family.inherit[k];
+          inherit.push_back(concat(write_scalar(names[k]), ": ",
+                                   from < 0    ? "drawn"
+                                   : from == 0 ? "mother"
+                                               : "father"));
+        }
+        line("    inherit: ", flow_map(inherit));
+      }
+      line("    max_distance: ", mm(family.max_distance_mm));
+      line("    min_distance: ", mm(family.min_distance_mm));
+      line("    age: ", flow_factor(family.age));
+    }
+  }
+
+  void write_reviews() {
+    std::vector<std::string> files;
+    for (const fs::path& file : config_.review.files) files.push_back(path(file));
+    line("review: ", flow_list(files));
   }
 
   static std::string view_name(View view) {

@@ -80,6 +80,25 @@ std::size_t first_different_line(const std::string& a, const std::string& b) {
   return line;
 }
 
+/// The line `review: [a, b]` taken out of a config, and what it lists.
+std::pair<std::string, std::string> apart_from_review(const std::string& config) {
+  const std::string start = "\nreview: [";
+  const std::size_t begin = config.find(start);
+  if (begin == config.npos) return {config, ""};
+  const std::size_t end = config.find('\n', begin + 1);
+  std::string list = config.substr(begin + start.size(), end - begin - start.size());
+  if (!list.empty()) list.pop_back();  // the bracket
+  return {config.substr(0, begin) + config.substr(end), list};
+}
+
+/// Whether it is the same crowd, at most reviewed further: old reviews first, in the same order.
+bool same_crowd(const std::string& old_config, const std::string& config) {
+  const auto [old_rest, old_list] = apart_from_review(old_config);
+  const auto [rest, list] = apart_from_review(config);
+  return rest == old_rest && list.starts_with(old_list) &&
+         (list.size() == old_list.size() || old_list.empty() || list[old_list.size()] == ',');
+}
+
 }  // namespace
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {
@@ -97,7 +116,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
   std::error_code ignored;
   if (fs::exists(directory.config(), ignored) && replace == Replace::kRefuse) {
     const std::string old = read_file(directory.config());
-    if (old != effective_config) {
+    if (!same_crowd(old, effective_config)) {
       throw UsageError(concat(directory.root.string(),
                               ": holds another config's crowd (its config.yaml differs from this "
                               "run's at line ",
@@ -121,7 +140,7 @@ void open_crowd_directory(const CrowdDirectory& directory, const std::string& ef
   make_directories(directory.root);
   std::error_code ignored;
   if (fs::exists(directory.config(), ignored) &&
-      read_file(directory.config()) != effective_config) {
+      !same_crowd(read_file(directory.config()), effective_config)) {
     remove_crowd(directory);
   }
   write_file(directory.config(), effective_config);

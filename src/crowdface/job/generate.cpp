@@ -152,7 +152,7 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
 /// Builds, writes and renders every face; several at once.
 std::vector<FaceFiles> build_faces(const Job& job, const Prepared& prepared,
                                    const CrowdDirectory& directory, const CrowdRenders* renders,
-                                   const std::vector<Recipe>& crowd) {
+                                   const SkinCheck* check, const std::vector<Recipe>& crowd) {
   const std::vector<MeshFormat>& formats = job.config.output.meshes;
   const MeshWriters writers(job.config, job.inputs, formats, crowd);
   if (!formats.empty()) make_directories(directory.meshes());
@@ -166,9 +166,58 @@ std::vector<FaceFiles> build_faces(const Job& job, const Prepared& prepared,
     const Positions positions = build_face(job, prepared, recipe);
     files[static_cast<std::size_t>(i)].meshes = writers.write(recipe, positions, directory);
     if (renders != nullptr) write_file(directory.render(recipe.id), renders->render_png(positions));
+    if (check != nullptr) {
+      files[static_cast<std::size_t>(i)].skin = check->compare(positions, recipe.target);
+    }
     progress.step();
   });
   return files;
+}
+
+/// Judges the skin of whole meshes, if the config asks for it.
+std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>& crowd) {
+  constexpr Index kMostFaces = 200'000;  // polygons; beyond that it would rule the time of a run
+  const BelievabilityOptions& believability = job.config.believability;
+  using Meshes = BelievabilityOptions::Meshes;
+  if (!believability.check || believability.meshes == Meshes::kNone ||
+      (believability.meshes == Meshes::kAuto &&
+       job.inputs.faces.topology.face_count() > kMostFaces)) {
+    return nullptr;
+  }
+  std::set<Index> targets;
+  for (const Recipe& recipe : crowd) targets.insert(recipe.target);
+  return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.components,
+                                     job.inputs.faces.heads, targets);
+}
+
+/// Faces whose whole mesh goes beyond a limit that their samples kept.
+std::vector<std::string> judge_meshes(const Job& job, const std::vector<Recipe>& crowd,
+                                      const std::vector<FaceFiles>& files) {
+  const BelievabilityOptions& limits = job.config.believability;
+  std::vector<std::string> beyond;
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    if (!files[i].skin) continue;
+    const SkinDefects& skin = *files[i].skin;
+    const auto triangles = static_cast<double>(skin.local.compared);
+    if (static_cast<double>(skin.local.flipped) > limits.max_flipped * triangles ||
+        skin.local.stretch > limits.max_stretch ||
+        static_cast<double>(skin.intersecting) > limits.max_intersecting * triangles) {
+      beyond.push_back(crowd[i].id);
+    }
+  }
+  if (beyond.empty()) return {};
+  constexpr std::size_t kNamed = 8;
+  const std::size_t count = beyond.size();
+  if (count > kNamed) {
+    beyond.resize(kNamed);
+    beyond.emplace_back("…");
+  }
+  const std::string warning =
+      concat(count, count == 1 ? " face goes" : " faces go",
+             " beyond a limit of believability on the whole mesh, though not at the samples: ",
+             join(beyond), "; report.json says by how much, and a review can reject them");
+  log_warning(warning);
+  return {warning};
 }
 
 std::vector<std::string> ids_of(const std::vector<Recipe>& crowd) {
@@ -184,7 +233,10 @@ std::string sheet_title(const Config& config, std::size_t faces) {
 
 void tell_dry_run(const Job& job) {
   const Config& config = job.config;
-  const std::uint64_t faces = config.crowd.count + config.recipes.size();
+  std::uint64_t faces = config.crowd.count + config.recipes.size();
+  for (const FamilyOptions& family : config.families) {
+    faces += static_cast<std::uint64_t>(family.members);
+  }
   const std::uint64_t bytes = faces * estimate_mesh_bytes(job.inputs, config.output.meshes);
   log_info(concat("dry run: ", faces, " faces of ", job.inputs.faces.topology.vertex_count,
                   " vertices, about ", format_fixed(static_cast<double>(bytes) / 1e6, 1),
@@ -209,8 +261,11 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   const auto& sheet = job.config.output.contact_sheet;
   std::unique_ptr<CrowdRenders> renders;
   if (sheet) renders = std::make_unique<CrowdRenders>(job.config, *sheet, job.inputs);
-  const std::vector<FaceFiles> files = timed(
-      stages, "build", [&] { return build_faces(job, prepared, directory, renders.get(), crowd); });
+  const std::unique_ptr<SkinCheck> check = skin_check(job, crowd);
+  const std::vector<FaceFiles> files = timed(stages, "build", [&] {
+    return build_faces(job, prepared, directory, renders.get(), check.get(), crowd);
+  });
+  for (std::string& text : judge_meshes(job, crowd, files)) warnings.push_back(std::move(text));
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {

@@ -95,6 +95,13 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     Json face = {{"id", cast.crowd[i].id}};
     for (const MeshFile& mesh : files[i].meshes) face[report_key(mesh.format)] = mesh.digest.hex();
+    if (files[i].skin) {
+      const SkinDefects& skin = *files[i].skin;
+      face["skin"] = {{"triangles", skin.local.compared},
+                      {"flipped", skin.local.flipped},
+                      {"stretch", rounded(skin.local.stretch)},
+                      {"intersecting", skin.intersecting}};
+    }
     faces.push_back(std::move(face));
   }
   return faces;
@@ -110,6 +117,7 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["crowd"] = job.config.crowd.name;
   report["asked"] = {{"count", job.config.crowd.count},
                      {"recipes", job.config.recipes.size()},
+                     {"families", job.config.families.size()},
                      {"seed", job.config.crowd.seed}};
   report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
   report["settings"] = job.settings.hex();

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "crowdface/job/casting.h"
 #include "crowdface/job/mesh_writers.h"
+#include "crowdface/validity/skin_check.h"
 
 namespace crowdface {
 
 /// What one face's files are.
 struct FaceFiles {
   std::vector<MeshFile> meshes;
+  std::optional<SkinDefects> skin;  ///< against the target's, if it was judged
 };
 
 /// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no
