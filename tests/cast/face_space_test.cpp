@@ -61,15 +61,15 @@ class FaceSpaceTest : public ::testing::Test {
     }
     mean_ = mean;
     const SampleCells cells = find_sample_cells(adjacency_, mean, samples_);
-    weights_ = sample_weights(cells, samples_,
-                              face_areas(faces_.topology, find_components(adjacency_), mean,
-                                         FaceArea::kFront, {2, 1}));
+    weights_ = sample_weights(
+        cells, samples_,
+        face_areas(faces_.topology, find_components(adjacency_), mean, FaceArea::kFront, {2, 1}));
     space_.emplace(space_of(faces_));
   }
 
   FaceSpace space_of(const FaceSet& faces) const {
-    return FaceSpace(
-        sample_heads(faces, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit), weights_);
+    return FaceSpace(sample_heads(faces, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit),
+                     weights_);
   }
 
   std::vector<Recipe> crowd(std::uint64_t count) const {

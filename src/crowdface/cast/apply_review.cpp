@@ -31,7 +31,8 @@ std::vector<Redraw> read_marks(const Review& review, CrowdCast& cast) {
   for (const ReviewMark& mark : review) {
     const auto found = faces.find(mark.id);
     if (found == faces.end()) {
-      throw InvalidInput(concat("the review names ", quoted(mark.id), ", which is not in the crowd"));
+      throw InvalidInput(
+          concat("the review names ", quoted(mark.id), ", which is not in the crowd"));
     }
     if (mark.note) cast.crowd[static_cast<std::size_t>(found->second)].note = mark.note;
     if (mark.verdict == ReviewMark::Verdict::kReject) redraws.push_back({found->second, &mark});
@@ -75,7 +76,7 @@ class Redrawing {
         return family_draws->member(*family, member, attempt);
       };
       refuses = [&](const FaceSpace::Place& place) {
-        return family_draws->refuses(*family, place, own, others, kinship);
+        return family_draws->refuses(*family, place, own, kinship);
       };
     } else {
       draw = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
@@ -98,16 +99,14 @@ class Redrawing {
 
  private:
   const FamilyOptions& options_of(const FamilyCast& family) const {
-    return *std::find_if(
-        casting_.families.begin(), casting_.families.end(),
-        [&](const FamilyOptions& options) { return options.name == family.name; });
+    return *std::find_if(casting_.families.begin(), casting_.families.end(),
+                         [&](const FamilyOptions& options) { return options.name == family.name; });
   }
 
   Recipe drawn_face(const Recipe& old, std::uint32_t attempt) const {
     if (!old.index) {  // hand-written: what it leaves open
-      const auto hand =
-          std::find_if(casting_.recipes.begin(), casting_.recipes.end(),
-                       [&](const HandRecipe& recipe) { return recipe.id == old.id; });
+      const auto hand = std::find_if(casting_.recipes.begin(), casting_.recipes.end(),
+                                     [&](const HandRecipe& recipe) { return recipe.id == old.id; });
       return draw_recipe(casting_, *hand, {0, attempt, concat("recipe/", old.id)},
                          casting_.sampling.targets);
     }
@@ -136,7 +135,7 @@ class Redrawing {
         const auto at = static_cast<std::size_t>(i);
         if (settled[at]) members.push_back(cast_.places[at]);
       }
-      kinship.add(members);
+      kinship.add(family.name, members);
     }
     return kinship;
   }

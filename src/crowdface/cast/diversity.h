@@ -33,8 +33,8 @@ struct DiversityOptions {
   /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept. None: 1
   /// where min_distance is asked for; else 32 for the first thousand faces and 8 for all others.
   std::optional<int> candidates;
-  int pool = 10;             ///< kSpread: pool size, in crowds
-  int max_attempts = 1000;   ///< draws of one face before casting gives up
+  int pool = 10;            ///< kSpread: pool size, in crowds
+  int max_attempts = 1000;  ///< draws of one face before casting gives up
 
   /// For the face with that number, from 1: it must not depend on how many there will be.
   int candidates_for(std::uint64_t index) const {

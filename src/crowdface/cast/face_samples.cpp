@@ -15,8 +15,7 @@ constexpr int kTrajectorySteps = 63;
 /// How densely each vertex is to be sampled; sums to one.
 std::vector<double> sampling_density(const Topology& topology, const Components& components,
                                      const Positions& mean, Axis front) {
-  const std::vector<double> face =
-      face_areas(topology, components, mean, FaceArea::kFront, front);
+  const std::vector<double> face = face_areas(topology, components, mean, FaceArea::kFront, front);
   const std::vector<double> skin = face_areas(topology, components, mean, FaceArea::kSkin, front);
   std::vector<double> vertices(skin.size());
   std::transform(skin.begin(), skin.end(), vertices.begin(),
@@ -106,8 +105,7 @@ Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& no
 
 std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level) {
   const auto upper = std::upper_bound(levels.begin(), levels.end(), level);
-  const Index high =
-      std::min<Index>(upper - levels.begin(), static_cast<Index>(levels.size()) - 1);
+  const Index high = std::min<Index>(upper - levels.begin(), static_cast<Index>(levels.size()) - 1);
   const Index low = std::max<Index>(high - 1, 0);
   const auto root = [](std::uint64_t value) { return std::sqrt(static_cast<double>(value)); };
   const double from = root(levels[static_cast<std::size_t>(low)]);

@@ -53,12 +53,10 @@ void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
 
 /// Of equally far ones the one drawn first.
 void FaceSearch::farthest_first() {
-  std::sort(
-      candidates_.begin(), candidates_.end(),
-      [](const Candidate& a, const Candidate& b) {
-        return a.nearest_mm != b.nearest_mm ? a.nearest_mm > b.nearest_mm
-                                            : a.recipe.attempt < b.recipe.attempt;
-      });
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return a.nearest_mm != b.nearest_mm ? a.nearest_mm > b.nearest_mm
+                                        : a.recipe.attempt < b.recipe.attempt;
+  });
 }
 
 void FaceSearch::judge_closely(Candidate& candidate) const {

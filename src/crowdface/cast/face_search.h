@@ -22,8 +22,8 @@ class FaceSearch {
   /// One more reason to refuse a place, given the crowd.
   using Refuses = std::function<bool(const FaceSpace::Place&)>;
 
-  FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity,
-             int candidates, std::uint32_t first_attempt = 0);
+  FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
+             std::uint32_t first_attempt = 0);
 
   /// Draws candidates ahead, against the crowd as it is now. May run beside others.
   void prepare(const CrowdSoFar& crowd);

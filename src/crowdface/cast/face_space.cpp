@@ -119,8 +119,8 @@ void FaceSpace::build_basis(const std::vector<double>& weights) {
     for (Index l = 0; l < rows_of_levels; ++l) {
       for (Index i = 0; i < size; ++i) {
         for (Index c = 0; c < 3; ++c) {
-          const double value = static_cast<double>(
-              trajectory(l, 3 * counting[static_cast<std::size_t>(i)] + c));
+          const double value =
+              static_cast<double>(trajectory(l, 3 * counting[static_cast<std::size_t>(i)] + c));
           levels(l, (h * 3 + c) * size + i) =
               static_cast<float>(value * heads_.mm_per_unit) * roots[i];
         }
@@ -240,8 +240,8 @@ std::vector<float> FaceSpace::aligned(const Shape& shape) const {
       }
     }
   }
-  const Eigen::Matrix3d matrix = Eigen::Map<
-      const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(covariance.data());
+  const Eigen::Matrix3d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(covariance.data());
   const Eigen::Matrix3d rotation = best_rotation(matrix);
   std::vector<float> turned(static_cast<std::size_t>(shape.size()));
   for (Index p = 0; p < shape.rows(); ++p) {
@@ -262,8 +262,7 @@ Recipe FaceSpace::training_recipe(std::uint64_t index) const {
     return random_pair({0, index, purpose, 0}, lane);
   };
   const auto head_at = [&](double unit) {
-    return std::min(static_cast<Index>(unit * static_cast<double>(head_count())),
-                    head_count() - 1);
+    return std::min(static_cast<Index>(unit * static_cast<double>(head_count())), head_count() - 1);
   };
   Recipe recipe;
   recipe.target = head_at(draw("training/target", 0)[0]);

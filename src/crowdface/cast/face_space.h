@@ -83,11 +83,11 @@ class FaceSpace {
   SampledHeads heads_;
   std::vector<Index> counting_;  ///< samples that count in a distance
   Eigen::VectorXf roots_;        ///< √w of each
-  FloatRows basis_;             ///< #P by #S: orthonormal functions on the samples
-  Shape mean_shape_;            ///< #P by 3
-  std::vector<Shape> shapes_;   ///< of the heads
-  std::vector<float> fields_;   ///< α_k (S_L x_h − x_h): regions, heads, rows, then #P by 3
-  FloatRows directions_;        ///< #D by 3·#P: main directions of faces' aligned shapes
+  FloatRows basis_;              ///< #P by #S: orthonormal functions on the samples
+  Shape mean_shape_;             ///< #P by 3
+  std::vector<Shape> shapes_;    ///< of the heads
+  std::vector<float> fields_;    ///< α_k (S_L x_h − x_h): regions, heads, rows, then #P by 3
+  FloatRows directions_;         ///< #D by 3·#P: main directions of faces' aligned shapes
   FloatRows directions_transposed_;
   std::vector<FloatRows> region_metrics_;  ///< #regions (none of one), #D by #D, times its share
   std::vector<double> region_shares_;      ///< of the face's area

@@ -12,11 +12,11 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kFounders = 12;           ///< drawn one after the other before giving up
-constexpr std::uint32_t kFounderAttempts = 64;    ///< candidates for each
+constexpr std::uint32_t kFounders = 12;         ///< drawn one after the other before giving up
+constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each
 constexpr int kFounderCandidates = 24;
-constexpr double kNearestShare = 0.4;             ///< of max_distance that members go at least
-constexpr double kParentShare = 0.75;             ///< of a parent in what a member tends to
+constexpr double kNearestShare = 0.4;  ///< of max_distance that members go at least
+constexpr double kParentShare = 0.75;  ///< of a parent in what a member tends to
 constexpr int kHalvings = 10;
 
 double largest(const FaceSpace::Place& place, const std::vector<FaceSpace::Place>& others) {
@@ -40,19 +40,27 @@ RegionRecipe mixed(const RegionRecipe& a, const RegionRecipe& b, double t,
 
 }  // namespace
 
-bool Kinship::intrudes(const FaceSpace::Place& place) const {
+bool Kinship::intrudes(const FaceSpace::Place& place,
+                       const std::vector<std::string>& relatives) const {
   return std::any_of(members_.begin(), members_.end(), [&](const Member& member) {
-    return FaceSpace::distance(place, member.place) <= member.radius_mm;
+    return std::find(relatives.begin(), relatives.end(), member.family) == relatives.end() &&
+           FaceSpace::distance(place, member.place) <= member.radius_mm;
   });
 }
 
-void Kinship::add(const std::vector<FaceSpace::Place>& members) {
-  for (const FaceSpace::Place& place : members) members_.push_back({place, largest(place, members)});
+void Kinship::add(const std::string& family, const std::vector<FaceSpace::Place>& members) {
+  for (const FaceSpace::Place& place : members) {
+    members_.push_back({family, place, largest(place, members)});
+  }
 }
 
 FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
                          const FaceJudge& judge, const CrowdSoFar& crowd)
-    : casting_(casting), family_(family), judge_(judge) {
+    : casting_(casting),
+      family_(family),
+      judge_(judge),
+      kin_(judge.space().dimensions()),
+      strangers_(judge.space().dimensions()) {
   for (const Parent& parent : family.parents) {
     if (parent.head) {
       parents_.emplace_back();
@@ -64,10 +72,20 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
       return recipe.id == parent.id || recipe.id == concat(casting.name, '_', parent.id);
     });
     if (found == recipes.end()) {
-      throw InvalidInput(concat("family ", family.name, ": no face before it is called ",
-                                quoted(parent.id)));
+      throw InvalidInput(
+          concat("family ", family.name, ": no face before it is called ", quoted(parent.id)));
     }
     parents_.push_back(*found);
+    if (found->family) relatives_.push_back(*found->family);
+  }
+  for (std::size_t i = 0; i < crowd.recipes().size(); ++i) {
+    const Recipe& recipe = crowd.recipes()[i];
+    const bool relative = recipe.family && std::find(relatives_.begin(), relatives_.end(),
+                                                     *recipe.family) != relatives_.end();
+    const bool parent = std::any_of(parents_.begin(), parents_.end(), [&](const Recipe& one) {
+      return !one.id.empty() && one.id == recipe.id;
+    });
+    (relative || parent ? kin_ : strangers_).add(crowd.places()[i]);
   }
 }
 
@@ -95,9 +113,9 @@ Recipe FamilyDraws::founder(std::uint32_t attempt) const {
   for (std::size_t k = 0; k < recipe.regions.size() && !parents_.empty(); ++k) {
     const RegionRecipe drawn = recipe.regions[k];
     const int from = family_.inherit[k];
-    recipe.regions[k] = from >= 0 ? of_parent(static_cast<std::size_t>(from), k, drawn)
-                                  : mixed(of_parent(0, k, drawn), of_parent(1, k, drawn), 0.5,
-                                          casting_.scale);
+    recipe.regions[k] =
+        from >= 0 ? of_parent(static_cast<std::size_t>(from), k, drawn)
+                  : mixed(of_parent(0, k, drawn), of_parent(1, k, drawn), 0.5, casting_.scale);
   }
   return recipe;
 }
@@ -129,8 +147,8 @@ Recipe FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t att
     const int from = family_.inherit[k];
     const auto parent = static_cast<std::size_t>(
         from >= 0 ? from : (unit(concat("inherits/", casting_.region_names[k]))[0] < 0.5 ? 0 : 1));
-    to.regions[k] = mixed(to.regions[k], of_parent(parent, k, to.regions[k]), kParentShare,
-                          casting_.scale);
+    to.regions[k] =
+        mixed(to.regions[k], of_parent(parent, k, to.regions[k]), kParentShare, casting_.scale);
     to.inherits.emplace_back(parent == 0 ? "mother" : "father");
   }
   const auto [how_far, how_old] = unit("how");
@@ -138,8 +156,7 @@ Recipe FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t att
   const double reach = (kNearestShare + (1 - kNearestShare) * how_far) * family_.max_distance_mm;
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
-    const FaceSpace::Place place =
-        judge_.space().place(towards(cast.founder, to, t, age));
+    const FaceSpace::Place place = judge_.space().place(towards(cast.founder, to, t, age));
     const bool beyond = FaceSpace::distance(place, cast.founder_place) > reach;
     if (t == 1 && !beyond) break;
     t += beyond ? -step : step;
@@ -153,19 +170,19 @@ Recipe FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t att
 }
 
 bool FamilyDraws::refuses(const FamilyCast& cast, const FaceSpace::Place& place,
-                          const std::vector<FaceSpace::Place>& own, const CrowdSoFar& others,
-                          const Kinship& kinship) const {
+                          const std::vector<FaceSpace::Place>& own, const Kinship& kinship) const {
   if (FaceSpace::distance(place, cast.founder_place) > family_.max_distance_mm) return true;
-  if (kinship.intrudes(place)) return true;
+  if (kinship.intrudes(place, relatives_)) return true;
+  if (kin_.nearest(place, family_.min_distance_mm).face >= 0) return true;
   double farthest = 0;
   for (const FaceSpace::Place& relative : own) {
     const double mm = FaceSpace::distance(place, relative);
     if (mm < family_.min_distance_mm) return true;
     farthest = std::max(farthest, mm);
-    // The relative, too, must stay nearer to this one than to anyone else.
-    if (others.index().nearest(relative).mm <= mm) return true;
+    // The relative, too, must stay nearer to this one than to any stranger.
+    if (strangers_.nearest(relative).mm <= mm) return true;
   }
-  return others.index().nearest(place).mm <= farthest;
+  return strangers_.nearest(place).mm <= farthest;
 }
 
 std::string member_id(const std::string& crowd, const std::string& family, int member) {
@@ -196,7 +213,7 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
       FaceSearch search([&](std::uint32_t attempt) { return draws.member(cast, m, attempt); },
                         judge, casting.diversity, 1);
       auto member = search.settle(crowd, [&](const FaceSpace::Place& place) {
-        return draws.refuses(cast, place, places, crowd, kinship);
+        return draws.refuses(cast, place, places, kinship);
       });
       rejections.add(search.rejections());
       if (!member) break;
@@ -204,7 +221,7 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
       places.push_back(std::move(member->place));
     }
     if (static_cast<int>(members.size()) < family.members) continue;
-    kinship.add(places);
+    kinship.add(family.name, places);
     for (std::size_t m = 0; m < members.size(); ++m) {
       crowd.add(std::move(members[m]), std::move(places[m]));
     }

@@ -19,16 +19,20 @@ struct FamilyCast {
   Index begin = 0, end = 0;  ///< its members in the crowd
 };
 
-/// What keeps families together: every member is nearer to each of its own than to anyone else.
+/// What keeps families together: every member is nearer to each of its own than to anyone who is no
+/// relative. Relatives are one's family and the families of one's parents.
 class Kinship {
  public:
-  /// Whether a face that is no relative would come as near to a member as its own do.
-  bool intrudes(const FaceSpace::Place& place) const;
+  /// Whether a face would come as near to a member of a family as its own do.
+  /// \param relatives  families that the face may come as near to.
+  bool intrudes(const FaceSpace::Place& place,
+                const std::vector<std::string>& relatives = {}) const;
   /// Notes the members of a family by their places.
-  void add(const std::vector<FaceSpace::Place>& members);
+  void add(const std::string& family, const std::vector<FaceSpace::Place>& members);
 
  private:
   struct Member {
+    std::string family;
     FaceSpace::Place place;
     double radius_mm;  ///< how far the farthest of its own is
   };
@@ -39,7 +43,7 @@ class Kinship {
 /// far as max_distance lets it go.
 class FamilyDraws {
  public:
-  /// \param crowd  where parents are looked up by id.
+  /// \param crowd  everyone but the family: where parents are looked up by id.
   FamilyDraws(const Casting& casting, const FamilyOptions& family, const FaceJudge& judge,
               const CrowdSoFar& crowd);
 
@@ -50,8 +54,7 @@ class FamilyDraws {
 
   /// Whether a place will not do for a member beside these others of its family.
   bool refuses(const FamilyCast& cast, const FaceSpace::Place& place,
-               const std::vector<FaceSpace::Place>& own, const CrowdSoFar& others,
-               const Kinship& kinship) const;
+               const std::vector<FaceSpace::Place>& own, const Kinship& kinship) const;
 
  private:
   RegionRecipe of_parent(std::size_t parent, std::size_t region, const RegionRecipe& drawn) const;
@@ -60,7 +63,9 @@ class FamilyDraws {
   const Casting& casting_;
   const FamilyOptions& family_;
   const FaceJudge& judge_;
-  std::vector<Recipe> parents_;  ///< recipes of parents that are faces; empty ones for heads
+  std::vector<Recipe> parents_;         ///< recipes of parents that are faces; empty ones for heads
+  std::vector<std::string> relatives_;  ///< the families of parents
+  PlaceIndex kin_, strangers_;          ///< relatives, and everyone else
 };
 
 /// "NAME_FAMILY_01".

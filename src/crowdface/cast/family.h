@@ -21,10 +21,10 @@ struct FamilyOptions {
   int members = 0;
   std::optional<Eigen::Index> target;  ///< of all members; none: a parent's, or drawn
   std::vector<Parent> parents;         ///< none, or mother and father
-  std::vector<int> inherit;            ///< #regions: 0 from the mother, 1 from the father, −1 drawn
-  double max_distance_mm = 0;          ///< from the founder, who is not in the crowd
-  double min_distance_mm = 0;          ///< between members
-  Range age = {0, 0};                  ///< see apply_age
+  std::vector<int> inherit;    ///< #regions: 0 from the mother, 1 from the father, −1 drawn
+  double max_distance_mm = 0;  ///< from the founder, who is not in the crowd
+  double min_distance_mm = 0;  ///< between members
+  Range age = {0, 0};          ///< see apply_age
 };
 
 }  // namespace crowdface

@@ -52,8 +52,7 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
       break;
     }
     Eigen::VectorXf& q = directions.emplace_back(size);
-    const auto scale =
-        static_cast<float>(1 / std::sqrt(left[static_cast<std::size_t>(pivot)]));
+    const auto scale = static_cast<float>(1 / std::sqrt(left[static_cast<std::size_t>(pivot)]));
     for (Index i = 0; i < size; ++i) q[i] = rows(pivot, i) * scale;
     Eigen::VectorXf& along = coordinates.emplace_back(Eigen::VectorXf::Zero(count));
     parallel_blocks(count, kRowsAtATime, [&](Index begin, Index end) {

@@ -43,8 +43,7 @@ double squared_up_to(const FaceSpace::Place& a, const FaceSpace::Place& b, doubl
 }  // namespace
 
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
-                        const TargetsOfQuota& targets_of,
-                        std::uint64_t size) {
+                        const TargetsOfQuota& targets_of, std::uint64_t size) {
   const std::vector<int> schedule = schedule_quotas(casting.diversity.quotas, size);
   std::vector<std::optional<std::pair<Recipe, FaceSpace::Place>>> drawn(size);
   std::vector<Rejections> rejections(size);
@@ -99,20 +98,19 @@ FarthestPoints::Pick FarthestPoints::farthest(int quota) const {
 void FarthestPoints::pick(Index candidate) {
   drop(candidate);
   const FaceSpace::Place& picked = pool_.places[static_cast<std::size_t>(candidate)];
-  parallel_blocks(static_cast<Index>(squared_.size()), kCandidatesAtATime,
-                  [&](Index begin, Index end) {
-                    for (Index p = begin; p < end; ++p) {
-                      const auto at = static_cast<std::size_t>(p);
-                      if (gone_[at]) continue;
-                      squared_[at] = std::min(
-                          squared_[at], squared_up_to(picked, pool_.places[at], squared_[at]));
-                    }
-                  });
+  parallel_blocks(
+      static_cast<Index>(squared_.size()), kCandidatesAtATime, [&](Index begin, Index end) {
+        for (Index p = begin; p < end; ++p) {
+          const auto at = static_cast<std::size_t>(p);
+          if (gone_[at]) continue;
+          squared_[at] =
+              std::min(squared_[at], squared_up_to(picked, pool_.places[at], squared_[at]));
+        }
+      });
 }
 
-void cast_spread(const Casting& casting, const FaceJudge& judge,
-                 const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
-                 CrowdCast& result) {
+void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
+                 const Kinship& kinship, CrowdSoFar& crowd, CrowdCast& result) {
   const auto size = static_cast<std::uint64_t>(casting.diversity.pool) * casting.count;
   CandidatePool pool = draw_pool(casting, judge, targets_of, size);
   result.rejections.add(pool.rejections);

@@ -22,8 +22,7 @@ struct CandidatePool {
 /// Draws a pool. Quotas are met by the pool as they are by a crowd.
 /// \param targets_of  targets for faces of no quota, then for those of each.
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
-                        const TargetsOfQuota& targets_of,
-                        std::uint64_t size);
+                        const TargetsOfQuota& targets_of, std::uint64_t size);
 
 /// Picks one of a pool's candidates after the other, each the one that is farthest from those
 /// picked before and from the crowd it starts with (greedy farthest point). Whatever is picked, no
@@ -52,8 +51,7 @@ class FarthestPoints {
 };
 
 /// Faces 1 … count as the most spread set out of a pool.
-void cast_spread(const Casting& casting, const FaceJudge& judge,
-                 const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
-                 CrowdCast& result);
+void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
+                 const Kinship& kinship, CrowdSoFar& crowd, CrowdCast& result);
 
 }  // namespace crowdface

@@ -141,7 +141,8 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
     advice.emplace_back("a larger pull or distribution: uniform, which mix more heads into a face");
     advice.emplace_back("another range of smoothness");
   } else if (remedy.binding == Reason::kFamily) {
-    advice.emplace_back("another max_distance or min_distance of the family, fewer members or families");
+    advice.emplace_back(
+        "another max_distance or min_distance of the family, fewer members or families");
     advice.emplace_back("more heads, so that families have more room between them");
     if (!config.families.empty()) advice.emplace_back("a smaller range of age");
   } else {
@@ -151,8 +152,7 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   return advice;
 }
 
-[[noreturn]] void tell_shortfall(const Job& job, const Remedy& remedy,
-                                 const Shortfall& shortfall) {
+[[noreturn]] void tell_shortfall(const Job& job, const Remedy& remedy, const Shortfall& shortfall) {
   const Config& config = job.config;
   const std::uint64_t thrown = shortfall.rejections.total();
   const std::uint64_t by_main =
@@ -167,9 +167,9 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
     message += concat(shortfall.reviewed, ", which the review rejects, cannot be drawn anew: ",
                       asked_of(config, remedy.binding), ", cannot be kept");
   } else {
-    message += concat(config.crowd.count, " faces cannot be cast: ",
-                      asked_of(config, remedy.binding), ", cannot be kept; reached ",
-                      shortfall.reached, " of ", config.crowd.count, " faces");
+    message += concat(
+        config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding),
+        ", cannot be kept; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
   }
   if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty()) {
     message += concat(" (for the next one ", by_main, " of ", thrown,
@@ -193,10 +193,9 @@ CastingGround casting_ground(const Job& job, const Prepared& prepared) {
       face_areas(inputs.faces.topology, inputs.components, mean, config.distance.area,
                  config.faces.front, inputs.distance_mask);
   const SampleCells cells = find_sample_cells(inputs.adjacency, mean, prepared.samples);
-  FaceSpace space(
-      sample_heads(inputs.faces, inputs.regions, prepared.samples, prepared.trajectories,
-                   inputs.max_level, mm_per(config.faces.units)),
-      sample_weights(cells, prepared.samples, areas));
+  FaceSpace space(sample_heads(inputs.faces, inputs.regions, prepared.samples,
+                               prepared.trajectories, inputs.max_level, mm_per(config.faces.units)),
+                  sample_weights(cells, prepared.samples, areas));
   ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
                  space.sampled().heads);
   return {std::move(space), std::move(skin)};
@@ -204,18 +203,9 @@ CastingGround casting_ground(const Job& job, const Prepared& prepared) {
 
 Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances) {
   const Config& config = job.config;
-  return {config.crowd.name,
-          config.crowd.count,
-          config.crowd.seed,
-          lay_out(config, head_distances),
-          job.names.regions,
-          config.sampling,
-          config.recipes,
-          config.blending.normalization,
-          level_scale(job),
-          config.diversity,
-          config.families,
-          config.review.reviews};
+  return {config.crowd.name, config.crowd.count, config.crowd.seed, lay_out(config, head_distances),
+          job.names.regions, config.sampling,    config.recipes,    config.blending.normalization,
+          level_scale(job),  config.diversity,   config.families,   config.review.reviews};
 }
 
 Cast cast(const Job& job, const Prepared& prepared) {
@@ -227,8 +217,7 @@ Cast cast(const Job& job, const Prepared& prepared) {
   const FaceJudge judge(space, casting.diversity, believability, &ground.skin);
   CrowdCast crowd = cast_crowd(casting, judge);
   if (crowd.shortfall) {
-    tell_shortfall(job,
-                   find_remedy(casting, space, believability, &ground.skin, *crowd.shortfall),
+    tell_shortfall(job, find_remedy(casting, space, believability, &ground.skin, *crowd.shortfall),
                    *crowd.shortfall);
   }
   Cast result;

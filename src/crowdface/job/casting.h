@@ -33,8 +33,8 @@ struct CrowdDistances {
 struct FamilyReport {
   std::string name;
   std::uint64_t members = 0;
-  Quartiles within;       ///< between members
-  Quartiles to_founder;   ///< of each member
+  Quartiles within;             ///< between members
+  Quartiles to_founder;         ///< of each member
   double nearest_other_mm = 0;  ///< from any member to anyone else; 0 if there is nobody
   double silhouette = 0;
 };

@@ -37,10 +37,11 @@ void read_parts(const YamlNode* node, Complaints& complaints) {
 }
 
 void read_root(const YamlNode& node, const ConfigOverrides& overrides, ConfigDraft& draft) {
-  const MapReader root(&node,
-                       {"schema", "crowd", "faces", "regions", "smoothing", "blending", "parts",
-                        "plane", "sampling", "distance", "diversity", "believability", "recipes", "families", "review", "output"},
-                       draft.complaints);
+  const MapReader root(
+      &node,
+      {"schema", "crowd", "faces", "regions", "smoothing", "blending", "parts", "plane", "sampling",
+       "distance", "diversity", "believability", "recipes", "families", "review", "output"},
+      draft.complaints);
   if (node.kind != YamlNode::Kind::kMap) return;
   read_schema(root, draft.complaints);
   read_crowd(root.require("crowd", "such as \"crowd: {name: market, count: 24}\""), draft);

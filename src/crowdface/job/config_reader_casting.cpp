@@ -81,8 +81,9 @@ void read_quotas(const YamlNode& node, ConfigDraft& draft) {
     refuse_shared_heads(entry, quota, draft);
     if (*share > 0 && std::none_of(quota.heads.begin(), quota.heads.end(),
                                    [&](Eigen::Index head) { return is_target(head, draft); })) {
-      draft.complaints.add(entry.key_place, concat(entry.value.path, ": none of its heads is among ",
-                                                   "sampling.targets"));
+      draft.complaints.add(
+          entry.key_place,
+          concat(entry.value.path, ": none of its heads is among ", "sampling.targets"));
     }
     quotas.push_back(std::move(quota));
   }
@@ -98,9 +99,9 @@ void read_quotas(const YamlNode& node, ConfigDraft& draft) {
         });
       });
   if (!quotas.empty() && !targets.empty() && !some_left && total < 1 - kShareRounding) {
-    draft.complaints.about(node, concat("the shares sum to ", total,
-                                        ", but every target counts for one of them; for whom is ",
-                                        "the rest?"));
+    draft.complaints.about(
+        node, concat("the shares sum to ", total,
+                     ", but every target counts for one of them; for whom is ", "the rest?"));
   }
 }
 
@@ -149,8 +150,8 @@ void read_believability(const YamlNode* node, ConfigDraft& draft) {
     believability.check = false;
     return;
   }
-  const MapReader map(node, {"max_deviation", "max_stretch", "max_flipped", "max_intersecting",
-                             "meshes"},
+  const MapReader map(node,
+                      {"max_deviation", "max_stretch", "max_flipped", "max_intersecting", "meshes"},
                       draft.complaints);
   using Meshes = BelievabilityOptions::Meshes;
   if (const YamlNode* meshes = map.find("meshes")) {

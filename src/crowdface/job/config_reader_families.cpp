@@ -78,8 +78,9 @@ void read_name_of(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     draft.complaints.about(node, concat("two families are called ", quoted(*name)));
   }
   if (name->find_first_not_of("0123456789") == std::string::npos) {
-    draft.complaints.about(node, "a family's name needs a letter, or its members would be called "
-                                 "like sampled faces");
+    draft.complaints.about(node,
+                           "a family's name needs a letter, or its members would be called "
+                           "like sampled faces");
   }
 }
 
@@ -99,10 +100,10 @@ std::optional<double> read_distance_of(const YamlNode* node, ConfigDraft& draft)
 }
 
 void read_family(const YamlNode& node, ConfigDraft& draft) {
-  const MapReader map(&node,
-                      {"name", "members", "target", "parents", "inherit", "max_distance",
-                       "min_distance", "age"},
-                      draft.complaints);
+  const MapReader map(
+      &node,
+      {"name", "members", "target", "parents", "inherit", "max_distance", "min_distance", "age"},
+      draft.complaints);
   if (node.kind != YamlNode::Kind::kMap) return;
   FamilyOptions family;
   if (const YamlNode* name = map.require("name", "such as smith")) {
@@ -127,8 +128,9 @@ void read_family(const YamlNode& node, ConfigDraft& draft) {
   const YamlNode* min = map.find("min_distance");
   family.min_distance_mm = read_distance_of(min, draft).value_or(0);
   if (min != nullptr && family.min_distance_mm > 2 * family.max_distance_mm) {
-    draft.complaints.about(*min, "members that are all within max_distance of one founder cannot be "
-                                 "more than twice that apart");
+    draft.complaints.about(*min,
+                           "members that are all within max_distance of one founder cannot be "
+                           "more than twice that apart");
   }
   if (const YamlNode* age = map.find("age")) {
     family.age = read_age(*age, draft).value_or(Range{0, 0});

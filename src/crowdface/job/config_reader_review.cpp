@@ -48,8 +48,8 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
     const auto region = std::find(names.begin(), names.end(), *name);
     if (region == names.end()) {
       if (draft.regions_known) {
-        draft.complaints.about(item, concat("no region is called ", quoted(*name),
-                                            suggestion(*name, names)));
+        draft.complaints.about(
+            item, concat("no region is called ", quoted(*name), suggestion(*name, names)));
       }
       continue;
     }
@@ -122,8 +122,9 @@ Review read_review_file(const std::filesystem::path& file, const YamlNode& where
     }
     read_mark(entry.value, mark, draft);
     if (mark.verdict == ReviewMark::Verdict::kReject && is_recipe(entry.key, draft.config)) {
-      draft.complaints.add(entry.key_place, concat(quoted(entry.key), " is written by hand; change ",
-                                                   "its recipe in place of rejecting it"));
+      draft.complaints.add(entry.key_place,
+                           concat(quoted(entry.key), " is written by hand; change ",
+                                  "its recipe in place of rejecting it"));
     }
     review.push_back(std::move(mark));
   }

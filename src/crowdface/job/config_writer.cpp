@@ -253,8 +253,7 @@ class Writer {
     if (config_.distance.mask) line("  mask: ", path(*config_.distance.mask));
     const DiversityOptions& diversity = config_.diversity;
     line("diversity:");
-    line("  mode: ",
-         diversity.mode == DiversityOptions::Mode::kSpread ? "spread" : "first_fit");
+    line("  mode: ", diversity.mode == DiversityOptions::Mode::kSpread ? "spread" : "first_fit");
     line("  min_distance: ", mm(diversity.min_distance_mm));
     line("  min_distance_to_faces: ", mm(diversity.min_distance_to_faces_mm));
     line("  max_weight: ", diversity.max_weight);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/crowd_directory.h"
 
-#include <unistd.h>
-
 #include <system_error>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -129,8 +128,8 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
     existing = existing.parent_path();
   }
   if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
-    throw CannotCreate(concat(directory.root.string(), ": cannot be written to, because of ",
-                              existing.string()));
+    throw CannotCreate(
+        concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));
   }
 }
 

@@ -140,9 +140,8 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   const Casting casting = casting_of(job, ground.space.head_distances());
   const FaceJudge judge(ground.space, casting.diversity, job.config.believability, &ground.skin);
   const std::uint64_t asked = job.config.crowd.count;
-  const auto rows =
-      estimate_capacity(casting, judge, counts_up_to(asked),
-                        std::clamp(5 * asked, kSmallestPool, kLargestPool));
+  const auto rows = estimate_capacity(casting, judge, counts_up_to(asked),
+                                      std::clamp(5 * asked, kSmallestPool, kLargestPool));
   const double asked_mm = job.config.diversity.min_distance_mm;
   const std::filesystem::path folder = job.config.output.directory;
   make_directories(folder);

@@ -18,9 +18,9 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/job/casting.h"
 #include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_renders.h"
-#include "crowdface/job/casting.h"
 #include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/report.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/validity/intersections.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <memory>
 #include <mutex>
+
+#include <embree3/rtcore.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -89,11 +89,10 @@ std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
                                        const Positions& positions,
                                        const std::vector<TrianglePair>& pairs) {
   std::vector<TrianglePair> found;
-  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(found),
-               [&](const TrianglePair& pair) {
-                 return triangles_intersect(positions, triangles[pair.first],
-                                            triangles[pair.second]);
-               });
+  std::copy_if(
+      pairs.begin(), pairs.end(), std::back_inserter(found), [&](const TrianglePair& pair) {
+        return triangles_intersect(positions, triangles[pair.first], triangles[pair.second]);
+      });
   return found;
 }
 

@@ -9,9 +9,8 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
   for (const Index target : targets) {
     const Positions& positions = heads[static_cast<std::size_t>(target)].positions;
     const auto pairs = intersecting(triangles_, positions, near_pairs(triangles_, positions, 0));
-    targets_.emplace(target,
-                     Target{TargetTriangles(triangles_, positions),
-                            NewIntersections(triangles_, positions.rows(), pairs)});
+    targets_.emplace(target, Target{TargetTriangles(triangles_, positions),
+                                    NewIntersections(triangles_, positions.rows(), pairs)});
   }
 }
 
