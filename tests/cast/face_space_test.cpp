@@ -223,7 +223,7 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
 
 TEST_F(FaceSpaceTest, SampledFacesAreThoseOfWholeMeshes) {
   for (const Recipe& recipe : crowd(5)) {
-    const Positions built = kMmPerUnit * blend_exact(faces_, *smoothing_, regions_, recipe);
+    const Positions built = kMmPerUnit * blend_exact(faces_, *filter_, regions_, recipe);
     const Positions sampled = sample_face(space_->sampled(), recipe, Variant::kAsBuilt);
     for (std::size_t s = 0; s < samples_.size(); ++s) {
       EXPECT_LT((sampled.row(static_cast<Index>(s)) - built.row(samples_[s])).norm(), 0.05);

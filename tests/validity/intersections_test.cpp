@@ -49,7 +49,7 @@ Eigen::Vector3d flat(double x, double y) {
 }
 /// Bent over so that the far side comes down through the near one.
 Eigen::Vector3d bent(double x, double y) {
-  return x < 12 ? Eigen::Vector3d(x, y, 0) : Eigen::Vector3d(24 - x, y + 0.3, 3 - 0.5 * (x - 12));
+  return x < 12 ? Eigen::Vector3d(x, y, 0) : Eigen::Vector3d(24 - x, y + 0.3, 3.1 - 0.5 * (x - 12));
 }
 
 TEST(Intersections, AreThoseOfTryingAllPairs) {

@@ -27,7 +27,7 @@ TEST(Triangles, CrossingIsToldFromTouchingAndFromMissing) {
     return one;
   };
   EXPECT_TRUE(crosses({1, 1, -1}, {1, 1, 1}, {2, 1, 1}));
-  EXPECT_TRUE(crosses({-1, 1, 0.5}, {9, 1, -0.5}, {1, 1, 7}));
+  EXPECT_TRUE(crosses({-1, 1, 0.05}, {9, 1, -0.95}, {1, 1, 7}));
   EXPECT_FALSE(crosses({1, 1, 0}, {1, 1, 1}, {2, 1, 1})) << "a corner on the plane";
   EXPECT_FALSE(crosses({1, 1, 0.1}, {1, 1, 1}, {2, 1, 1})) << "above";
   EXPECT_FALSE(crosses({3, 3, -1}, {3, 3, 1}, {4, 3, 1})) << "through the plane, beside";
