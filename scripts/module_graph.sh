@@ -26,6 +26,7 @@ mesh 1
 plane 1
 io 2
 smooth 2
+validity 2
 region 3
 render 3
 synth 3

@@ -60,6 +60,20 @@ void ConfigOptions::add_to(CLI::App& command) {
   command.add_option("--cache", cache, "Folder of prepared heads")->type_name("DIR");
 }
 
+void ConfigOptions::add_review_to(CLI::App& command) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--review",
+          [this](const std::vector<std::string>& files) {
+            overrides.review.insert(overrides.review.end(), files.begin(), files.end());
+          },
+          "Draw the faces anew that this review rejects; may be repeated, in order")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all()
+      ->trigger_on_parse();
+}
+
 std::filesystem::path ConfigOptions::cache_path() const {
   return cache.empty() ? cache_directory() : std::filesystem::path(cache);
 }

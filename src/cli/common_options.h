@@ -35,6 +35,8 @@ struct ConfigOptions {
   std::string cache;
 
   void add_to(CLI::App& command);
+  /// `--review`, of commands that cast.
+  void add_review_to(CLI::App& command);
   std::filesystem::path cache_path() const;
 };
 

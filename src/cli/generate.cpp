@@ -18,6 +18,7 @@ Run add_generate(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "generate", "The whole job: prepare, cast, blend, write, render, report");
   options->config.add_to(*command);
+  options->config.add_review_to(*command);
   options->write.add_to(*command);
   options->common.add_to(*command);
   return [options] {

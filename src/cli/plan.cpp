@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <iostream>
 #include <memory>
 
+#include "crowdface/job/estimate.h"
 #include "crowdface/job/generate.h"
 
 #include "cli/commands.h"
@@ -13,15 +15,24 @@ Run add_plan(CLI::App& program) {
     CommonOptions common;
     ConfigOptions config;
     WriteOptions write;
+    bool estimate = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("plan", "Cast the crowd only: plan.jsonl and crowd.csv, no meshes");
   options->config.add_to(*command);
+  options->config.add_review_to(*command);
   options->write.add_to(*command);
+  command->add_flag("--estimate", options->estimate,
+                    "Cast nothing: how many faces these heads hold at which distance");
   options->common.add_to(*command);
   return [options] {
     const auto threads = options->common.apply();
+    if (options->estimate) {
+      std::cout << estimate(options->config.config, options->config.overrides,
+                            options->config.cache_path());
+      return;
+    }
     plan(options->config.config, options->config.overrides,
          options->write.with_cache(options->config.cache_path()));
   };

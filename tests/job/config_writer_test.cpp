@@ -27,6 +27,7 @@ bool same(const SmoothnessDistribution& a, const SmoothnessDistribution& b) {
 bool same(const RegionSampling& a, const RegionSampling& b) {
   return a.position.kind == b.position.kind && a.position.head == b.position.head &&
          a.position.radius == b.position.radius && a.position.at == b.position.at &&
+         a.position.pull == b.position.pull &&
          same(a.smoothness, b.smoothness) && a.extrapolation == b.extrapolation;
 }
 
@@ -66,6 +67,36 @@ void expect_equal(const Config& a, const Config& b) {
   ASSERT_EQ(a.sampling.regions.size(), b.sampling.regions.size());
   for (std::size_t i = 0; i < a.sampling.regions.size(); ++i) {
     EXPECT_TRUE(same(a.sampling.regions[i], b.sampling.regions[i])) << i;
+  }
+  EXPECT_EQ(a.sampling.age, b.sampling.age);
+  EXPECT_EQ(a.distance.area, b.distance.area);
+  EXPECT_EQ(a.distance.mask, b.distance.mask);
+  EXPECT_EQ(a.diversity.mode, b.diversity.mode);
+  EXPECT_EQ(a.diversity.min_distance_mm, b.diversity.min_distance_mm);
+  EXPECT_EQ(a.diversity.min_distance_to_faces_mm, b.diversity.min_distance_to_faces_mm);
+  EXPECT_EQ(a.diversity.max_weight, b.diversity.max_weight);
+  EXPECT_EQ(a.diversity.candidates, b.diversity.candidates);
+  EXPECT_EQ(a.diversity.pool, b.diversity.pool);
+  EXPECT_EQ(a.diversity.max_attempts, b.diversity.max_attempts);
+  ASSERT_EQ(a.diversity.quotas.size(), b.diversity.quotas.size());
+  for (std::size_t i = 0; i < a.diversity.quotas.size(); ++i) {
+    EXPECT_EQ(a.diversity.quotas[i].heads, b.diversity.quotas[i].heads);
+    EXPECT_EQ(a.diversity.quotas[i].share, b.diversity.quotas[i].share);
+  }
+  EXPECT_EQ(a.believability.check, b.believability.check);
+  EXPECT_EQ(a.believability.max_deviation, b.believability.max_deviation);
+  EXPECT_EQ(a.believability.max_flipped, b.believability.max_flipped);
+  EXPECT_EQ(a.believability.meshes, b.believability.meshes);
+  ASSERT_EQ(a.families.size(), b.families.size());
+  for (std::size_t i = 0; i < a.families.size(); ++i) {
+    EXPECT_EQ(a.families[i].name, b.families[i].name);
+    EXPECT_EQ(a.families[i].members, b.families[i].members);
+    EXPECT_EQ(a.families[i].target, b.families[i].target);
+    EXPECT_EQ(a.families[i].inherit, b.families[i].inherit);
+    EXPECT_EQ(a.families[i].parents.size(), b.families[i].parents.size());
+    EXPECT_EQ(a.families[i].max_distance_mm, b.families[i].max_distance_mm);
+    EXPECT_EQ(a.families[i].min_distance_mm, b.families[i].min_distance_mm);
+    EXPECT_EQ(a.families[i].age, b.families[i].age);
   }
   ASSERT_EQ(a.recipes.size(), b.recipes.size());
   for (std::size_t i = 0; i < a.recipes.size(); ++i) {
@@ -141,13 +172,32 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  targets: all\n"
             "  sources: all\n"
             "  position:\n"
-            "    default: {distribution: uniform}\n"
+            "    default: {distribution: anchored, pull: 0.25}\n"
             "  smoothness:\n"
-            "    default: [0.2, 0.8]\n"
+            "    default: [0.2, 0.9]\n"
             "  extrapolation:\n"
             "    default: 1\n"
             "  max_sources: all\n"
+            "  age: 0\n"
+            "distance:\n"
+            "  area: front\n"
+            "diversity:\n"
+            "  mode: first_fit\n"
+            "  min_distance: 0 mm\n"
+            "  min_distance_to_faces: 0 mm\n"
+            "  max_weight: 1\n"
+            "  quotas: {}\n"
+            "  pool: 10\n"
+            "  max_attempts: 1000\n"
+            "believability:\n"
+            "  max_deviation: 2.5\n"
+            "  max_stretch: 3\n"
+            "  max_flipped: 0.003\n"
+            "  max_intersecting: 0.01\n"
+            "  meshes: auto\n"
             "recipes: []\n"
+            "families: []\n"
+            "review: []\n"
             "output:\n"
             "  directory: .\n"
             "  meshes: [obj]\n"
@@ -180,6 +230,16 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "  smoothness: {default: [1 mm, 2.5 cm], face: 0.25, low: {iterations: [0, 10000000]}}\n"
       "  extrapolation: {low: [-4, 4], face: 1.1}\n"
       "  max_sources: 7\n"
+      "  age: [0, 0.5]\n"
+      "distance: {area: skin, mask: mask.png}\n"
+      "diversity: {mode: spread, min_distance: 1.25 mm, min_distance_to_faces: 0.5 mm, max_weight: "
+      "0.75,\n"
+      "            quotas: {bob: 0.25}, candidates: 3, pool: 7, max_attempts: 99}\n"
+      "believability: {max_deviation: 4, max_stretch: 5, max_flipped: 0.125, meshes: all}\n"
+      "families:\n"
+      "  - {name: 'yes', members: 2, target: bob, max_distance: 1.5 mm}\n"
+      "  - {name: kin, members: 3, parents: {mother: ann, father: yes_02}, inherit: {no: father},\n"
+      "     max_distance: 2 mm, min_distance: 0.5 mm, age: [0, 0.25]}\n"
       "recipes:\n"
       "  - {id: aged, target: 'null', regions: {all: {weights: {ann: 3, bob: 0}, smoothness: "
       "0.5}}}\n"

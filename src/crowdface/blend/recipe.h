@@ -45,6 +45,9 @@ struct Recipe {
   std::uint32_t attempt = 0;          ///< how many draws were thrown away before this one
   std::vector<RegionRecipe> regions;  ///< one for each region
   std::optional<Nearest> nearest;
+  std::optional<double> age;          ///< −1 … 1, if it was moved along old or young detail
+  std::vector<std::string> inherits;  ///< of a family with parents: #regions, whose detail
+  std::optional<std::string> note;    ///< a reviewer's
 };
 
 /// The weights ω̂ of a position (Eqs. 3 and 4).

@@ -2,178 +2,114 @@
 #include "crowdface/cast/cast_crowd.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "crowdface/core/error.h"
-#include "crowdface/core/random.h"
-#include "crowdface/core/text.h"
-#include "crowdface/plane/layout.h"
-#include "crowdface/smooth/level_size.h"
+#include "crowdface/cast/face_search.h"
+#include "crowdface/cast/quotas.h"
+#include "crowdface/cast/spread.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
 
 namespace crowdface {
 namespace {
 
-/// Where the numbers of one face come from: its own key, whatever else is drawn.
-class FaceDraws {
- public:
-  /// \param who  empty for a sampled face; a hand-written recipe's id keeps its draws apart.
-  FaceDraws(std::uint64_t seed, std::uint64_t index, std::string who)
-      : seed_(seed), index_(index), who_(std::move(who)) {}
+/// Faces that are prepared side by side before they are settled one after the other.
+constexpr std::uint64_t kBatch = 64;
 
-  std::array<double, 2> pair(std::string_view what, std::string_view region,
-                             std::uint32_t lane = 0) const {
-    const std::string purpose =
-        who_.empty() ? concat(what, '/', region) : concat("recipe/", who_, '/', what, '/', region);
-    return random_pair({seed_, index_, purpose, 0}, lane);
-  }
-  double unit(std::string_view what, std::string_view region) const {
-    return pair(what, region)[0];
-  }
-  double in(const Range& range, std::string_view what, std::string_view region) const {
-    return range.low + (range.high - range.low) * unit(what, region);
-  }
-
- private:
-  std::uint64_t seed_, index_;
-  std::string who_;
-};
-
-Index draw_target(const SamplingOptions& sampling, const FaceDraws& draws) {
-  double total = 0;
-  for (const WeightedHead& target : sampling.targets) total += target.weight;
-  double left = draws.unit("target", "") * total;
-  for (const WeightedHead& target : sampling.targets) {
-    if (left < target.weight) return target.head;
-    left -= target.weight;
-  }
-  return sampling.targets.back().head;  // rounding used up the last weight
-}
-
-/// Uniform in the unit disc, by drawing from the square until it hits: no sine that a plan could
-/// depend on. Misses 64 times once in 10⁴³ faces; then the centre.
-PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region) {
-  for (std::uint32_t lane = 0; lane < 64; ++lane) {
-    const auto [u, v] = draws.pair("position", region, lane);
-    PlanePoint point(2 * u - 1, 2 * v - 1);
-    if (point.x() * point.x() + point.y() * point.y() <= 1) return point;
-  }
-  return PlanePoint::Zero();
-}
-
-PlanePoint draw_position(const Casting& casting, const PositionDistribution& distribution,
-                         Index target, const FaceDraws& draws, const std::string& region) {
-  switch (distribution.kind) {
-    case PositionDistribution::Kind::kFixed:
-      return distribution.at;
-    case PositionDistribution::Kind::kAround: {
-      const Index head = distribution.head.value_or(target);
-      return casting.anchors[static_cast<std::size_t>(head)] +
-             distribution.radius * draw_in_disc(draws, region);
+/// Faces 1 … count, each against all before it.
+void cast_first_fit(const Casting& casting, const FaceJudge& judge,
+                    const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
+                    CrowdCast& result) {
+  for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
+    throw_if_interrupted();
+    const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
+    std::vector<FaceSearch> searches;
+    for (std::uint64_t index = first; index <= last; ++index) {
+      const auto& targets = targets_of[static_cast<std::size_t>(result.quotas[index - 1] + 1)];
+      searches.emplace_back(
+          [&casting, &targets, index](std::uint32_t attempt) {
+            return draw_face(casting, index, attempt, targets);
+          },
+          judge, casting.diversity, casting.diversity.candidates_for(index));
     }
-    case PositionDistribution::Kind::kUniform:
-      break;
+    parallel_for_each(static_cast<Index>(searches.size()),
+                      [&](Index i) { searches[static_cast<std::size_t>(i)].prepare(crowd); });
+    for (std::uint64_t index = first; index <= last; ++index) {
+      FaceSearch& search = searches[index - first];
+      auto found = search.settle(
+          crowd, [&](const FaceSpace::Place& place) { return kinship.intrudes(place); });
+      result.rejections.add(search.rejections());
+      if (!found) {
+        result.shortfall = Shortfall{index - 1, search.rejections(), result.quotas[index - 1]};
+        return;
+      }
+      crowd.add(std::move(found->recipe), std::move(found->place));
+    }
   }
-  std::vector<PlanePoint> anchors;
-  for (const Index head : casting.sampling.sources) {
-    anchors.push_back(casting.anchors[static_cast<std::size_t>(head)]);
-  }
-  const auto [pick, a] = draws.pair("position", region, 0);
-  const double b = draws.pair("position", region, 1)[0];
-  return point_in_polygon(convex_hull(std::move(anchors)), pick, a, b);
-}
-
-void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScale& scale,
-                     const FaceDraws& draws, const std::string& region, RegionRecipe& recipe) {
-  const double drawn = draws.in(distribution.range, "smoothness", region);
-  switch (distribution.unit) {
-    case SmoothnessDistribution::Unit::kFraction:
-      recipe.smoothness = drawn;
-      recipe.iterations = iterations_of(drawn, scale);
-      return;
-    case SmoothnessDistribution::Unit::kIterations:
-      recipe.iterations = static_cast<std::uint64_t>(std::round(drawn));
-      break;
-    case SmoothnessDistribution::Unit::kSize:
-      recipe.iterations =
-          drawn > 0 ? iterations_of_size(scale.kind, drawn, scale.edge_length_mm) : 0;
-      break;
-  }
-  recipe.iterations = std::min(recipe.iterations, scale.max_level);
-  recipe.smoothness = static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
-}
-
-void take_position(const Casting& casting, Index target, const PlanePoint& position,
-                   RegionRecipe& recipe) {
-  recipe.position = position;
-  recipe.weights = weights_at(casting.anchors, target, casting.sampling.sources, position,
-                              casting.normalization, casting.sampling.max_sources);
-}
-
-/// Draws what `hand` leaves open of region k; a sampled face leaves everything open.
-RegionRecipe cast_region(const Casting& casting, std::size_t k, Index target,
-                         const FaceDraws& draws, const HandRecipe::Region& hand) {
-  const RegionSampling& sampling = casting.sampling.regions[k];
-  const std::string& name = casting.region_names[k];
-  RegionRecipe recipe;
-  if (!hand.weights.empty()) {
-    std::vector<SourceWeight> weights;
-    for (const WeightedHead& source : hand.weights) weights.push_back({source.head, source.weight});
-    recipe.weights = normalized_weights(std::move(weights));
-  } else {
-    take_position(casting, target,
-                  hand.position ? *hand.position
-                                : draw_position(casting, sampling.position, target, draws, name),
-                  recipe);
-  }
-  draw_smoothness(hand.smoothness.value_or(sampling.smoothness), casting.scale, draws, name,
-                  recipe);
-  recipe.extrapolation =
-      draws.in(hand.extrapolation.value_or(sampling.extrapolation), "extrapolation", name);
-  return recipe;
-}
-
-Recipe cast_recipe(const Casting& casting, const HandRecipe& hand, const FaceDraws& draws) {
-  Recipe recipe;
-  recipe.id = hand.id;
-  recipe.target = hand.target ? *hand.target : draw_target(casting.sampling, draws);
-  for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
-    const HandRecipe::Region& region =
-        k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
-    recipe.regions.push_back(cast_region(casting, k, recipe.target, draws, region));
-  }
-  return recipe;
 }
 
 }  // namespace
 
-std::uint64_t iterations_of(double smoothness, const LevelScale& scale) {
-  return static_cast<std::uint64_t>(std::round(smoothness * static_cast<double>(scale.max_level)));
+TargetsOfQuota targets_by_quota(const Casting& casting) {
+  const auto& quotas = casting.diversity.quotas;
+  TargetsOfQuota targets_of;
+  for (int quota = -1; quota < static_cast<int>(quotas.size()); ++quota) {
+    targets_of.push_back(targets_of_quota(casting.sampling.targets, quotas, quota));
+  }
+  return targets_of;
 }
 
-std::string face_id(const std::string& crowd, std::uint64_t index) {
-  std::string digits = concat(index);
-  if (digits.size() < 4) digits.insert(0, 4 - digits.size(), '0');
-  return concat(crowd, '_', digits);
-}
-
-Recipe cast_face(const Casting& casting, std::uint64_t index) {
-  HandRecipe open;
-  open.id = face_id(casting.name, index);
-  Recipe recipe = cast_recipe(casting, open, FaceDraws(casting.seed, index, ""));
-  recipe.index = index;
-  return recipe;
-}
-
-std::vector<Recipe> cast_crowd(const Casting& casting) {
-  std::vector<Recipe> crowd;
-  crowd.reserve(casting.recipes.size() + casting.count);
+CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge) {
+  CrowdCast result;
+  CrowdSoFar crowd(judge.space().dimensions());
   for (const HandRecipe& hand : casting.recipes) {
-    crowd.push_back(cast_recipe(casting, hand, FaceDraws(casting.seed, 0, hand.id)));
+    Recipe recipe = draw_hand_recipe(casting, hand);
+    FaceSpace::Place place = judge.space().place(recipe);
+    crowd.add(std::move(recipe), std::move(place));
   }
-  for (std::uint64_t index = 1; index <= casting.count; ++index) {
-    crowd.push_back(cast_face(casting, index));
+  Kinship kinship;
+  for (const FamilyOptions& family : casting.families) {
+    Rejections rejections;
+    auto cast = cast_family(casting, family, judge, crowd, kinship, rejections);
+    result.rejections.add(rejections);
+    if (!cast) {
+      result.shortfall = Shortfall{0, rejections, -1, family.name};
+      return result;
+    }
+    result.families.push_back(std::move(*cast));
   }
-  return crowd;
+  result.quotas = schedule_quotas(casting.diversity.quotas, casting.count);
+  const TargetsOfQuota targets_of = targets_by_quota(casting);
+  if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
+    cast_spread(casting, judge, targets_of, kinship, crowd, result);
+  } else {
+    cast_first_fit(casting, judge, targets_of, kinship, crowd, result);
+  }
+  result.crowd = crowd.recipes();
+  result.places = crowd.places();
+  if (result.shortfall) return result;
+  find_nearest(judge, result);
+  for (const Review& review : casting.reviews) {
+    if (!result.shortfall) apply_review(casting, judge, review, result);
+  }
+  return result;
+}
+
+void find_nearest(const FaceJudge& judge, CrowdCast& cast) {
+  PlaceIndex index(judge.space().dimensions());
+  for (const FaceSpace::Place& place : cast.places) index.add(place);
+  parallel_for_each(index.size(), [&](Index i) {
+    const FaceSpace::Place& place = cast.places[static_cast<std::size_t>(i)];
+    Nearest nearest;
+    const PlaceIndex::Nearest head = judge.nearest_head(place);
+    nearest.head = head.face;
+    nearest.head_mm = head.mm;
+    if (i > 0) {
+      const PlaceIndex::Nearest face = index.nearest(place, HUGE_VAL, 0, i);
+      nearest.crowd = cast.crowd[static_cast<std::size_t>(face.face)].id;
+      nearest.crowd_mm = face.mm;
+    }
+    cast.crowd[static_cast<std::size_t>(i)].nearest = nearest;
+  });
 }
 
 }  // namespace crowdface

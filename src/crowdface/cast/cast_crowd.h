@@ -1,48 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "crowdface/blend/recipe.h"
-#include "crowdface/cast/sampling.h"
-#include "crowdface/smooth/smoothing_operator.h"
+#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/face_judge.h"
+#include "crowdface/cast/families.h"
+#include "crowdface/cast/quotas.h"
 
 namespace crowdface {
 
-/// What turns a smoothness into iterations on this face set.
-struct LevelScale {
-  OperatorKind kind = OperatorKind::kUmbrella;
-  std::uint64_t max_level = 1;  ///< L_max, what smoothness 1 stands for
-  double edge_length_mm = 1;    ///< rms edge length of the skin, averaged over the face set
+/// Where casting had to stop.
+struct Shortfall {
+  std::uint64_t reached = 0;  ///< sampled faces that were found
+  Rejections rejections;      ///< why the next one's candidates were thrown away
+  int quota = -1;             ///< that the next one counts for, or −1
+  std::string family = {};    ///< that could not be cast, if it was one
+  std::string reviewed = {};  ///< the id of a face that could not be drawn anew, if it was one
 };
 
-/// All that casting needs to know.
-struct Casting {
-  std::string name;         ///< the crowd's
-  std::uint64_t count = 0;  ///< sampled faces
-  std::uint64_t seed = 1;
-  std::vector<PlanePoint> anchors;        ///< #heads
-  std::vector<std::string> region_names;  ///< "all" if there are no regions
-  SamplingOptions sampling;
-  std::vector<HandRecipe> recipes;
-  Normalization normalization = Normalization::kPartition;
-  LevelScale scale;
+/// A crowd that was cast.
+struct CrowdCast {
+  std::vector<Recipe> crowd;             ///< recipes, then families, then faces 1 … count
+  std::vector<FaceSpace::Place> places;  ///< of each
+  std::vector<int> quotas;               ///< which quota each sampled face counts for, or −1
+  std::vector<FamilyCast> families;
+  Rejections rejections;
+  std::optional<Shortfall> shortfall;
 };
 
-/// Whole iterations of a smoothness: the nearest to smoothness·L_max.
-std::uint64_t iterations_of(double smoothness, const LevelScale& scale);
-
-/// The id of sampled face `index`: the crowd's name and at least four digits.
-std::string face_id(const std::string& crowd, std::uint64_t index);
-
-/// The recipe of sampled face `index` (from 1): a pure function of the arguments, so that it is the
-/// same whatever the count or the order.
-Recipe cast_face(const Casting& casting, std::uint64_t index);
-
-/// Hand-written recipes in their order, then faces 1 … count.
+/// Casts the crowd: hand-written recipes in their order, then families, then the sampled faces, each
+/// judged before it joins; then the reviews, one after the other. Each face gets its nearest head
+/// and the nearest face that was there before it. Effort is bounded; what cannot be met ends in a shortfall, not in an exception.
 /// \throws InvalidInput if a hand-written recipe's weights cannot be normalised.
-std::vector<Recipe> cast_crowd(const Casting& casting);
+CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge);
+
+/// The targets that faces of no quota may have, then those of each.
+TargetsOfQuota targets_by_quota(const Casting& casting);
+
+/// The nearest head and the nearest face before it, for each face of a crowd.
+void find_nearest(const FaceJudge& judge, CrowdCast& cast);
+
+/// Draws the faces anew that a review rejects, against all others, and notes what it says. All other
+/// faces stay as they are. \throws InvalidInput if it names a face that is not in the crowd.
+void apply_review(const Casting& casting, const FaceJudge& judge, const Review& review,
+                  CrowdCast& cast);
 
 }  // namespace crowdface

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/mesh/normals.h"
+#include "crowdface/cast/face_area.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -12,49 +12,69 @@ namespace {
 
 constexpr int kTrajectorySteps = 63;
 
-/// The area of the faces around each vertex of the face, shared out among their corners.
-std::vector<double> face_areas(const Topology& topology, const Components& components,
-                               const Positions& mean, Axis front) {
-  const std::uint32_t skin = components.largest();
-  const auto on_skin = [&](Index i) {
-    return components.of_vertex[static_cast<std::size_t>(i)] == skin;
+/// How densely each vertex is to be sampled; sums to one.
+std::vector<double> sampling_density(const Topology& topology, const Components& components,
+                                     const Positions& mean, Axis front) {
+  const std::vector<double> face = face_areas(topology, components, mean, FaceArea::kFront, front);
+  const std::vector<double> skin = face_areas(topology, components, mean, FaceArea::kSkin, front);
+  std::vector<double> vertices(skin.size());
+  std::transform(skin.begin(), skin.end(), vertices.begin(),
+                 [](double area) { return area > 0 ? 1.0 : 0.0; });
+  std::vector<double> density(skin.size(), 0.0);
+  const auto add = [&](const std::vector<double>& part, double share) {
+    double total = 0;
+    for (const double value : part) total += value;
+    if (total == 0) return;
+    for (std::size_t i = 0; i < part.size(); ++i) density[i] += share * part[i] / total;
   };
-  double low = HUGE_VAL, high = -HUGE_VAL;
+  add(face, 0.5);
+  add(skin, 0.25);
+  add(vertices, 0.25);
+  return density;
+}
+
+/// Vertices along a curve through all of space (Morton 1966), so that neighbours in the order are
+/// mostly neighbours in space.
+std::vector<std::uint32_t> order_along_curve(const Positions& mean) {
+  constexpr std::uint64_t kCells = 1 << 16;
+  const Eigen::RowVector3d low = mean.colwise().minCoeff();
+  const double size = std::max((mean.colwise().maxCoeff() - low).maxCoeff(), 1e-300);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> coded;
+  coded.reserve(static_cast<std::size_t>(mean.rows()));
   for (Index i = 0; i < mean.rows(); ++i) {
-    if (!on_skin(i)) continue;
-    low = std::min(low, front.sign * mean(i, front.index));
-    high = std::max(high, front.sign * mean(i, front.index));
-  }
-  const double middle = 0.5 * (low + high);
-  std::vector<double> areas(static_cast<std::size_t>(mean.rows()), 0.0);
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const Eigen::Vector3d area = face_area_vector(topology, f, mean);
-    const auto face = topology.face(f);
-    const double share = std::sqrt(area.squaredNorm()) / static_cast<double>(face.size());
-    for (const std::uint32_t i : face) {
-      if (on_skin(i) && front.sign * mean(i, front.index) >= middle) areas[i] += share;
+    std::uint64_t code = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double at = (mean(i, c) - low(c)) / size * static_cast<double>(kCells - 1);
+      const auto cell = static_cast<std::uint64_t>(at);
+      for (int bit = 0; bit < 16; ++bit) {
+        code |= (cell >> bit & 1U) << (3 * bit + c);
+      }
     }
+    coded.emplace_back(code, static_cast<std::uint32_t>(i));
   }
-  return areas;
+  std::sort(coded.begin(), coded.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(coded.size());
+  for (const auto& entry : coded) order.push_back(entry.second);
+  return order;
 }
 
 }  // namespace
 
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count) {
-  const std::vector<double> areas = face_areas(topology, components, mean, front);
-  double total = 0;
-  for (const double area : areas) total += area;
-  // Systematic sampling: one step along the summed area, one sample.
-  const double step = total / static_cast<double>(count);
+  const std::vector<double> density = sampling_density(topology, components, mean, front);
+  // Systematic sampling: one step along the summed density, one sample.
+  const double step = 1 / static_cast<double>(count);
   FaceSamples samples;
   double sum = 0, next = 0.5 * step;
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    sum += areas[i];
-    if (areas[i] == 0 || sum < next) continue;
-    samples.push_back(static_cast<std::uint32_t>(i));
+  for (const std::uint32_t i : order_along_curve(mean)) {
+    sum += density[i];
+    if (density[i] == 0 || sum < next) continue;
+    samples.push_back(i);
     while (next <= sum) next += step;  // a vertex is taken once, however large its share
   }
+  std::sort(samples.begin(), samples.end());
   return samples;
 }
 
@@ -81,6 +101,19 @@ Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& no
     }
   }
   return trajectory;
+}
+
+std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level) {
+  const auto upper = std::upper_bound(levels.begin(), levels.end(), level);
+  const Index high = std::min<Index>(upper - levels.begin(), static_cast<Index>(levels.size()) - 1);
+  const Index low = std::max<Index>(high - 1, 0);
+  const auto root = [](std::uint64_t value) { return std::sqrt(static_cast<double>(value)); };
+  const double from = root(levels[static_cast<std::size_t>(low)]);
+  const double to = root(levels[static_cast<std::size_t>(high)]);
+  const double t = to > from ? std::clamp((root(level) - from) / (to - from), 0.0, 1.0) : 0.0;
+  if (t == 0) return {{low, 1}};
+  if (t == 1) return {{high, 1}};
+  return {{low, 1 - t}, {high, t}};
 }
 
 }  // namespace crowdface

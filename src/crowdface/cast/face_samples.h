@@ -10,14 +10,14 @@
 
 namespace crowdface {
 
-/// Vertices at which faces are compared, ascending. Each stands for the same share of the face's
-/// area, so that plain sums over them are integrals over the face.
+/// Vertices at which faces are compared and judged without being built, ascending.
 using FaceSamples = std::vector<std::uint32_t>;
 
-/// Samples spread evenly by area over the face: the skin (the largest component) in front of the
-/// head's middle.
+/// Samples spread over the skin (the largest component): half of them by area over its front half,
+/// where the face is; the others over all of it, by area and by vertices, so that lips and lids,
+/// which are small but finely meshed, get their share.
 /// \param mean   #V by 3, the mean head.
-/// \param count  how many; fewer if the face has fewer vertices.
+/// \param count  how many; fewer if the skin has fewer vertices.
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count);
 
@@ -31,5 +31,17 @@ using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// The trajectory of one head, from what the filter says at the nodes.
 Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                              const NodeFields& fields, const FaceSamples& samples);
+
+/// A row of a trajectory and how much of it a level takes.
+struct LevelTerm {
+  Index row = 0;
+  double factor = 0;
+};
+
+/// How any level is put together from the rows of a trajectory: between two stored levels linear in
+/// √L, in which trajectories are nearly straight. This is the only place that knows how levels are
+/// represented; all of casting goes through it.
+/// \param levels  those of the rows, ascending.
+std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level);
 
 }  // namespace crowdface

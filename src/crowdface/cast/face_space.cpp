@@ -5,128 +5,394 @@
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/random.h"
+#include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
 
 namespace crowdface {
 namespace {
 
-/// Sum of squared differences in a fixed order, given up as soon as it exceeds `limit`.
-double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
-  constexpr Index kChunk = 256;
+/// What a basis may leave of a field, rms over the face in millimetres.
+constexpr double kFieldTolerance = 0.004;
+constexpr Index kMostFunctions = 400;
+/// What the main directions may leave of a face; what they leave of each still counts as one more
+/// coordinate.
+constexpr double kFaceTolerance = 0.05;
+constexpr Index kMostDirections = 192;
+constexpr std::uint64_t kTrainingFaces = 1024;
+
+double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
   double sum = 0;
-  for (Index begin = 0; begin < a.size() && sum <= limit; begin += kChunk) {
-    const Index end = std::min(a.size(), begin + kChunk);
-    float lanes[8] = {};
-    for (Index i = begin; i < end; ++i) {
-      const float d = a[i] - b[i];
-      lanes[i % 8] += d * d;
-    }
-    for (const float lane : lanes) sum += static_cast<double>(lane);
+  for (Index i = 0; i < a.size(); ++i) {
+    const double d = static_cast<double>(a[i]) - static_cast<double>(b[i]);
+    sum += d * d;
   }
   return sum;
-}
-
-double squared_distance(const FaceSpace::Place& a, const FaceSpace::Place& b, double limit) {
-  const double as_built = squared_distance(a.as_built, b.as_built, limit);
-  return std::min(as_built, squared_distance(a.unit, b.unit, std::min(limit, as_built)));
 }
 
 }  // namespace
 
-FaceSpace::FaceSpace(const FaceSet& faces, const RegionWeights& regions, FaceSamples samples,
-                     std::span<const Trajectory> trajectories, std::uint64_t max_level,
-                     double mm_per_unit)
-    : trajectories_(trajectories),
-      levels_(trajectory_levels(max_level)),
-      mm_per_unit_(mm_per_unit) {
+SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
+                          const FaceSamples& samples, std::span<const Trajectory> trajectories,
+                          std::uint64_t max_level, double mm_per_unit) {
   const auto count = static_cast<Index>(samples.size());
-  mean_ = Positions::Zero(count, 3);
+  SampledHeads sampled;
+  sampled.trajectories = trajectories;
+  sampled.levels = trajectory_levels(max_level);
+  sampled.mm_per_unit = mm_per_unit;
+  sampled.mean = Positions::Zero(count, 3);
   for (const Head& head : faces.heads) {
-    Positions& rows = heads_.emplace_back(count, 3);
+    Positions& rows = sampled.heads.emplace_back(count, 3);
     for (Index s = 0; s < count; ++s) {
-      rows.row(s) = head.positions.row(samples[static_cast<std::size_t>(s)]);
+      rows.row(s) = mm_per_unit * head.positions.row(samples[static_cast<std::size_t>(s)]);
     }
-    mean_ += rows;
+    sampled.mean += rows;
   }
-  mean_ /= static_cast<double>(faces.heads.size());
-  alpha_.resize(count, regions.alpha.cols());
+  sampled.mean /= static_cast<double>(faces.heads.size());
+  sampled.alpha.resize(count, regions.alpha.cols());
   for (Index s = 0; s < count; ++s) {
-    alpha_.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
+    sampled.alpha.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
   }
+  return sampled;
 }
 
-/// S_L D − D at the samples, D = B − e Σ ω̂_i C_i: between two stored levels linear in √L, in which
-/// trajectories are nearly straight.
-Positions FaceSpace::smoothed_difference(const RegionRecipe& region, Index target,
-                                         double extrapolation) const {
-  const auto upper = std::upper_bound(levels_.begin(), levels_.end(), region.iterations);
-  const Index high =
-      std::min<Index>(upper - levels_.begin(), static_cast<Index>(levels_.size()) - 1);
-  const Index low = std::max<Index>(high - 1, 0);
-  const double from = std::sqrt(static_cast<double>(levels_[static_cast<std::size_t>(low)]));
-  const double to = std::sqrt(static_cast<double>(levels_[static_cast<std::size_t>(high)]));
-  const double at = std::sqrt(static_cast<double>(region.iterations));
-  const double t = to > from ? std::clamp((at - from) / (to - from), 0.0, 1.0) : 0.0;
-
-  Positions sum = Positions::Zero(mean_.rows(), 3);
-  const auto add = [&](Index head, double factor) {
-    const Trajectory& trajectory = trajectories_[static_cast<std::size_t>(head)];
-    const float* a = trajectory.data() + low * trajectory.cols();
-    const float* b = trajectory.data() + high * trajectory.cols();
-    double* out = sum.data();
-    for (Index i = 0; i < sum.size(); ++i) {
-      const double from_low = static_cast<double>(a[i]);
-      out[i] += factor * (from_low + t * (static_cast<double>(b[i]) - from_low));
-    }
-  };
-  add(target, 1);
-  for (const SourceWeight& source : region.weights) {
-    add(source.head, -extrapolation * source.weight);
-  }
-  return sum;
-}
-
-Positions FaceSpace::samples_of(const Recipe& recipe, bool unit_extrapolation) const {
-  Positions samples = heads_[static_cast<std::size_t>(recipe.target)];
+Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
+  Positions face = heads.heads[static_cast<std::size_t>(recipe.target)];
+  // In single precision, as the trajectories are: casting does this for every face it accepts.
+  std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     const RegionRecipe& region = recipe.regions[k];
-    const Positions change =
-        smoothed_difference(region, recipe.target, unit_extrapolation ? 1.0 : region.extrapolation);
-    for (Index s = 0; s < samples.rows(); ++s) {
-      const double alpha = alpha_(s, static_cast<Index>(k));
-      for (Index c = 0; c < 3; ++c) samples(s, c) += alpha * change(s, c);  // Eq. 7
+    const double e = variant == Variant::kUnit ? 1 : region.extrapolation;
+    std::fill(change.begin(), change.end(), 0.F);
+    // S_L D − D at the samples, D = B − e Σ ω̂_i C_i.
+    for (const LevelTerm& term : level_terms(heads.levels, region.iterations)) {
+      const auto add = [&](Index head, double factor) {
+        const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(head)];
+        const float* row = trajectory.data() + term.row * trajectory.cols();
+        const auto f = static_cast<float>(factor * term.factor * heads.mm_per_unit);
+        float* out = change.data();
+        for (std::size_t i = 0; i < change.size(); ++i) out[i] += f * row[i];
+      };
+      add(recipe.target, 1);
+      for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
+    }
+    for (Index s = 0; s < face.rows(); ++s) {
+      const double alpha = heads.alpha(s, static_cast<Index>(k));
+      if (alpha == 0) continue;
+      for (Index c = 0; c < 3; ++c) {
+        face(s, c) += alpha * static_cast<double>(change[static_cast<std::size_t>(3 * s + c)]);
+      }
     }
   }
-  return samples;
+  return face;  // Eq. 7
 }
 
-Eigen::VectorXf FaceSpace::aligned(const Positions& samples) const {
-  const Positions moved = samples.rows() < 3
-                              ? samples
-                              : fit_similarity(samples, mean_, ScaleFit::kRigid).apply(samples);
-  Eigen::VectorXf flat(moved.size());
-  for (Index i = 0; i < moved.size(); ++i) {
-    flat[i] = static_cast<float>(moved.data()[i] * mm_per_unit_);
+FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights)
+    : heads_(std::move(heads)) {
+  build_basis(weights);
+  build_directions();
+  if (heads_.alpha.cols() > 1) build_region_metrics();
+}
+
+/// Every face is a sum of the heads and of their smoothed-away fields under the masks. Orthonormal
+/// scalar functions that span all of those turn the samples of a face into #P by 3 numbers, in
+/// which rotations and distances are what they are at the samples, and the centre is the origin.
+void FaceSpace::build_basis(const std::vector<double>& weights) {
+  std::vector<Index>& counting = counting_;
+  for (Index s = 0; s < heads_.mean.rows(); ++s) {
+    if (weights[static_cast<std::size_t>(s)] > 0) counting.push_back(s);
   }
-  return flat;
+  const auto size = static_cast<Index>(counting.size());
+  Eigen::VectorXf& roots = roots_;
+  roots.resize(size);
+  for (Index i = 0; i < size; ++i) {
+    const auto s = static_cast<std::size_t>(counting[static_cast<std::size_t>(i)]);
+    roots[i] = static_cast<float>(std::sqrt(weights[s]));
+  }
+  const Index heads = head_count(), regions = heads_.alpha.cols();
+  const auto rows_of_levels = static_cast<Index>(heads_.levels.size());
+
+  // Few directions span the levels of all heads together; the fields are made for those alone.
+  FloatRows levels(rows_of_levels, heads * 3 * size);
+  for (Index h = 0; h < heads; ++h) {
+    const Trajectory& trajectory = heads_.trajectories[static_cast<std::size_t>(h)];
+    for (Index l = 0; l < rows_of_levels; ++l) {
+      for (Index i = 0; i < size; ++i) {
+        for (Index c = 0; c < 3; ++c) {
+          const double value =
+              static_cast<double>(trajectory(l, 3 * counting[static_cast<std::size_t>(i)] + c));
+          levels(l, (h * 3 + c) * size + i) =
+              static_cast<float>(value * heads_.mm_per_unit) * roots[i];
+        }
+      }
+    }
+  }
+  const SpanBasis modes = span_basis(std::move(levels), kFieldTolerance, rows_of_levels);
+  const Index rank = modes.directions.rows();
+
+  // Rows: the mean head's x, y, z, then each head's deviation, then the fields.
+  FloatRows rows(3 + 3 * heads + 3 * rank * heads * regions, size);
+  const auto put = [&](Index row, auto&& value) {
+    double mean = 0;  // of the function over the face, which translation takes away
+    for (Index i = 0; i < size; ++i) {
+      const double scaled = static_cast<double>(roots[i]) * value(i);
+      rows(row, i) = static_cast<float>(scaled);
+      mean += static_cast<double>(roots[i]) * scaled;
+    }
+    for (Index i = 0; i < size; ++i) rows(row, i) -= static_cast<float>(mean) * roots[i];
+  };
+  const auto at = [&](Index i) { return counting[static_cast<std::size_t>(i)]; };
+  for (Index c = 0; c < 3; ++c) {
+    put(c, [&](Index i) { return heads_.mean(at(i), c); });
+    for (Index h = 0; h < heads; ++h) {
+      const Positions& head = heads_.heads[static_cast<std::size_t>(h)];
+      put(3 + 3 * h + c, [&](Index i) { return head(at(i), c) - heads_.mean(at(i), c); });
+    }
+  }
+  const Index first_field = 3 + 3 * heads;
+  const auto field_row = [&](Index k, Index h, Index r) {
+    return first_field + 3 * ((k * heads + h) * rank + r);
+  };
+  parallel_for_each(regions * heads, [&](Index kh) {
+    const Index k = kh / heads, h = kh % heads;
+    for (Index r = 0; r < rank; ++r) {
+      for (Index c = 0; c < 3; ++c) {
+        const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
+        put(field_row(k, h, r) + c, [&](Index i) {
+          // The roots are in the mode already.
+          return heads_.alpha(at(i), k) * static_cast<double>(mode[i]) /
+                 static_cast<double>(roots[i]);
+        });
+      }
+    }
+  });
+  // A mode's own length is one, so its rows are scaled to what the largest level takes of them.
+  std::vector<float> scale(static_cast<std::size_t>(rank), 0.F);
+  for (Index r = 0; r < rank; ++r) {
+    float& largest = scale[static_cast<std::size_t>(r)];
+    for (Index l = 0; l < rows_of_levels; ++l) {
+      largest = std::max(largest, std::abs(modes.coordinates(l, r)));
+    }
+    for (Index kh = 0; kh < regions * heads; ++kh) {
+      const Index row = field_row(kh / heads, kh % heads, r);
+      for (Index i = 0; i < 3 * size; ++i) rows.row(row).data()[i] *= largest;
+    }
+  }
+  const SpanBasis basis = span_basis(std::move(rows), kFieldTolerance, kMostFunctions);
+  basis_ = basis.directions;
+  const Index functions = basis_.rows();
+  const auto shape_at = [&](Index row) {
+    Shape shape(functions, 3);
+    for (Index p = 0; p < functions; ++p) {
+      for (Index c = 0; c < 3; ++c) shape(p, c) = basis.coordinates(row + c, p);
+    }
+    return shape;
+  };
+  mean_shape_ = shape_at(0);
+  for (Index h = 0; h < heads; ++h) shapes_.push_back(mean_shape_ + shape_at(3 + 3 * h));
+  fields_.assign(static_cast<std::size_t>(regions * heads * rows_of_levels * functions * 3), 0.F);
+  parallel_for_each(regions * heads, [&](Index kh) {
+    for (Index r = 0; r < rank; ++r) {
+      const Shape mode = shape_at(field_row(kh / heads, kh % heads, r));
+      for (Index l = 0; l < rows_of_levels; ++l) {
+        const float factor = modes.coordinates(l, r) / scale[static_cast<std::size_t>(r)];
+        float* out = fields_.data() + (kh * rows_of_levels + l) * functions * 3;
+        for (Index i = 0; i < functions * 3; ++i) out[i] += factor * mode.data()[i];
+      }
+    }
+  });
+}
+
+const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
+  const auto rows = static_cast<Index>(heads_.levels.size());
+  const Index at = (static_cast<Index>(region) * head_count() + head) * rows + row;
+  return fields_.data() + at * mean_shape_.size();
+}
+
+FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Variant variant) const {
+  Shape shape = shapes_[static_cast<std::size_t>(recipe.target)];
+  const Index size = shape.size();
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    const RegionRecipe& region = recipe.regions[k];
+    const double e = variant == Variant::kUnit ? 1 : region.extrapolation;
+    for (const LevelTerm& term : level_terms(heads_.levels, region.iterations)) {
+      const auto add = [&](Index head, double factor) {
+        const auto f = static_cast<float>(factor * term.factor);
+        const float* from = field(k, head, term.row);
+        float* out = shape.data();
+        for (Index i = 0; i < size; ++i) out[i] += f * from[i];
+      };
+      add(recipe.target, 1);
+      for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
+    }
+  }
+  return shape;
+}
+
+/// The shape turned onto the mean head, less the mean head.
+std::vector<float> FaceSpace::aligned(const Shape& shape) const {
+  std::vector<double> covariance(9, 0.0);
+  for (Index p = 0; p < shape.rows(); ++p) {
+    for (Index a = 0; a < 3; ++a) {
+      for (Index b = 0; b < 3; ++b) {
+        covariance[static_cast<std::size_t>(3 * a + b)] +=
+            static_cast<double>(mean_shape_(p, a)) * static_cast<double>(shape(p, b));
+      }
+    }
+  }
+  const Eigen::Matrix3d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(covariance.data());
+  const Eigen::Matrix3d rotation = best_rotation(matrix);
+  std::vector<float> turned(static_cast<std::size_t>(shape.size()));
+  for (Index p = 0; p < shape.rows(); ++p) {
+    for (Index a = 0; a < 3; ++a) {
+      double sum = 0;
+      for (Index b = 0; b < 3; ++b) sum += rotation(a, b) * static_cast<double>(shape(p, b));
+      turned[static_cast<std::size_t>(3 * p + a)] =
+          static_cast<float>(sum - static_cast<double>(mean_shape_(p, a)));
+    }
+  }
+  return turned;
+}
+
+/// A face as casting might make one, from all that heads and levels have, so that the main
+/// directions know every way in which faces differ.
+Recipe FaceSpace::training_recipe(std::uint64_t index) const {
+  const auto draw = [&](const std::string& purpose, std::uint32_t lane) {
+    return random_pair({0, index, purpose, 0}, lane);
+  };
+  const auto head_at = [&](double unit) {
+    return std::min(static_cast<Index>(unit * static_cast<double>(head_count())), head_count() - 1);
+  };
+  Recipe recipe;
+  recipe.target = head_at(draw("training/target", 0)[0]);
+  for (Index k = 0; k < heads_.alpha.cols(); ++k) {
+    const std::string purpose = concat("training/", k);
+    RegionRecipe region;
+    std::vector<SourceWeight> weights;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto [which, weight] = draw(purpose, i);
+      weights.push_back({head_at(which), weight * weight + 1e-3});
+    }
+    region.weights = normalized_weights(std::move(weights));
+    const auto [level, factor] = draw(purpose, 3);
+    region.iterations =
+        static_cast<std::uint64_t>(level * static_cast<double>(heads_.levels.back()));
+    region.extrapolation = 0.6 + 0.8 * factor;
+    recipe.regions.push_back(std::move(region));
+  }
+  return recipe;
+}
+
+void FaceSpace::build_directions() {
+  const Index heads = head_count();
+  FloatRows rows(heads + static_cast<Index>(kTrainingFaces), mean_shape_.size());
+  parallel_for_each(rows.rows(), [&](Index n) {
+    const std::vector<float> at =
+        n < heads ? aligned(shapes_[static_cast<std::size_t>(n)])
+                  : aligned(shape_of(training_recipe(static_cast<std::uint64_t>(n - heads)),
+                                     Variant::kAsBuilt));
+    std::copy(at.begin(), at.end(), rows.row(n).data());
+  });
+  directions_ = span_basis(std::move(rows), kFaceTolerance, kMostDirections).directions;
+  directions_transposed_ = directions_.transpose();
+}
+
+Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
+  const std::vector<float> at = aligned(shape);
+  const Index rank = directions_.rows(), size = static_cast<Index>(at.size());
+  Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
+  for (Index i = 0; i < size; ++i) {
+    const float value = at[static_cast<std::size_t>(i)];
+    const float* column = directions_transposed_.row(i).data();
+    for (Index d = 0; d < rank; ++d) result[d] += value * column[d];
+  }
+  // How far the face is from the directions' span: |a| − |b| of it is at most |a − b|.
+  const double rest =
+      fixed_dot(at.data(), at.data(), size) - fixed_dot(result.data(), result.data(), rank);
+  result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
+  return result;
 }
 
 FaceSpace::Place FaceSpace::place(const Recipe& recipe) const {
-  return {aligned(samples_of(recipe, false)), aligned(samples_of(recipe, true))};
+  Place place;
+  place.as_built = coordinates(shape_of(recipe, Variant::kAsBuilt));
+  const bool unit = std::all_of(recipe.regions.begin(), recipe.regions.end(),
+                                [](const RegionRecipe& r) { return r.extrapolation == 1; });
+  place.unit = unit ? place.as_built : coordinates(shape_of(recipe, Variant::kUnit));
+  return place;
 }
 
 FaceSpace::Place FaceSpace::place_head(Index head) const {
-  const Eigen::VectorXf at = aligned(heads_[static_cast<std::size_t>(head)]);
+  const Eigen::VectorXf at = coordinates(shapes_[static_cast<std::size_t>(head)]);
   return {at, at};
 }
 
-double FaceSpace::distance(const Place& a, const Place& b) const {
-  if (a.as_built.size() == 0) return 0;
-  return std::sqrt(squared_distance(a, b, HUGE_VAL) * 3 / static_cast<double>(a.as_built.size()));
+double FaceSpace::distance(const Place& a, const Place& b) {
+  return std::sqrt(
+      std::min(squared_distance(a.as_built, b.as_built), squared_distance(a.unit, b.unit)));
+}
+
+/// The metric of region k is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s), carried over to the main directions
+/// once: with the basis' values at the samples G_k = U diag(α_k) Uᵀ on the functions, then V G_k Vᵀ.
+void FaceSpace::build_region_metrics() {
+  const Index functions = basis_.rows(), rank = directions_.rows();
+  for (Index k = 0; k < heads_.alpha.cols(); ++k) {
+    double share = 0;
+    FloatRows masked = basis_;  // its values hold √w_s
+    for (Index i = 0; i < basis_.cols(); ++i) {
+      const double alpha = heads_.alpha(counting_[static_cast<std::size_t>(i)], k);
+      share += static_cast<double>(roots_[i]) * static_cast<double>(roots_[i]) * alpha;
+      const auto root = static_cast<float>(std::sqrt(std::max(alpha, 0.0)));
+      for (Index p = 0; p < functions; ++p) masked(p, i) *= root;
+    }
+    region_shares_.push_back(share);
+    FloatRows gram(functions, functions);
+    parallel_for_each(functions, [&](Index p) {
+      for (Index q = 0; q < functions; ++q) {
+        gram(p, q) = static_cast<float>(
+            fixed_dot(masked.row(p).data(), masked.row(q).data(), masked.cols()));
+      }
+    });
+    FloatRows metric(rank, rank);
+    parallel_for_each(rank, [&](Index d) {
+      // G_k applied to direction d, coordinate by coordinate.
+      std::vector<float> along(static_cast<std::size_t>(3 * functions), 0.F);
+      for (Index p = 0; p < functions; ++p) {
+        for (Index q = 0; q < functions; ++q) {
+          for (Index c = 0; c < 3; ++c) {
+            along[static_cast<std::size_t>(3 * p + c)] += gram(p, q) * directions_(d, 3 * q + c);
+          }
+        }
+      }
+      for (Index e = 0; e < rank; ++e) {
+        metric(e, d) =
+            static_cast<float>(fixed_dot(directions_.row(e).data(), along.data(), 3 * functions));
+      }
+    });
+    region_metrics_.push_back(std::move(metric));
+  }
+}
+
+double FaceSpace::region_distance(const Place& a, const Place& b, Index region) const {
+  if (region_metrics_.empty()) return distance(a, b);
+  const auto k = static_cast<std::size_t>(region);
+  const FloatRows& metric = region_metrics_[k];
+  if (!(region_shares_[k] > 0)) return 0;
+  const auto squared = [&](const Eigen::VectorXf& x, const Eigen::VectorXf& y) {
+    const Eigen::VectorXf d = x.head(metric.rows()) - y.head(metric.rows());
+    double sum = 0;
+    for (Index i = 0; i < metric.rows(); ++i) {
+      sum += static_cast<double>(d[i]) * fixed_dot(metric.row(i).data(), d.data(), metric.rows());
+    }
+    return std::max(sum, 0.0);
+  };
+  return std::sqrt(std::min(squared(a.as_built, b.as_built), squared(a.unit, b.unit)) /
+                   region_shares_[k]);
 }
 
 Eigen::MatrixXd FaceSpace::head_distances() const {
-  const auto count = static_cast<Index>(heads_.size());
+  const Index count = head_count();
   std::vector<Place> places;
   for (Index h = 0; h < count; ++h) places.push_back(place_head(h));
   Eigen::MatrixXd distances(count, count);
@@ -137,41 +403,6 @@ Eigen::MatrixXd FaceSpace::head_distances() const {
     }
   }
   return distances;
-}
-
-void FaceSpace::find_nearest(std::vector<Recipe>& crowd) const {
-  const auto faces = static_cast<Index>(crowd.size());
-  std::vector<Place> heads, places(crowd.size());
-  for (Index h = 0; h < static_cast<Index>(heads_.size()); ++h) heads.push_back(place_head(h));
-  parallel_for_each(faces, [&](Index i) {
-    places[static_cast<std::size_t>(i)] = place(crowd[static_cast<std::size_t>(i)]);
-  });
-  parallel_for_each(faces, [&](Index i) {
-    const Place& here = places[static_cast<std::size_t>(i)];
-    // Of equally near ones the first.
-    const auto nearest_of = [&](const std::vector<Place>& others, Index count) {
-      std::pair<Index, double> best{-1, HUGE_VAL};
-      for (Index j = 0; j < count; ++j) {
-        const double squared =
-            squared_distance(here, others[static_cast<std::size_t>(j)], best.second);
-        if (squared < best.second) best = {j, squared};
-      }
-      return best;
-    };
-    const auto to_mm = [&](double squared) {
-      return std::sqrt(squared * 3 / static_cast<double>(std::max<Index>(here.as_built.size(), 1)));
-    };
-    Nearest nearest;
-    const auto [head, head_squared] = nearest_of(heads, static_cast<Index>(heads.size()));
-    nearest.head = head;
-    nearest.head_mm = to_mm(head_squared);
-    if (i > 0) {
-      const auto [face, face_squared] = nearest_of(places, i);
-      nearest.crowd = crowd[static_cast<std::size_t>(face)].id;
-      nearest.crowd_mm = to_mm(face_squared);
-    }
-    crowd[static_cast<std::size_t>(i)].nearest = nearest;
-  });
 }
 
 }  // namespace crowdface

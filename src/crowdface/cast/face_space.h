@@ -6,53 +6,91 @@
 
 #include "crowdface/blend/recipe.h"
 #include "crowdface/cast/face_samples.h"
+#include "crowdface/cast/span_basis.h"
 #include "crowdface/region/region_weights.h"
 
 namespace crowdface {
 
-/// Where faces lie at the samples, computed from recipes alone: enough to tell how far apart two
-/// faces are without building a mesh. Every face is aligned rigidly to the mean head there, which
-/// matches pairwise alignment closely (design notes in docs/method.md).
+/// What faces are made of, at the samples: enough to tell where any recipe's samples lie.
+struct SampledHeads {
+  std::vector<Positions> heads;  ///< #S by 3 each, in millimetres
+  Positions mean;                ///< #S by 3
+  Columns alpha;                 ///< #S by #regions
+  std::span<const Trajectory> trajectories;
+  std::vector<std::uint64_t> levels;  ///< of the trajectories' rows
+  double mm_per_unit = 1;             ///< of the trajectories
+};
+
+SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
+                          const FaceSamples& samples, std::span<const Trajectory> trajectories,
+                          std::uint64_t max_level, double mm_per_unit);
+
+/// Which of the two faces a recipe stands for when distances are measured.
+enum class Variant {
+  kAsBuilt,
+  kUnit,  ///< every extrapolation factor set to 1
+};
+
+/// The samples of a recipe's face, #S by 3 in millimetres, not aligned (Eq. 7).
+Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant);
+
+/// Where faces lie, computed from recipes alone: enough to tell how far apart two faces are without
+/// building a mesh. Every face is aligned rigidly to the mean head, which matches pairwise alignment
+/// closely (docs/casting.md), and has coordinates in a space where straight lines measure the root
+/// mean square distance over the face in millimetres.
 class FaceSpace {
  public:
-  /// One face: its samples in millimetres, aligned, as built and with every extrapolation factor
-  /// set to 1 (extrapolation alone does not make another person).
+  /// One face. Extrapolation alone makes no other person, so there are two: as built, and with
+  /// every factor set to 1.
   struct Place {
-    Eigen::VectorXf as_built;
-    Eigen::VectorXf unit;
+    Eigen::VectorXf as_built;  ///< #dimensions
+    Eigen::VectorXf unit;      ///< the same if every factor is 1
   };
 
-  /// \param trajectories   one for each head, see sample_trajectory.
-  /// \param mm_per_unit    millimetres in one unit of the heads' positions.
-  FaceSpace(const FaceSet& faces, const RegionWeights& regions, FaceSamples samples,
-            std::span<const Trajectory> trajectories, std::uint64_t max_level, double mm_per_unit);
+  /// \param weights  #S, what each sample counts, see sample_weights; those of zero do not count.
+  FaceSpace(SampledHeads heads, const std::vector<double>& weights);
 
   Place place(const Recipe& recipe) const;
   /// An input head, whose two places are one.
   Place place_head(Index head) const;
 
+  Index dimensions() const { return directions_.rows() + 1; }
+  Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
+  const SampledHeads& sampled() const { return heads_; }
+
   /// Root mean square over the face in mm: the smaller of the distances between the faces as built
   /// and with factors of 1.
-  double distance(const Place& a, const Place& b) const;
+  static double distance(const Place& a, const Place& b);
+  /// The same over one region alone, the faces aligned as wholes.
+  double region_distance(const Place& a, const Place& b, Index region) const;
 
   /// Distances between all heads, #heads by #heads, in mm.
   Eigen::MatrixXd head_distances() const;
 
-  /// For each recipe the nearest head and the nearest face before it.
-  void find_nearest(std::vector<Recipe>& crowd) const;
-
  private:
-  Positions smoothed_difference(const RegionRecipe& region, Index target,
-                                double extrapolation) const;
-  Eigen::VectorXf aligned(const Positions& samples) const;
-  Positions samples_of(const Recipe& recipe, bool unit_extrapolation) const;
+  /// A face as a combination of the basis of scalar functions, #P by 3, not yet aligned.
+  using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  std::vector<Positions> heads_;  ///< #S by 3 each
-  Columns alpha_;                 ///< #S by #regions
-  std::span<const Trajectory> trajectories_;
-  std::vector<std::uint64_t> levels_;
-  Positions mean_;  ///< #S by 3
-  double mm_per_unit_;
+  void build_basis(const std::vector<double>& weights);
+  void build_directions();
+  void build_region_metrics();
+  Shape shape_of(const Recipe& recipe, Variant variant) const;
+  std::vector<float> aligned(const Shape& shape) const;
+  Eigen::VectorXf coordinates(const Shape& shape) const;
+  Recipe training_recipe(std::uint64_t index) const;
+  const float* field(std::size_t region, Index head, Index row) const;
+
+  SampledHeads heads_;
+  std::vector<Index> counting_;  ///< samples that count in a distance
+  Eigen::VectorXf roots_;        ///< √w of each
+  FloatRows basis_;              ///< #P by #S: orthonormal functions on the samples
+  Shape mean_shape_;             ///< #P by 3
+  std::vector<Shape> shapes_;    ///< of the heads
+  std::vector<float> fields_;    ///< α_k (S_L x_h − x_h): regions, heads, rows, then #P by 3
+  FloatRows directions_;         ///< #D by 3·#P: main directions of faces' aligned shapes
+  FloatRows directions_transposed_;
+  std::vector<FloatRows> region_metrics_;  ///< #regions (none of one), #D by #D, times its share
+  std::vector<double> region_shares_;      ///< of the face's area
 };
 
 }  // namespace crowdface

@@ -20,14 +20,18 @@ struct Range {
 /// Where on the weight plane a region's position is drawn.
 struct PositionDistribution {
   enum class Kind {
-    kUniform,  ///< anywhere in the convex hull of the sources' anchors
-    kAround,   ///< in the disc of `radius` around a head's anchor
-    kFixed,    ///< always at `at`
+    kAnchored,  ///< near the anchor of a source drawn at random, see `pull`
+    kUniform,   ///< anywhere in the convex hull of the sources' anchors
+    kAround,    ///< in the disc of `radius` around a head's anchor
+    kFixed,     ///< always at `at`
   };
-  Kind kind = Kind::kUniform;
+  Kind kind = Kind::kAnchored;
   std::optional<Eigen::Index> head;    ///< kAround: whose anchor; none: the face's own target's
   double radius = 0;                   ///< kAround: in units of the plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed
+  /// kAnchored: how far, at most, from that anchor towards a point anywhere in the hull; 0 stays on
+  /// it, 1 may go all the way.
+  double pull = 0.25;
 };
 
 /// How much is smoothed away, L.
@@ -38,7 +42,7 @@ struct SmoothnessDistribution {
     kSize,        ///< millimetres: the wavelength that is halved (docs/method.md)
   };
   Unit unit = Unit::kFraction;
-  Range range = {0.2, 0.8};
+  Range range = {0.2, 0.9};
 };
 
 /// The distributions of one region.
@@ -60,6 +64,9 @@ struct SamplingOptions {
   std::vector<Eigen::Index> sources;    ///< heads whose details take part, ascending
   std::vector<RegionSampling> regions;  ///< one for each region (one in all without regions)
   std::optional<int> max_sources;       ///< keep only the largest weights of a position; none: all
+  Range age = {0, 0};                   ///< of sampled faces, see apply_age
+  std::vector<Eigen::Index> old_heads;  ///< tagged old, ascending
+  std::vector<Eigen::Index> young_heads;
 };
 
 /// A face spelled out by hand; what is left out is drawn as for a sampled face.
@@ -73,6 +80,7 @@ struct HandRecipe {
   std::string id;
   std::optional<Eigen::Index> target;
   std::vector<Region> regions;  ///< one for each region
+  std::optional<Range> age;     ///< none: as for sampled faces
 };
 
 }  // namespace crowdface

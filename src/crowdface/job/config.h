@@ -9,6 +9,11 @@
 #include <vector>
 
 #include "crowdface/blend/normalization.h"
+#include "crowdface/cast/believability.h"
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/job/mesh_format.h"
@@ -77,7 +82,21 @@ struct Config {
   } plane;
 
   SamplingOptions sampling;
+
+  /// What counts when two faces are compared.
+  struct Distance {
+    FaceArea area = FaceArea::kFront;
+    std::optional<std::string> mask;  ///< image path, may hold <UDIM>; its first channel counts
+  } distance;
+  DiversityOptions diversity;
+  BelievabilityOptions believability;
   std::vector<HandRecipe> recipes;
+  std::vector<FamilyOptions> families;
+
+  struct Reviews {
+    std::vector<std::filesystem::path> files;
+    std::vector<Review> reviews;  ///< what stands in each
+  } review;
 
   struct ContactSheet {
     int columns = 6;

@@ -36,11 +36,12 @@ void read_parts(const YamlNode* node, Complaints& complaints) {
   if (node != nullptr) read_word(*node, {"none"}, complaints);
 }
 
-void read_root(const YamlNode& node, ConfigDraft& draft) {
-  const MapReader root(&node,
-                       {"schema", "crowd", "faces", "regions", "smoothing", "blending", "parts",
-                        "plane", "sampling", "recipes", "output"},
-                       draft.complaints);
+void read_root(const YamlNode& node, const ConfigOverrides& overrides, ConfigDraft& draft) {
+  const MapReader root(
+      &node,
+      {"schema", "crowd", "faces", "regions", "smoothing", "blending", "parts", "plane", "sampling",
+       "distance", "diversity", "believability", "recipes", "families", "review", "output"},
+      draft.complaints);
   if (node.kind != YamlNode::Kind::kMap) return;
   read_schema(root, draft.complaints);
   read_crowd(root.require("crowd", "such as \"crowd: {name: market, count: 24}\""), draft);
@@ -51,8 +52,28 @@ void read_root(const YamlNode& node, ConfigDraft& draft) {
   read_parts(root.find("parts"), draft.complaints);
   read_plane(root.find("plane"), draft);
   read_sampling(root.find("sampling"), draft);
+  read_distance(root.find("distance"), draft);
+  read_diversity(root.find("diversity"), draft);
+  read_believability(root.find("believability"), draft);
   read_recipes(root.find("recipes"), draft);
+  read_families(root.find("families"), draft);
+  if (overrides.review.empty()) read_review(root.find("review"), draft);
   read_output(root.find("output"), draft);
+}
+
+/// `--review`: unlike the paths of the file, relative to the working directory.
+void read_review_options(const std::vector<std::string>& files, ConfigDraft& draft) {
+  for (const std::string& file : files) {
+    YamlNode node;
+    node.kind = YamlNode::Kind::kScalar;
+    node.place.source = std::make_shared<const std::string>("--review");
+    node.text = file;
+    const auto text = read_text(node, "a review file", draft.complaints);
+    if (!text) continue;
+    draft.config.review.files.push_back(resolve("", *text));
+    draft.config.review.reviews.push_back(
+        read_review_file(draft.config.review.files.back(), node, draft));
+  }
 }
 
 /// `--out`: unlike the paths of the file, relative to the working directory.
@@ -76,7 +97,8 @@ ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigO
   auto root = read_yaml(file.string(), complaints);
   if (root) {
     apply(overrides, *root, complaints);
-    read_root(*root, draft);
+    read_root(*root, overrides, draft);
+    read_review_options(overrides.review, draft);
   }
   if (overrides.out) read_out(*overrides.out, draft);
   complaints.tell(problems);

@@ -17,6 +17,7 @@ struct ConfigOverrides {
   std::optional<std::string> count;  ///< `--count`, wins over `--set crowd.count`
   std::optional<std::string> seed;   ///< `--seed`
   std::optional<std::string> out;    ///< `--out`, relative to the working directory
+  std::vector<std::string> review;   ///< `--review`, likewise; in place of the key `review`
 };
 
 /// What could be read of a config, whatever is wrong with the rest.

@@ -129,7 +129,7 @@ void read_recipes(const YamlNode* node, ConfigDraft& draft) {
   }
   Ids ids;
   for (const YamlNode& item : node->items) {
-    const MapReader map(&item, {"id", "target", "regions"}, draft.complaints);
+    const MapReader map(&item, {"id", "target", "age", "regions"}, draft.complaints);
     HandRecipe recipe;
     if (const YamlNode* id = map.require("id", "the name of the face")) {
       read_id(*id, ids, recipe, draft);
@@ -138,6 +138,7 @@ void read_recipes(const YamlNode* node, ConfigDraft& draft) {
       const auto name = read_name(*target, draft.complaints);
       if (name) recipe.target = find_head(*name, target->place, target->path, draft);
     }
+    if (const YamlNode* age = map.find("age")) recipe.age = read_age(*age, draft);
     read_recipe_regions(map.find("regions"), recipe, draft);
     draft.config.recipes.push_back(std::move(recipe));
   }

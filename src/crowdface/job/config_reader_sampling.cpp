@@ -91,7 +91,7 @@ void read_per_region(const YamlNode* node, const Words& parameters, Value Region
   }
 }
 
-const Words kPositionKeys = {"distribution", "face", "radius", "position"};
+const Words kPositionKeys = {"distribution", "pull", "face", "radius", "position"};
 
 /// Which of the keys a distribution has no use for.
 void refuse_keys(const YamlNode& node, const std::string& distribution, const Words& keys,
@@ -120,25 +120,33 @@ void read_around(const MapReader& map, PositionDistribution& position, ConfigDra
 
 std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDraft& draft) {
   const MapReader map(&node, kPositionKeys, draft.complaints);
-  const YamlNode* kind = map.require("distribution", "uniform, around or fixed");
+  const YamlNode* kind = map.require("distribution", "anchored, uniform, around or fixed");
   if (kind == nullptr) return std::nullopt;
   using Kind = PositionDistribution::Kind;
-  const Choices<Kind> choices = {
-      {"uniform", Kind::kUniform}, {"around", Kind::kAround}, {"fixed", Kind::kFixed}};
+  const Choices<Kind> choices = {{"anchored", Kind::kAnchored},
+                                 {"uniform", Kind::kUniform},
+                                 {"around", Kind::kAround},
+                                 {"fixed", Kind::kFixed}};
   const auto chosen = read_choice(*kind, choices, draft.complaints);
   if (!chosen) return std::nullopt;
   PositionDistribution position;
   position.kind = *chosen;
   switch (*chosen) {
+    case Kind::kAnchored:
+      refuse_keys(node, "anchored", {"face", "radius", "position"}, draft);
+      if (const YamlNode* pull = map.find("pull")) {
+        position.pull = read_number(*pull, 0, 1, draft.complaints).value_or(position.pull);
+      }
+      break;
     case Kind::kUniform:
-      refuse_keys(node, "uniform", {"face", "radius", "position"}, draft);
+      refuse_keys(node, "uniform", {"pull", "face", "radius", "position"}, draft);
       break;
     case Kind::kAround:
-      refuse_keys(node, "around", {"position"}, draft);
+      refuse_keys(node, "around", {"pull", "position"}, draft);
       read_around(map, position, draft);
       break;
     case Kind::kFixed:
-      refuse_keys(node, "fixed", {"face", "radius"}, draft);
+      refuse_keys(node, "fixed", {"pull", "face", "radius"}, draft);
       if (const YamlNode* at = map.require("position", "a point of the plane, [x, y]")) {
         position.at = read_point(*at, draft.complaints).value_or(PlanePoint::Zero());
       }
@@ -217,7 +225,33 @@ std::vector<Eigen::Index> all_heads(const ConfigDraft& draft) {
   return heads;
 }
 
+std::vector<Eigen::Index> heads_tagged(std::string_view tag, const ConfigDraft& draft) {
+  std::vector<Eigen::Index> heads;
+  const auto& tags = draft.config.faces.tags;
+  for (std::size_t h = 0; h < tags.size(); ++h) {
+    if (std::find(tags[h].begin(), tags[h].end(), tag) != tags[h].end()) {
+      heads.push_back(static_cast<Eigen::Index>(h));
+    }
+  }
+  return heads;
+}
+
 }  // namespace
+
+std::optional<Range> read_age(const YamlNode& node, ConfigDraft& draft) {
+  const auto range = read_range(node, draft.complaints, [&](const YamlNode& value) {
+    return read_number(value, -1, 1, draft.complaints);
+  });
+  if (!range || !draft.tags_known || !draft.heads_known) return range;
+  const auto need = [&](bool needed, const std::vector<Eigen::Index>& heads, const char* tag) {
+    if (needed && heads.empty()) {
+      draft.complaints.about(node, concat("no head is tagged ", tag, " under faces.tags"));
+    }
+  };
+  need(range->high > 0, draft.config.sampling.old_heads, "old");
+  need(range->low < 0, draft.config.sampling.young_heads, "young");
+  return range;
+}
 
 std::optional<SmoothnessDistribution> read_smoothness(const YamlNode& node, ConfigDraft& draft) {
   using Unit = SmoothnessDistribution::Unit;
@@ -273,8 +307,10 @@ void read_sampling(const YamlNode* node, ConfigDraft& draft) {
   SamplingOptions& sampling = draft.config.sampling;
   sampling.regions.assign(draft.config.region_names().size(), RegionSampling{});
   const MapReader map(
-      node, {"targets", "sources", "position", "smoothness", "extrapolation", "max_sources"},
+      node, {"targets", "sources", "position", "smoothness", "extrapolation", "max_sources", "age"},
       draft.complaints);
+  sampling.old_heads = heads_tagged("old", draft);
+  sampling.young_heads = heads_tagged("young", draft);
   sampling.targets = read_targets(map.find("targets"), draft);
   const YamlNode* sources = map.find("sources");
   sampling.sources = sources == nullptr ? all_heads(draft) : read_head_list(*sources, draft);
@@ -289,6 +325,9 @@ void read_sampling(const YamlNode* node, ConfigDraft& draft) {
       !(max_sources->kind == YamlNode::Kind::kScalar && max_sources->text == "all")) {
     const auto most = read_whole(*max_sources, 1, kMostSources, draft.complaints);
     if (most) sampling.max_sources = static_cast<int>(*most);
+  }
+  if (const YamlNode* age = map.find("age")) {
+    sampling.age = read_age(*age, draft).value_or(Range{0, 0});
   }
 }
 

@@ -39,7 +39,12 @@ void read_smoothing(const YamlNode* node, ConfigDraft& draft);
 void read_blending(const YamlNode* node, ConfigDraft& draft);
 void read_plane(const YamlNode* node, ConfigDraft& draft);
 void read_sampling(const YamlNode* node, ConfigDraft& draft);
+void read_distance(const YamlNode* node, ConfigDraft& draft);
+void read_diversity(const YamlNode* node, ConfigDraft& draft);
+void read_believability(const YamlNode* node, ConfigDraft& draft);
 void read_recipes(const YamlNode* node, ConfigDraft& draft);
+void read_families(const YamlNode* node, ConfigDraft& draft);
+void read_review(const YamlNode* node, ConfigDraft& draft);
 void read_output(const YamlNode* node, ConfigDraft& draft);
 
 /// A path relative to the folder, with "a/../" taken out by its text.
@@ -58,6 +63,11 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
 std::optional<SmoothnessDistribution> read_smoothness(const YamlNode& node, ConfigDraft& draft);
 /// Whole iterations or a range of them.
 std::optional<SmoothnessDistribution> read_iterations(const YamlNode& node, ConfigDraft& draft);
+/// An age from −1 to 1 or a range of them; complains if no head is tagged so.
+std::optional<Range> read_age(const YamlNode& node, ConfigDraft& draft);
+/// A review file. Its problems are complaints at their places in it.
+Review read_review_file(const std::filesystem::path& file, const YamlNode& where,
+                        ConfigDraft& draft);
 /// An extrapolation factor or a range of them.
 std::optional<Range> read_extrapolation(const YamlNode& node, ConfigDraft& draft);
 

@@ -17,8 +17,6 @@ struct NotBuilt {
   std::string_view word;  ///< empty: the key itself
 };
 constexpr std::array kNotBuilt = {
-    NotBuilt{"diversity", ""},
-    NotBuilt{"families", ""},
     NotBuilt{"parts", "auto"},
 };
 

@@ -71,7 +71,10 @@ class Writer {
     write_regions();
     write_methods();
     write_sampling();
+    write_casting();
     write_recipes();
+    write_families();
+    write_reviews();
     write_output();
     return std::move(text_);
   }
@@ -207,9 +210,11 @@ class Writer {
       case Kind::kFixed:
         return flow_map({"distribution: fixed", concat("position: ", flow_point(position.at))});
       case Kind::kUniform:
+        return flow_map({"distribution: uniform"});
+      case Kind::kAnchored:
         break;
     }
-    return flow_map({"distribution: uniform"});
+    return flow_map({"distribution: anchored", concat("pull: ", position.pull)});
   }
 
   /// One line a region; without regions the one line is called `default`.
@@ -239,6 +244,38 @@ class Writer {
                      [](const RegionSampling& r) { return flow_factor(r.extrapolation); });
     const auto& most = config_.sampling.max_sources;
     line("  max_sources: ", most ? concat(*most) : "all");
+    line("  age: ", flow_factor(config_.sampling.age));
+  }
+
+  void write_casting() {
+    line("distance:");
+    line("  area: ", config_.distance.area == FaceArea::kFront ? "front" : "skin");
+    if (config_.distance.mask) line("  mask: ", path(*config_.distance.mask));
+    const DiversityOptions& diversity = config_.diversity;
+    line("diversity:");
+    line("  mode: ", diversity.mode == DiversityOptions::Mode::kSpread ? "spread" : "first_fit");
+    line("  min_distance: ", mm(diversity.min_distance_mm));
+    line("  min_distance_to_faces: ", mm(diversity.min_distance_to_faces_mm));
+    line("  max_weight: ", diversity.max_weight);
+    std::vector<std::string> quotas;
+    for (const Quota& quota : diversity.quotas) {
+      quotas.push_back(concat(write_scalar(quota.name), ": ", quota.share));
+    }
+    line("  quotas: ", flow_map(quotas));
+    if (diversity.candidates) line("  candidates: ", *diversity.candidates);
+    line("  pool: ", diversity.pool);
+    line("  max_attempts: ", diversity.max_attempts);
+    const BelievabilityOptions& believability = config_.believability;
+    if (!believability.check) return line("believability: none");
+    line("believability:");
+    line("  max_deviation: ", believability.max_deviation);
+    line("  max_stretch: ", believability.max_stretch);
+    line("  max_flipped: ", believability.max_flipped);
+    line("  max_intersecting: ", believability.max_intersecting);
+    using Meshes = BelievabilityOptions::Meshes;
+    line("  meshes: ", believability.meshes == Meshes::kAll    ? "all"
+                       : believability.meshes == Meshes::kNone ? "none"
+                                                               : "auto");
   }
 
   std::string flow_recipe_region(const HandRecipe::Region& region) const {
@@ -266,11 +303,45 @@ class Writer {
     for (const HandRecipe& recipe : config_.recipes) {
       line("  - id: ", write_scalar(recipe.id));
       if (recipe.target) line("    target: ", head_key(*recipe.target));
+      if (recipe.age) line("    age: ", flow_factor(*recipe.age));
       line("    regions:");
       for (std::size_t i = 0; i < names.size(); ++i) {
         line("      ", write_scalar(names[i]), ": ", flow_recipe_region(recipe.regions[i]));
       }
     }
+  }
+
+  void write_families() {
+    line(config_.families.empty() ? "families: []" : "families:");
+    const std::vector<std::string> names = config_.region_names();
+    for (const FamilyOptions& family : config_.families) {
+      line("  - name: ", write_scalar(family.name));
+      line("    members: ", family.members);
+      if (family.target) line("    target: ", head_key(*family.target));
+      if (!family.parents.empty()) {
+        const auto parent = [&](std::size_t p) { return write_scalar(family.parents[p].id); };
+        line("    parents: ",
+             flow_map({concat("mother: ", parent(0)), concat("father: ", parent(1))}));
+        std::vector<std::string> inherit;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+          const int from = family.inherit[k];
+          inherit.push_back(concat(write_scalar(names[k]), ": ",
+                                   from < 0    ? "drawn"
+                                   : from == 0 ? "mother"
+                                               : "father"));
+        }
+        line("    inherit: ", flow_map(inherit));
+      }
+      line("    max_distance: ", mm(family.max_distance_mm));
+      line("    min_distance: ", mm(family.min_distance_mm));
+      line("    age: ", flow_factor(family.age));
+    }
+  }
+
+  void write_reviews() {
+    std::vector<std::string> files;
+    for (const fs::path& file : config_.review.files) files.push_back(path(file));
+    line("review: ", flow_list(files));
   }
 
   static std::string view_name(View view) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -63,8 +64,8 @@ void remove_crowd(const CrowdDirectory& directory) {
   }
   for (const fs::path& path :
        {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
-        directory.report(), directory.timings(), directory.table(), directory.plan(),
-        directory.log(), directory.config()}) {
+        directory.report(), directory.casting(), directory.timings(), directory.table(),
+        directory.plan(), directory.log(), directory.config()}) {
     remove_file(path);
   }
 }
@@ -76,6 +77,25 @@ std::size_t first_different_line(const std::string& a, const std::string& b) {
     if (a[i] == '\n') ++line;
   }
   return line;
+}
+
+/// The line `review: [a, b]` taken out of a config, and what it lists.
+std::pair<std::string, std::string> apart_from_review(const std::string& config) {
+  const std::string start = "\nreview: [";
+  const std::size_t begin = config.find(start);
+  if (begin == config.npos) return {config, ""};
+  const std::size_t end = config.find('\n', begin + 1);
+  std::string list = config.substr(begin + start.size(), end - begin - start.size());
+  if (!list.empty()) list.pop_back();  // the bracket
+  return {config.substr(0, begin) + config.substr(end), list};
+}
+
+/// Whether it is the same crowd, at most reviewed further: old reviews first, in the same order.
+bool same_crowd(const std::string& old_config, const std::string& config) {
+  const auto [old_rest, old_list] = apart_from_review(old_config);
+  const auto [rest, list] = apart_from_review(config);
+  return rest == old_rest && list.starts_with(old_list) &&
+         (list.size() == old_list.size() || old_list.empty() || list[old_list.size()] == ',');
 }
 
 }  // namespace
@@ -90,24 +110,38 @@ fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
   return meshes() / concat(id, extension_of(format));
 }
 
-void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
-                          Replace replace) {
-  make_directories(directory.root);
+void check_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                           Replace replace) {
   std::error_code ignored;
-  if (fs::exists(directory.config(), ignored)) {
+  if (fs::exists(directory.config(), ignored) && replace == Replace::kRefuse) {
     const std::string old = read_file(directory.config());
-    if (old != effective_config) {
-      if (replace == Replace::kRefuse) {
-        throw UsageError(concat(directory.root.string(),
-                                ": holds another config's crowd (its config.yaml differs from this "
-                                "run's at line ",
-                                first_different_line(old, effective_config),
-                                "); choose another folder with --out, or replace it with --force"));
-      }
-      remove_crowd(directory);
+    if (!same_crowd(old, effective_config)) {
+      throw UsageError(concat(directory.root.string(),
+                              ": holds another config's crowd (its config.yaml differs from this "
+                              "run's at line ",
+                              first_different_line(old, effective_config),
+                              "); choose another folder with --out, or replace it with --force"));
     }
   }
-  // Written at once: a folder that cannot be written to is refused before the heavy work.
+  fs::path existing = fs::absolute(directory.root);
+  while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
+    existing = existing.parent_path();
+  }
+  if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
+    throw CannotCreate(
+        concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));
+  }
+}
+
+void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                          Replace replace) {
+  check_crowd_directory(directory, effective_config, replace);
+  make_directories(directory.root);
+  std::error_code ignored;
+  if (fs::exists(directory.config(), ignored) &&
+      !same_crowd(read_file(directory.config()), effective_config)) {
+    remove_crowd(directory);
+  }
   write_file(directory.config(), effective_config);
 }
 

@@ -15,6 +15,7 @@ struct CrowdDirectory {
   std::filesystem::path config() const { return root / "config.yaml"; }
   std::filesystem::path plan() const { return root / "plan.jsonl"; }
   std::filesystem::path table() const { return root / "crowd.csv"; }
+  std::filesystem::path casting() const { return root / "casting.json"; }
   std::filesystem::path report() const { return root / "report.json"; }
   std::filesystem::path timings() const { return root / "timings.json"; }
   std::filesystem::path log() const { return root / "crowdface.log"; }
@@ -30,6 +31,11 @@ struct CrowdDirectory {
 };
 
 enum class Replace { kRefuse, kForce };
+
+/// Refuses a folder that could not be opened, before any heavy work, and changes nothing.
+/// \throws UsageError if it holds another crowd; CannotCreate if it cannot be written to.
+void check_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                           Replace replace);
 
 /// Makes the folder ready for this config's crowd: creates it, refuses one that holds another
 /// config's crowd, or (kForce) removes that crowd's files first, and no others.

@@ -72,8 +72,8 @@ std::size_t faces_at_once(const Job& job, const Prepared& prepared, const FaceBu
 class FaceOutput {
  public:
   FaceOutput(const MeshWriters& writers, const CrowdDirectory& directory,
-             const CrowdRenders* renders)
-      : writers_(writers), directory_(directory), renders_(renders) {}
+             const CrowdRenders* renders, const SkinCheck* check)
+      : writers_(writers), directory_(directory), renders_(renders), check_(check) {}
 
   FaceFiles write(const Recipe& recipe, const Positions& positions) {
     throw_if_interrupted();
@@ -93,6 +93,10 @@ class FaceOutput {
       const Busy busy(render_);
       write_file(directory_.render(recipe.id), renders_->render_png(positions));
     }
+    if (check_ != nullptr) {
+      const Busy busy(check_seconds_);
+      files.skin = check_->compare(positions, recipe.target);
+    }
     return files;
   }
 
@@ -100,13 +104,15 @@ class FaceOutput {
     busy.encode += encode_;
     busy.write += write_;
     busy.render += render_;
+    busy.check += check_seconds_;
   }
 
  private:
   const MeshWriters& writers_;
   const CrowdDirectory& directory_;
   const CrowdRenders* renders_;
-  std::atomic<double> encode_ = 0, write_ = 0, render_ = 0;
+  const SkinCheck* check_;
+  std::atomic<double> encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
 };
 
 /// A group of faces in memory, and what is still being done with it.
@@ -118,8 +124,8 @@ struct Slot {
 }  // namespace
 
 BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDirectory& directory,
-                       const CrowdRenders* renders, const std::vector<Recipe>& crowd,
-                       std::uint64_t memory) {
+                       const CrowdRenders* renders, const SkinCheck* check,
+                       const std::vector<Recipe>& crowd, std::uint64_t memory) {
   const std::vector<MeshFormat>& formats = job.config.output.meshes;
   const MeshWriters writers(job.config, job.inputs, formats, crowd);
   const FaceBuilder builder(job, prepared);
@@ -130,7 +136,7 @@ BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDire
   writers.write_shared(directory);
   if (renders != nullptr) make_directories(directory.renders());
 
-  FaceOutput output(writers, directory, renders);
+  FaceOutput output(writers, directory, renders, check);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", crowd.size());
   std::array<Slot, 2> slots;

@@ -8,6 +8,7 @@
 #include "crowdface/job/crowd_renders.h"
 #include "crowdface/job/face_builder.h"
 #include "crowdface/job/report.h"
+#include "crowdface/validity/skin_check.h"
 
 namespace crowdface {
 
@@ -21,10 +22,11 @@ struct BuiltFaces {
 /// Blends, writes and renders every face. While one group of faces is written and rendered the next
 /// is blended: two groups at most are in memory.
 /// \param renders  may be null: no pictures.
+/// \param check    may be null: no mesh is judged.
 /// \param memory   bytes that the whole process may take; sets how large a group is.
 /// \throws UsageError, before anything is written, if one face at a time does not fit.
 BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDirectory& directory,
-                       const CrowdRenders* renders, const std::vector<Recipe>& crowd,
-                       std::uint64_t memory);
+                       const CrowdRenders* renders, const SkinCheck* check,
+                       const std::vector<Recipe>& crowd, std::uint64_t memory);
 
 }  // namespace crowdface

@@ -19,11 +19,11 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/job/casting.h"
 #include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_renders.h"
 #include "crowdface/job/face_stages.h"
 #include "crowdface/job/mesh_writers.h"
-#include "crowdface/job/pipeline.h"
 #include "crowdface/job/report.h"
 
 namespace crowdface {
@@ -58,6 +58,24 @@ class CrowdLog {
   CrowdLog& operator=(const CrowdLog&) = delete;
 };
 
+/// What the crowd is like, in two lines.
+void tell_casting(const Cast& cast) {
+  const CrowdDistances& distances = cast.distances;
+  const auto mm = [](double value) { return format_fixed(value, 2); };
+  if (distances.crowd.count > 0) {
+    log_info(concat("distances between faces: closest ", mm(distances.crowd.min), " mm, median ",
+                    mm(distances.crowd.median), " mm; between the input heads: closest ",
+                    mm(distances.heads.min), " mm, median ", mm(distances.heads.median),
+                    " mm; ratio of the medians ", mm(distances.ratio)));
+  }
+  std::vector<std::string> thrown;
+  for (std::size_t r = 0; r < kReasonCount; ++r) {
+    const std::uint64_t count = cast.rejections.count[r];
+    if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
+  }
+  if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
+}
+
 /// \throws UsageError if a head lies where this run writes meshes and removes those of an old
 /// crowd.
 void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory) {
@@ -71,14 +89,30 @@ void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory)
   }
 }
 
-void open_directory(const Job& job, const CrowdDirectory& directory, Replace replace) {
+/// Prepared heads and the crowd cast from them.
+struct CastJob {
+  Prepared prepared;
+  Cast cast;
+};
+
+/// Everything that comes before a file is written: a crowd that cannot be cast leaves nothing
+/// behind, and no other crowd in the folder is touched for it.
+CastJob cast_job(const Job& job, const CrowdDirectory& directory, const GenerateOptions& options,
+                 StageSeconds& stages) {
   refuse_to_write_over_heads(job, directory);
-  open_crowd_directory(directory, effective_config(job.config, directory.root), replace);
+  check_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+  Prepared prepared = timed(stages, "prepare", [&] {
+    return prepare(job.config, job.inputs, job.smoothing, options.cache);
+  });
+  Cast crowd = timed(stages, "cast", [&] { return cast(job, prepared); });
+  tell_casting(crowd);
+  return {std::move(prepared), std::move(crowd)};
 }
 
-void write_plan(const Job& job, const CrowdDirectory& directory, const std::vector<Recipe>& crowd) {
-  write_file(directory.plan(), format_plan(job, crowd));
-  write_file(directory.table(), format_csv(crowd, job.names));
+void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast) {
+  write_file(directory.plan(), format_plan(job, cast.crowd));
+  write_file(directory.table(), format_csv(cast.crowd, job.names));
+  write_file(directory.casting(), format_casting(job, cast));
 }
 
 /// Copies material files and textures of all heads that are targets. \return warnings, each once
@@ -117,6 +151,52 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
   return warnings;
 }
 
+/// Judges the skin of whole meshes, if the config asks for it.
+std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>& crowd) {
+  constexpr Index kMostFaces = 200'000;  // polygons; beyond that it would rule the time of a run
+  const BelievabilityOptions& believability = job.config.believability;
+  using Meshes = BelievabilityOptions::Meshes;
+  if (!believability.check || believability.meshes == Meshes::kNone ||
+      (believability.meshes == Meshes::kAuto &&
+       job.inputs.faces.topology.face_count() > kMostFaces)) {
+    return nullptr;
+  }
+  std::set<Index> targets;
+  for (const Recipe& recipe : crowd) targets.insert(recipe.target);
+  return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.components,
+                                     job.inputs.faces.heads, targets);
+}
+
+/// Faces whose whole mesh goes beyond a limit that their samples kept.
+std::vector<std::string> judge_meshes(const Job& job, const std::vector<Recipe>& crowd,
+                                      const std::vector<FaceFiles>& files) {
+  const BelievabilityOptions& limits = job.config.believability;
+  std::vector<std::string> beyond;
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    if (!files[i].skin) continue;
+    const SkinDefects& skin = *files[i].skin;
+    const auto triangles = static_cast<double>(skin.local.compared);
+    if (static_cast<double>(skin.local.flipped) > limits.max_flipped * triangles ||
+        skin.local.stretch > limits.max_stretch ||
+        static_cast<double>(skin.intersecting) > limits.max_intersecting * triangles) {
+      beyond.push_back(crowd[i].id);
+    }
+  }
+  if (beyond.empty()) return {};
+  constexpr std::size_t kNamed = 8;
+  const std::size_t count = beyond.size();
+  if (count > kNamed) {
+    beyond.resize(kNamed);
+    beyond.emplace_back("…");
+  }
+  const std::string warning =
+      concat(count, count == 1 ? " face goes" : " faces go",
+             " beyond a limit of believability on the whole mesh, though not at the samples: ",
+             join(beyond), "; report.json says by how much, and a review can reject them");
+  log_warning(warning);
+  return {warning};
+}
+
 std::vector<std::string> ids_of(const std::vector<Recipe>& crowd) {
   std::vector<std::string> ids;
   for (const Recipe& recipe : crowd) ids.push_back(recipe.id);
@@ -130,7 +210,10 @@ std::string sheet_title(const Config& config, std::size_t faces) {
 
 void tell_dry_run(const Job& job) {
   const Config& config = job.config;
-  const std::uint64_t faces = config.crowd.count + config.recipes.size();
+  std::uint64_t faces = config.crowd.count + config.recipes.size();
+  for (const FamilyOptions& family : config.families) {
+    faces += static_cast<std::uint64_t>(family.members);
+  }
   const std::uint64_t bytes = faces * estimate_mesh_bytes(job.inputs, config.output.meshes);
   log_info(concat("dry run: ", faces, " faces of ", job.inputs.faces.topology.vertex_count,
                   " vertices, about ", format_fixed(static_cast<double>(bytes) / 1e6, 1),
@@ -138,15 +221,12 @@ void tell_dry_run(const Job& job) {
                   config.output.directory.string(), "; nothing was written"));
 }
 
-/// Everything after the inputs are checked and the folder is ready.
-void fill_directory(const Job& job, const CrowdDirectory& directory, const GenerateOptions& options,
+/// Everything after the crowd is cast and the folder is ready.
+void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
                     StageSeconds& stages) {
-  const Prepared prepared = timed(stages, "prepare", [&] {
-    return prepare(job.config, job.inputs, job.smoothing, options.cache);
-  });
-  const Cast crowd_cast = timed(stages, "cast", [&] { return cast(job, prepared); });
-  const std::vector<Recipe>& crowd = crowd_cast.crowd;
-  write_plan(job, directory, crowd);
+  const Prepared& prepared = cast_job.prepared;
+  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
+  write_plan(job, directory, cast_job.cast);
 
   std::vector<std::string> warnings = job.inputs.warnings;
   const auto& formats = job.config.output.meshes;
@@ -158,10 +238,14 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const Gener
   const auto& sheet = job.config.output.contact_sheet;
   std::unique_ptr<CrowdRenders> renders;
   if (sheet) renders = std::make_unique<CrowdRenders>(job.config, *sheet, job.inputs);
+  const std::unique_ptr<SkinCheck> check = skin_check(job, crowd);
   const BuiltFaces built = timed(stages, "build", [&] {
     const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
-    return build_faces(job, prepared, directory, renders.get(), crowd, memory);
+    return build_faces(job, prepared, directory, renders.get(), check.get(), crowd, memory);
   });
+  for (std::string& text : judge_meshes(job, crowd, built.files)) {
+    warnings.push_back(std::move(text));
+  }
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {
@@ -171,7 +255,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const Gener
     });
   }
   write_file(directory.report(),
-             format_report(job, prepared, crowd_cast, built.files, pages, warnings));
+             format_report(job, prepared, cast_job.cast, built.files, pages, warnings));
   write_file(directory.timings(),
              format_timings(stages, built.busy, crowd.size(), prepared.from_cache));
   log_info(concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ",
@@ -187,12 +271,13 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
   if (options.dry_run) return tell_dry_run(job);
   const CrowdDirectory directory{job.config.output.directory};
-  open_directory(job, directory, options.replace);
+  const CastJob crowd = cast_job(job, directory, options, stages);
+  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
   const CrowdLog log(directory.log());
   // Said before there was a folder for the log; at this level they reach the file alone.
   for (const std::string& warning : job.inputs.warnings) log_debug(warning);
   try {
-    fill_directory(job, directory, options, stages);
+    fill_directory(job, directory, crowd, stages);
   } catch (const std::exception& error) {
     log_debug(error.what());  // `main` says it aloud, when this log is closed
     throw;
@@ -204,11 +289,11 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
   const Job job = load_job(config_file, overrides);
   if (options.dry_run) return tell_dry_run(job);
   const CrowdDirectory directory{job.config.output.directory};
-  open_directory(job, directory, options.replace);
-  const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, options.cache);
-  const Cast crowd_cast = cast(job, prepared);
-  write_plan(job, directory, crowd_cast.crowd);
-  log_info(concat(crowd_cast.crowd.size(), " recipes in ", directory.plan().string()));
+  StageSeconds stages;
+  const CastJob crowd = cast_job(job, directory, options, stages);
+  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+  write_plan(job, directory, crowd.cast);
+  log_info(concat(crowd.cast.crowd.size(), " recipes in ", directory.plan().string()));
 }
 
 void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set) {

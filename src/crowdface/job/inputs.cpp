@@ -171,6 +171,10 @@ std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {
     inputs.regions = load_regions(config, inputs.faces);
+    if (config.distance.mask) {
+      inputs.distance_mask =
+          mask_values(inputs.faces.topology, inputs.faces.uvs, MaskSource(*config.distance.mask));
+    }
     inputs.max_level = max_level_of(config, inputs.edge_length_mm);
   } catch (const Error& error) {
     problems.add(error);

@@ -23,9 +23,10 @@ struct Inputs {
   Adjacency adjacency;
   Components components;
   RegionWeights regions;
-  double edge_length_mm = 0;         ///< rms edge length of the skin, averaged over the heads
-  std::uint64_t max_level = 0;       ///< L_max
-  std::vector<Digest> head_digests;  ///< #heads, of the positions used
+  std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without
+  double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads
+  std::uint64_t max_level = 0;        ///< L_max
+  std::vector<Digest> head_digests;   ///< #heads, of the positions used
   Digest topology_digest;
   Digest mask_digest;                 ///< of α
   std::vector<std::string> warnings;  ///< in a fixed order; also logged

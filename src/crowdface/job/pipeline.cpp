@@ -46,28 +46,6 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
   }
 }
 
-std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& head_distances) {
-  const auto heads = static_cast<Index>(config.faces.names.size());
-  std::vector<PlanePoint> anchors(static_cast<std::size_t>(heads), PlanePoint::Zero());
-  switch (config.plane.layout) {
-    case Layout::kCircle:
-      anchors = circle_layout(heads);
-      break;
-    case Layout::kGrid:
-      anchors = grid_layout(heads);
-      break;
-    case Layout::kSimilarity:
-      anchors = similarity_layout(head_distances);
-      break;
-    case Layout::kManual:
-      break;  // every head has an anchor of its own below
-  }
-  for (const auto& [head, anchor] : config.plane.anchors) {
-    anchors[static_cast<std::size_t>(head)] = anchor;
-  }
-  return anchors;
-}
-
 }  // namespace
 
 std::optional<Job> load_job(const std::filesystem::path& config_file,
@@ -96,18 +74,8 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
   return std::move(*job);
 }
 
-Cast cast(const Job& job, const Prepared& prepared) {
-  const Config& config = job.config;
-  const FaceSpace space(job.inputs.faces, job.inputs.regions, prepared.samples,
-                        prepared.trajectories, job.inputs.max_level, mm_per(config.faces.units));
-  Cast result;
-  result.head_distances = space.head_distances();
-  result.anchors = lay_out(config, result.head_distances);
-  result.crowd = cast_crowd({config.crowd.name, config.crowd.count, config.crowd.seed,
-                             result.anchors, job.names.regions, config.sampling, config.recipes,
-                             config.blending.normalization, level_scale(config, job.inputs)});
-  space.find_nearest(result.crowd);
-  return result;
+LevelScale level_scale(const Job& job) {
+  return level_scale(job.config, job.inputs);
 }
 
 std::string format_plan(const Job& job, const std::vector<Recipe>& crowd) {

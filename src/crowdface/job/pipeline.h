@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "crowdface/cast/cast_crowd.h"
-#include "crowdface/cast/face_space.h"
+#include "crowdface/cast/draw_recipe.h"
 #include "crowdface/job/config.h"
 #include "crowdface/job/config_reader.h"
 #include "crowdface/job/inputs.h"
@@ -30,13 +29,8 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
 /// \throws Error with all problems.
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides);
 
-/// A crowd cast: where the heads stand on the plane, and one recipe a face.
-struct Cast {
-  std::vector<PlanePoint> anchors;  ///< #heads
-  Eigen::MatrixXd head_distances;   ///< #heads by #heads, mm
-  std::vector<Recipe> crowd;        ///< with their nearest neighbours
-};
-Cast cast(const Job& job, const Prepared& prepared);
+/// What turns a smoothness into iterations on these heads.
+LevelScale level_scale(const Job& job);
 
 /// The plan as it stands in plan.jsonl.
 std::string format_plan(const Job& job, const std::vector<Recipe>& crowd);

@@ -68,6 +68,13 @@ class LineReader {
     for (const std::string& name : names_.regions) {
       recipe.regions.push_back(region(member(regions, name), name));
     }
+    if (const auto age = json.find("age"); age != json.end()) recipe.age = number(*age, "age");
+    if (const auto inherits = json.find("inherits"); inherits != json.end()) {
+      for (const std::string& name : names_.regions) {
+        recipe.inherits.push_back(text(*inherits, name));
+      }
+    }
+    if (json.contains("note")) recipe.note = text(json, "note");
     result.settings = text(json, "settings");
     return result;
   }
@@ -170,6 +177,13 @@ std::string format_recipe(const Recipe& recipe, const PlanNames& names, const Di
   json["family"] = or_null(recipe.family);
   json["target"] = name_at(names.heads, recipe.target);
   json["attempt"] = recipe.attempt;
+  if (recipe.age) json["age"] = *recipe.age;
+  if (!recipe.inherits.empty()) {
+    for (std::size_t k = 0; k < recipe.inherits.size(); ++k) {
+      json["inherits"][names.regions[k]] = recipe.inherits[k];
+    }
+  }
+  if (recipe.note) json["note"] = *recipe.note;
   json["regions"] = Json::object();
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     json["regions"][names.regions[k]] = region_to_json(recipe.regions[k], names);

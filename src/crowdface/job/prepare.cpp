@@ -17,7 +17,7 @@ namespace {
 
 /// Raised whenever a change of the code alters what an entry holds.
 constexpr int kPrepareVersion = 2;
-constexpr Index kSamples = 1500;
+constexpr Index kSamples = 2500;
 
 Positions mean_head(const FaceSet& faces) {
   Positions mean = Positions::Zero(faces.topology.vertex_count, 3);

@@ -23,12 +23,11 @@ double rounded(double value) {
 }
 
 /// Smallest, median and largest; null where there is nothing.
-Json distribution(std::vector<double> values) {
-  if (values.empty()) return nullptr;
-  std::sort(values.begin(), values.end());
-  return {{"min", rounded(values.front())},
-          {"median", rounded(values[values.size() / 2])},
-          {"max", rounded(values.back())}};
+Json distribution(const Quartiles& values) {
+  if (values.count == 0) return nullptr;
+  return {{"min", rounded(values.min)},
+          {"median", rounded(values.median)},
+          {"max", rounded(values.max)}};
 }
 
 Json heads_to_json(const Job& job, const Cast& cast) {
@@ -80,19 +79,10 @@ Json smoothing_to_json(const Job& job, const Prepared& prepared) {
   return smoothing;
 }
 
-Json distances_to_json(const Cast& cast) {
-  std::vector<double> heads, to_head, to_crowd;
-  for (Index a = 0; a < cast.head_distances.rows(); ++a) {
-    for (Index b = 0; b < a; ++b) heads.push_back(cast.head_distances(a, b));
-  }
-  for (const Recipe& recipe : cast.crowd) {
-    if (!recipe.nearest) continue;
-    to_head.push_back(recipe.nearest->head_mm);
-    if (recipe.nearest->crowd) to_crowd.push_back(recipe.nearest->crowd_mm);
-  }
-  return {{"between_heads_mm", distribution(std::move(heads))},
-          {"to_nearest_head_mm", distribution(std::move(to_head))},
-          {"to_nearest_earlier_face_mm", distribution(std::move(to_crowd))}};
+Json distances_to_json(const CrowdDistances& distances) {
+  return {{"between_heads_mm", distribution(distances.heads)},
+          {"to_nearest_head_mm", distribution(distances.to_nearest_head)},
+          {"to_nearest_earlier_face_mm", distribution(distances.to_nearest_face)}};
 }
 
 /// "mesh" was there before there were other formats.
@@ -105,6 +95,13 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     Json face = {{"id", cast.crowd[i].id}};
     for (const MeshFile& mesh : files[i].meshes) face[report_key(mesh.format)] = mesh.digest.hex();
+    if (files[i].skin) {
+      const SkinDefects& skin = *files[i].skin;
+      face["skin"] = {{"triangles", skin.local.compared},
+                      {"flipped", skin.local.flipped},
+                      {"stretch", rounded(skin.local.stretch)},
+                      {"intersecting", skin.intersecting}};
+    }
     faces.push_back(std::move(face));
   }
   return faces;
@@ -120,6 +117,7 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["crowd"] = job.config.crowd.name;
   report["asked"] = {{"count", job.config.crowd.count},
                      {"recipes", job.config.recipes.size()},
+                     {"families", job.config.families.size()},
                      {"seed", job.config.crowd.seed}};
   report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
   report["settings"] = job.settings.hex();
@@ -128,7 +126,8 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["heads"] = heads_to_json(job, cast);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
-  report["distances"] = distances_to_json(cast);
+  report["distances"] = distances_to_json(cast.distances);
+  report["casting"] = Json::parse(format_casting(job, cast));
   report["warnings"] = warnings;
   report["faces"] = faces_to_json(cast, files);
   return report.dump(2) + "\n";
@@ -151,7 +150,8 @@ std::string format_timings(const StageSeconds& stages, const StageBusy& busy, st
   const std::pair<const char*, double> parts[] = {{"blend", busy.blend},
                                                   {"encode", busy.encode},
                                                   {"write", busy.write},
-                                                  {"render", busy.render}};
+                                                  {"render", busy.render},
+                                                  {"check", busy.check}};
   const auto* slowest = std::max_element(std::begin(parts), std::end(parts),
                                          [](auto& a, auto& b) { return a.second < b.second; });
   for (const auto& [part, seconds] : parts) timings["busy_seconds"][part] = rounded(seconds);

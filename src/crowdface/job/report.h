@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "crowdface/job/casting.h"
 #include "crowdface/job/mesh_writers.h"
-#include "crowdface/job/pipeline.h"
+#include "crowdface/validity/skin_check.h"
 
 namespace crowdface {
 
 /// What one face's files are.
 struct FaceFiles {
   std::vector<MeshFile> meshes;
+  std::optional<SkinDefects> skin;  ///< against the target's, if it was judged
 };
 
 /// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no
@@ -27,7 +30,7 @@ using StageSeconds = std::vector<std::pair<std::string, double>>;
 /// How long threads were busy with each stage of making faces, in seconds; together more than the
 /// time it took, as stages overlap and several threads work.
 struct StageBusy {
-  double blend = 0, encode = 0, write = 0, render = 0;
+  double blend = 0, encode = 0, write = 0, render = 0, check = 0;
 };
 
 /// timings.json: times and machine, which may differ from run to run.

@@ -33,6 +33,14 @@ Positions Similarity::apply(const Positions& positions) const {
   return result;
 }
 
+Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs(1, 1, 1);
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs(2) = -1;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
 Similarity fit_similarity(const Positions& from, const Positions& to, ScaleFit scale,
                           const Eigen::VectorXd& weights) {
   if (from.rows() != to.rows() || from.rows() < 3 ||

@@ -18,6 +18,10 @@ struct Similarity {
   Positions apply(const Positions& positions) const;
 };
 
+/// The rotation R that makes trace(Rᵀ M) largest: of all rotations the one that carries b_i nearest to
+/// a_i for M = Σ a_i b_iᵀ (Kabsch 1976; never a reflection).
+Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance);
+
 enum class ScaleFit { kRigid, kUniform };
 
 /// The motion that carries `from` nearest to `to` in the least-squares sense, row by row.

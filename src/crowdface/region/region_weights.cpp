@@ -155,4 +155,24 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
   return weights;
 }
 
+std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
+                                const MaskSource& mask) {
+  const UvSamples samples =
+      gather_uv_samples(topology, uvs, mask.tiled() ? Tiles::kUdim : Tiles::kOne);
+  Problems problems;
+  const LoadedMask loaded = load(mask, tiles_of(samples), problems);
+  problems.throw_if_any();
+  check_channels({mask}, {loaded}, 1);
+  std::vector<double> values(static_cast<std::size_t>(topology.vertex_count), 0.0);
+  for (Index i = 0; i < topology.vertex_count; ++i) {
+    const auto places = samples.of(i);
+    double sum = 0;
+    for (const UvSample& sample : places) sum += loaded.at(sample, 0);
+    if (!places.empty()) {
+      values[static_cast<std::size_t>(i)] = sum / static_cast<double>(places.size());
+    }
+  }
+  return values;
+}
+
 }  // namespace crowdface

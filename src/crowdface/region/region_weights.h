@@ -36,6 +36,11 @@ RegionWeights whole_head(const Topology& topology);
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions);
 
+/// The first channel of one mask at every vertex, looked up in the same way but not scaled; zero for
+/// vertices in no face. \throws as region_weights.
+std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
+                                const MaskSource& mask);
+
 /// One channel of an image at (u, v) in the unit square, as above.
 double sample_bilinear(const Image& image, double u, double v, int channel);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/cast/draw_recipe.h"
 
 #include <cmath>
 #include <functional>
@@ -33,6 +33,14 @@ Casting example() {
   return casting;
 }
 
+/// Hand-written recipes, then the first draw of each face.
+std::vector<Recipe> draw_crowd(const Casting& casting) {
+  std::vector<Recipe> crowd;
+  for (const HandRecipe& hand : casting.recipes) crowd.push_back(draw_hand_recipe(casting, hand));
+  for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_face(casting, i));
+  return crowd;
+}
+
 bool same(const Recipe& a, const Recipe& b) {
   if (a.id != b.id || a.index != b.index || a.target != b.target || a.attempt != b.attempt) {
     return false;
@@ -62,21 +70,21 @@ Spread spread(const std::vector<Recipe>& crowd,
   return result;
 }
 
-TEST(CastCrowd, FacesDoNotDependOnTheCount) {
+TEST(DrawRecipe, FacesDoNotDependOnTheCount) {
   Casting casting = example();
-  const auto crowd = cast_crowd(casting);
+  const auto crowd = draw_crowd(casting);
   ASSERT_EQ(crowd.size(), kMany);
   casting.count = 10;
-  const auto few = cast_crowd(casting);
+  const auto few = draw_crowd(casting);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_TRUE(same(few[i], crowd[i]));
-  EXPECT_TRUE(same(cast_face(casting, 3777), crowd[3776])) << "also beyond the count";
+  EXPECT_TRUE(same(draw_face(casting, 3777), crowd[3776])) << "also beyond the count";
 }
 
-TEST(CastCrowd, SeedsAndIndicesGiveOtherFaces) {
+TEST(DrawRecipe, SeedsAndIndicesGiveOtherFaces) {
   Casting casting = example();
-  const auto a = cast_crowd(casting);
+  const auto a = draw_crowd(casting);
   casting.seed = 4;
-  const auto b = cast_crowd(casting);
+  const auto b = draw_crowd(casting);
   std::set<double> smoothness;
   for (std::size_t i = 0; i < kMany; ++i) {
     EXPECT_NE(a[i].regions[0].smoothness, b[i].regions[0].smoothness);
@@ -85,27 +93,28 @@ TEST(CastCrowd, SeedsAndIndicesGiveOtherFaces) {
   EXPECT_EQ(smoothness.size(), 2 * kMany) << "regions are drawn apart";
 }
 
-TEST(CastCrowd, IdsCountFromOne) {
+TEST(DrawRecipe, IdsCountFromOne) {
   EXPECT_EQ(face_id("mob", 1), "mob_0001");
   EXPECT_EQ(face_id("mob", 9999), "mob_9999");
   EXPECT_EQ(face_id("mob", 123456), "mob_123456");
-  const Recipe recipe = cast_face(example(), 12);
+  const Recipe recipe = draw_face(example(), 12);
   EXPECT_EQ(recipe.id, "mob_0012");
   EXPECT_EQ(recipe.index, 12U);
 }
 
-TEST(CastCrowd, TargetsComeByWeight) {
+TEST(DrawRecipe, TargetsComeByWeight) {
   Casting casting = example();
   casting.sampling.targets = {{1, 3}, {4, 1}};
   std::map<Index, double> share;
-  for (const Recipe& r : cast_crowd(casting)) share[r.target] += 1. / kMany;
+  for (const Recipe& r : draw_crowd(casting)) share[r.target] += 1. / kMany;
   EXPECT_EQ(share.size(), 2U);
   EXPECT_NEAR(share[1], 0.75, 0.03);
 }
 
-TEST(CastCrowd, UniformPositionsFillTheHullOfTheSources) {
+TEST(DrawRecipe, UniformPositionsFillTheHullOfTheSources) {
   Casting casting = example();
   casting.sampling.sources = {0, 1, 3};
+  casting.sampling.regions[1].position.kind = PositionDistribution::Kind::kUniform;
   const std::vector<PlanePoint> corner = {casting.anchors[0], casting.anchors[1],
                                           casting.anchors[3]};
   const auto cross = [](const PlanePoint& a, const PlanePoint& b) {
@@ -114,7 +123,7 @@ TEST(CastCrowd, UniformPositionsFillTheHullOfTheSources) {
   const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
   PlanePoint middle(0, 0);
   double near_first = 0;
-  for (const Recipe& r : cast_crowd(casting)) {
+  for (const Recipe& r : draw_crowd(casting)) {
     const PlanePoint m = *r.regions[1].position;
     double parts[3];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -129,13 +138,49 @@ TEST(CastCrowd, UniformPositionsFillTheHullOfTheSources) {
   EXPECT_NEAR(near_first, 0.25, 0.03) << "uniform by area";
 }
 
-TEST(CastCrowd, AroundStaysInTheDisc) {
+TEST(DrawRecipe, AnchoredPositionsStayNearASource) {
+  Casting casting = example();
+  casting.sampling.sources = {0, 1, 3};
+  casting.sampling.regions[1].position.pull = 0.2;
+  std::map<Index, double> share;
+  for (const Recipe& r : draw_crowd(casting)) {
+    const PlanePoint m = *r.regions[1].position;
+    Index nearest = 0;
+    for (const Index head : casting.sampling.sources) {
+      const auto at = [&](Index h) { return casting.anchors[static_cast<std::size_t>(h)]; };
+      if ((m - at(head)).norm() < (m - at(nearest)).norm()) nearest = head;
+    }
+    EXPECT_LE((m - casting.anchors[static_cast<std::size_t>(nearest)]).norm(), 0.2 * 2);
+    share[nearest] += 1. / kMany;
+  }
+  ASSERT_EQ(share.size(), 3U);
+  for (const auto& [head, part] : share) EXPECT_NEAR(part, 1. / 3, 0.03) << head;
+
+  casting.sampling.regions[1].position.pull = 0;
+  casting.sampling.targets = {{2, 1}};
+  const Recipe on_anchor = draw_face(casting, 1);
+  ASSERT_EQ(on_anchor.regions[1].weights.size(), 1U) << "all weight on one head";
+}
+
+TEST(DrawRecipe, AttemptsDrawAnew) {
+  const Casting casting = example();
+  std::set<double> smoothness;
+  for (std::uint32_t attempt = 0; attempt < 50; ++attempt) {
+    const Recipe recipe = draw_face(casting, 4, attempt);
+    EXPECT_EQ(recipe.attempt, attempt);
+    EXPECT_EQ(recipe.id, "mob_0004");
+    smoothness.insert(recipe.regions[0].smoothness);
+  }
+  EXPECT_EQ(smoothness.size(), 50U);
+}
+
+TEST(DrawRecipe, AroundStaysInTheDisc) {
   Casting casting = example();
   casting.sampling.regions[0].position = {PositionDistribution::Kind::kAround, 2, 0.3};
   casting.sampling.regions[1].position = {PositionDistribution::Kind::kAround, std::nullopt, 0.5};
   double inner = 0;
   PlanePoint middle(0, 0);
-  for (const Recipe& r : cast_crowd(casting)) {
+  for (const Recipe& r : draw_crowd(casting)) {
     const PlanePoint offset = *r.regions[0].position - casting.anchors[2];
     EXPECT_LE(offset.norm(), 0.3 * (1 + 1e-12));
     EXPECT_LE((*r.regions[1].position - casting.anchors[static_cast<std::size_t>(r.target)]).norm(),
@@ -147,23 +192,23 @@ TEST(CastCrowd, AroundStaysInTheDisc) {
   EXPECT_LT(middle.norm(), 0.01);
 }
 
-TEST(CastCrowd, FixedStaysPut) {
+TEST(DrawRecipe, FixedStaysPut) {
   Casting casting = example();
   casting.count = 20;
   casting.sampling.regions[0].position = {
       PositionDistribution::Kind::kFixed, {}, 0, PlanePoint(0.25, -0.75)};
-  for (const Recipe& r : cast_crowd(casting)) {
+  for (const Recipe& r : draw_crowd(casting)) {
     EXPECT_EQ(*r.regions[0].position, PlanePoint(0.25, -0.75));
     EXPECT_NE(*r.regions[1].position, PlanePoint(0.25, -0.75));
   }
 }
 
-TEST(CastCrowd, RangesAreFilledAndKept) {
+TEST(DrawRecipe, RangesAreFilledAndKept) {
   Casting casting = example();
   casting.sampling.regions[0].smoothness.range = {0.25, 0.5};
   casting.sampling.regions[0].extrapolation = {-1, 2};
   casting.sampling.regions[1].extrapolation = {1.5, 1.5};
-  const auto crowd = cast_crowd(casting);
+  const auto crowd = draw_crowd(casting);
   const Spread smoothness = spread(crowd, [](auto& r) { return r.regions[0].smoothness; });
   EXPECT_GE(smoothness.low, 0.25);
   EXPECT_LE(smoothness.high, 0.5);
@@ -179,10 +224,10 @@ TEST(CastCrowd, RangesAreFilledAndKept) {
   EXPECT_EQ(fixed.high, 1.5);
 }
 
-TEST(CastCrowd, FractionsBecomeTheNearestIterations) {
+TEST(DrawRecipe, FractionsBecomeTheNearestIterations) {
   Casting casting = example();
   casting.sampling.regions[0].smoothness.range = {0, 1};
-  for (const Recipe& r : cast_crowd(casting)) {
+  for (const Recipe& r : draw_crowd(casting)) {
     const RegionRecipe& region = r.regions[0];
     EXPECT_EQ(static_cast<double>(region.iterations), std::round(region.smoothness * 1000));
   }
@@ -190,11 +235,11 @@ TEST(CastCrowd, FractionsBecomeTheNearestIterations) {
   EXPECT_EQ(iterations_of(1, casting.scale), 1000U);
 }
 
-TEST(CastCrowd, IterationsStandAsDrawn) {
+TEST(DrawRecipe, IterationsStandAsDrawn) {
   Casting casting = example();
   casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kIterations, {3, 6}};
   std::map<std::uint64_t, double> share;
-  for (const Recipe& r : cast_crowd(casting)) {
+  for (const Recipe& r : draw_crowd(casting)) {
     share[r.regions[0].iterations] += 1. / kMany;
     EXPECT_NEAR(r.regions[0].smoothness, static_cast<double>(r.regions[0].iterations) / 1000,
                 1e-12);
@@ -204,7 +249,7 @@ TEST(CastCrowd, IterationsStandAsDrawn) {
   for (const auto& [iterations, part] : share) EXPECT_NEAR(part, 0.25, 0.1) << iterations;
 }
 
-TEST(CastCrowd, SizesBecomeTheirIterations) {
+TEST(DrawRecipe, SizesBecomeTheirIterations) {
   for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
     Casting casting = example();
     casting.scale.kind = kind;
@@ -212,7 +257,7 @@ TEST(CastCrowd, SizesBecomeTheirIterations) {
     std::uint64_t before = 0;
     for (const double size : {0.0, 8.0, 20.0, 50.0, largest}) {
       casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kSize, {size, size}};
-      const RegionRecipe region = cast_face(casting, 1).regions[0];
+      const RegionRecipe region = draw_face(casting, 1).regions[0];
       EXPECT_GE(region.iterations, before);
       before = region.iterations;
       // The nearest whole iterations: no neighbour's size is nearer.
@@ -225,13 +270,13 @@ TEST(CastCrowd, SizesBecomeTheirIterations) {
   }
 }
 
-TEST(CastCrowd, SourcesAndTheirNumberAreKept) {
+TEST(DrawRecipe, SourcesAndTheirNumberAreKept) {
   Casting casting = example();
   casting.sampling.targets = {{2, 1}};
   casting.sampling.sources = {0, 1, 3, 4};
   casting.sampling.max_sources = 2;
   std::size_t faces = 0, with_target = 0;
-  for (const Recipe& r : cast_crowd(casting)) {
+  for (const Recipe& r : draw_crowd(casting)) {
     const auto& weights = r.regions[0].weights;
     EXPECT_LE(weights.size(), 3U);  // two sources and the target
     double sum = 0;
@@ -249,10 +294,10 @@ TEST(CastCrowd, SourcesAndTheirNumberAreKept) {
   EXPECT_EQ(with_target, faces) << "the target takes part as face 0";
 }
 
-TEST(CastCrowd, PrintedWeightsLeaveTheTargetOut) {
+TEST(DrawRecipe, PrintedWeightsLeaveTheTargetOut) {
   Casting casting = example();
   casting.normalization = Normalization::kPrinted;
-  for (const Recipe& r : cast_crowd(casting)) {
+  for (const Recipe& r : draw_crowd(casting)) {
     for (const RegionRecipe& region : r.regions) {
       double sum = 0;
       for (const SourceWeight& w : region.weights) {
@@ -265,18 +310,18 @@ TEST(CastCrowd, PrintedWeightsLeaveTheTargetOut) {
   }
 }
 
-TEST(CastCrowd, AnotherRegionDisturbsNone) {
+TEST(DrawRecipe, AnotherRegionDisturbsNone) {
   const Casting casting = example();
   Casting more = casting;
   more.region_names = {"new", "top", "low"};
   more.sampling.regions.resize(3);
-  const Recipe a = cast_face(casting, 5), b = cast_face(more, 5);
+  const Recipe a = draw_face(casting, 5), b = draw_face(more, 5);
   EXPECT_EQ(a.target, b.target);
   EXPECT_EQ(a.regions[0].position, b.regions[1].position);
   EXPECT_EQ(a.regions[1].smoothness, b.regions[2].smoothness);
 }
 
-TEST(CastCrowd, HandRecipesComeFirstAndAreNormalised) {
+TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
   Casting casting = example();
   casting.count = 1;
   HandRecipe hand;
@@ -286,7 +331,7 @@ TEST(CastCrowd, HandRecipesComeFirstAndAreNormalised) {
   hand.regions[0].weights = {{4, 3}, {0, 1}};
   hand.regions[1].position = PlanePoint(0.5, 0.5);
   casting.recipes = {hand};
-  const auto crowd = cast_crowd(casting);
+  const auto crowd = draw_crowd(casting);
   ASSERT_EQ(crowd.size(), 2U);
   EXPECT_EQ(crowd[0].id, "mine");
   EXPECT_FALSE(crowd[0].index);
@@ -297,10 +342,10 @@ TEST(CastCrowd, HandRecipesComeFirstAndAreNormalised) {
   EXPECT_EQ(crowd[0].regions[1].weights,
             weights_at(casting.anchors, 3, casting.sampling.sources, PlanePoint(0.5, 0.5),
                        Normalization::kPartition, std::nullopt));
-  EXPECT_TRUE(same(crowd[1], cast_face(casting, 1)));
+  EXPECT_TRUE(same(crowd[1], draw_face(casting, 1)));
 
   casting.recipes[0].regions[0].weights = {{4, 0}};
-  testing::expect_error(ExitCode::kBadData, {}, [&] { cast_crowd(casting); });
+  testing::expect_error(ExitCode::kBadData, {}, [&] { draw_crowd(casting); });
 }
 
 }  // namespace

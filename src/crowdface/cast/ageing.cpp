@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/ageing.h"
+
+#include <map>
+
+#include "crowdface/core/error.h"
+
+namespace crowdface {
+
+std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
+                                        const std::vector<SourceWeight>& b, double t) {
+  std::map<Index, double> sum;
+  for (const SourceWeight& source : a) sum[source.head] += (1 - t) * source.weight;
+  for (const SourceWeight& source : b) sum[source.head] += t * source.weight;
+  std::vector<SourceWeight> mixed;
+  for (const auto& [head, weight] : sum) {
+    if (weight > 0) mixed.push_back({head, weight});
+  }
+  return mixed;
+}
+
+void apply_age(Recipe& recipe, double age, const SamplingOptions& sampling) {
+  if (age == 0) return;
+  const std::vector<Index>& heads = age > 0 ? sampling.old_heads : sampling.young_heads;
+  if (heads.empty()) {
+    throw InvalidInput(age > 0 ? "an age above 0 needs heads tagged old"
+                               : "an age below 0 needs heads tagged young");
+  }
+  std::vector<SourceWeight> along;
+  for (const Index head : heads) along.push_back({head, 1 / static_cast<double>(heads.size())});
+  for (RegionRecipe& region : recipe.regions) {
+    region.weights = mixed_weights(region.weights, along, age > 0 ? age : -age);
+    region.position.reset();
+  }
+  recipe.age = age;
+}
+
+}  // namespace crowdface

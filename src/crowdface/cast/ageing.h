@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/sampling.h"
+
+namespace crowdface {
+
+/// Moves a face along the detail of heads tagged old (age above 0) or young (below 0), as the paper
+/// does when it carries an older person's detail over to a younger one (Fig. 2): in every region a
+/// share |age| of the weights goes to those heads, evenly, and what was there keeps the rest. The
+/// weights no longer come from a position then, so there is none.
+/// \throws InvalidInput if no head is tagged so.
+void apply_age(Recipe& recipe, double age, const SamplingOptions& sampling);
+
+/// (1 − t)·a + t·b, head by head.
+std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
+                                        const std::vector<SourceWeight>& b, double t);
+
+}  // namespace crowdface

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace crowdface {
+
+/// What a face must not be. The limits let through what faces between the heads do (scans have
+/// slivers, and lips that touch) and refuse extrapolation that goes too far; docs/casting.md has
+/// figures for choosing others.
+struct BelievabilityOptions {
+  /// Whether whole meshes are judged as well, once they are built. Only to be reported: by then the
+  /// plan is made.
+  enum class Meshes {
+    kAuto,  ///< up to 200,000 polygons
+    kAll,
+    kNone,
+  };
+  Meshes meshes = Meshes::kAuto;
+  bool check = true;               ///< false: no candidate is judged by any of these
+  double max_deviation = 2.5;      ///< from the heads' mean, see Plausibility
+  double max_stretch = 3;          ///< of all but one in a hundred triangles of the skin
+  double max_flipped = 0.003;      ///< share of the skin's triangles turned over or collapsed
+  double max_intersecting = 0.01;  ///< share that passes through others where the target's does not
+};
+
+}  // namespace crowdface

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace crowdface {
+
+/// A share of the crowd whose target is one of these heads.
+struct Quota {
+  std::string name;  ///< of a head or a tag
+  double share = 0;  ///< 0 … 1
+  std::vector<Eigen::Index> heads;
+};
+
+/// How different the faces of a crowd must be.
+struct DiversityOptions {
+  enum class Mode {
+    kFirstFit,  ///< draw, keep if far enough from all before; growing the crowd moves no face
+    kSpread,    ///< choose the most spread set from a pool many times the crowd's size
+  };
+  Mode mode = Mode::kFirstFit;
+  double min_distance_mm = 0;           ///< between any two faces of the crowd
+  double min_distance_to_faces_mm = 0;  ///< from every input head
+  double max_weight = 1;                ///< of one head in one region
+  std::vector<Quota> quotas;            ///< no head in two of them
+  /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept. None: 1
+  /// where min_distance is asked for; else 32 for the first thousand faces and 8 for all others.
+  std::optional<int> candidates;
+  int pool = 10;            ///< kSpread: pool size, in crowds
+  int max_attempts = 1000;  ///< draws of one face before casting gives up
+
+  /// For the face with that number, from 1: it must not depend on how many there will be.
+  int candidates_for(std::uint64_t index) const {
+    return candidates.value_or(min_distance_mm > 0 ? 1 : index <= 1000 ? 32 : 8);
+  }
+};
+
+/// Why a candidate was thrown away.
+enum class Reason {
+  kMinDistance,         ///< too near to another face of the crowd
+  kMinDistanceToFaces,  ///< too near to an input head
+  kMaxWeight,           ///< one head has too much weight
+  kImplausible,         ///< farther from the heads' mean than believable
+  kFlipped,             ///< a part of the skin turned inside out or collapsed
+  kStretched,           ///< a part of the skin stretched too far
+  kIntersecting,        ///< the skin passes through itself where the target's does not
+  kFamily,              ///< among another family, or too far from its own
+};
+constexpr std::size_t kReasonCount = 8;
+/// "min_distance", "min_distance_to_faces", …: the config key that asks for it, where there is one.
+std::string_view name_of(Reason reason);
+
+/// How many candidates were thrown away, by reason.
+struct Rejections {
+  std::array<std::uint64_t, kReasonCount> count = {};
+  void add(Reason reason, std::uint64_t times = 1) {
+    count[static_cast<std::size_t>(reason)] += times;
+  }
+  void add(const Rejections& other) {
+    for (std::size_t r = 0; r < kReasonCount; ++r) count[r] += other.count[r];
+  }
+  std::uint64_t total() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t n : count) sum += n;
+    return sum;
+  }
+  /// The reason with most rejections, of equals the first.
+  Reason main() const {
+    std::size_t most = 0;
+    for (std::size_t r = 1; r < kReasonCount; ++r) {
+      if (count[r] > count[most]) most = r;
+    }
+    return static_cast<Reason>(most);
+  }
+};
+
+}  // namespace crowdface

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/draw_recipe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/cast/ageing.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/random.h"
+#include "crowdface/core/text.h"
+#include "crowdface/plane/layout.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+/// Where the numbers of one face come from: its own key, whatever else is drawn.
+class FaceDraws {
+ public:
+  FaceDraws(std::uint64_t seed, const DrawKey& key) : seed_(seed), key_(key) {}
+
+  std::array<double, 2> pair(std::string_view what, std::string_view region,
+                             std::uint32_t lane = 0) const {
+    const std::string purpose =
+        key_.who.empty() ? concat(what, '/', region) : concat(key_.who, '/', what, '/', region);
+    return random_pair({seed_, key_.index, purpose, key_.attempt}, lane);
+  }
+  double unit(std::string_view what, std::string_view region) const {
+    return pair(what, region)[0];
+  }
+  double in(const Range& range, std::string_view what, std::string_view region) const {
+    return range.low + (range.high - range.low) * unit(what, region);
+  }
+
+ private:
+  std::uint64_t seed_;
+  const DrawKey& key_;
+};
+
+Index draw_target(const std::vector<WeightedHead>& targets, const FaceDraws& draws) {
+  double total = 0;
+  for (const WeightedHead& target : targets) total += target.weight;
+  double left = draws.unit("target", "") * total;
+  for (const WeightedHead& target : targets) {
+    if (left < target.weight) return target.head;
+    left -= target.weight;
+  }
+  return targets.back().head;  // rounding used up the last weight
+}
+
+/// Uniform in the unit disc, by drawing from the square until it hits: no sine that a plan could
+/// depend on. Misses 64 times once in 10⁴³ faces; then the centre.
+PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region) {
+  for (std::uint32_t lane = 0; lane < 64; ++lane) {
+    const auto [u, v] = draws.pair("position", region, lane);
+    PlanePoint point(2 * u - 1, 2 * v - 1);
+    if (point.x() * point.x() + point.y() * point.y() <= 1) return point;
+  }
+  return PlanePoint::Zero();
+}
+
+/// Uniform by area in the convex hull of the sources' anchors.
+PlanePoint draw_in_hull(const Casting& casting, const FaceDraws& draws, const std::string& region) {
+  std::vector<PlanePoint> anchors;
+  for (const Index head : casting.sampling.sources) {
+    anchors.push_back(casting.anchors[static_cast<std::size_t>(head)]);
+  }
+  const auto [pick, a] = draws.pair("position", region, 0);
+  const double b = draws.pair("position", region, 1)[0];
+  return point_in_polygon(convex_hull(std::move(anchors)), pick, a, b);
+}
+
+PlanePoint draw_position(const Casting& casting, const PositionDistribution& distribution,
+                         Index target, const FaceDraws& draws, const std::string& region) {
+  switch (distribution.kind) {
+    case PositionDistribution::Kind::kFixed:
+      return distribution.at;
+    case PositionDistribution::Kind::kAround: {
+      const Index head = distribution.head.value_or(target);
+      return casting.anchors[static_cast<std::size_t>(head)] +
+             distribution.radius * draw_in_disc(draws, region);
+    }
+    case PositionDistribution::Kind::kUniform:
+      return draw_in_hull(casting, draws, region);
+    case PositionDistribution::Kind::kAnchored:
+      break;
+  }
+  const std::vector<Index>& sources = casting.sampling.sources;
+  const auto [which, how_far] = draws.pair("position", region, 2);
+  const auto at = static_cast<std::size_t>(which * static_cast<double>(sources.size()));
+  const Index head = sources[std::min(at, sources.size() - 1)];
+  const PlanePoint anchor = casting.anchors[static_cast<std::size_t>(head)];
+  const double step = how_far * distribution.pull;
+  return anchor + step * (draw_in_hull(casting, draws, region) - anchor);
+}
+
+void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScale& scale,
+                     const FaceDraws& draws, const std::string& region, RegionRecipe& recipe) {
+  const double drawn = draws.in(distribution.range, "smoothness", region);
+  switch (distribution.unit) {
+    case SmoothnessDistribution::Unit::kFraction:
+      recipe.smoothness = drawn;
+      recipe.iterations = iterations_of(drawn, scale);
+      return;
+    case SmoothnessDistribution::Unit::kIterations:
+      recipe.iterations = static_cast<std::uint64_t>(std::round(drawn));
+      break;
+    case SmoothnessDistribution::Unit::kSize:
+      recipe.iterations =
+          drawn > 0 ? iterations_of_size(scale.kind, drawn, scale.edge_length_mm) : 0;
+      break;
+  }
+  recipe.iterations = std::min(recipe.iterations, scale.max_level);
+  recipe.smoothness = static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
+}
+
+void take_position(const Casting& casting, Index target, const PlanePoint& position,
+                   RegionRecipe& recipe) {
+  recipe.position = position;
+  recipe.weights = weights_at(casting.anchors, target, casting.sampling.sources, position,
+                              casting.normalization, casting.sampling.max_sources);
+}
+
+/// Draws what `hand` leaves open of region k; a sampled face leaves everything open.
+RegionRecipe draw_region(const Casting& casting, std::size_t k, Index target,
+                         const FaceDraws& draws, const HandRecipe::Region& hand) {
+  const RegionSampling& sampling = casting.sampling.regions[k];
+  const std::string& name = casting.region_names[k];
+  RegionRecipe recipe;
+  if (!hand.weights.empty()) {
+    std::vector<SourceWeight> weights;
+    for (const WeightedHead& source : hand.weights) weights.push_back({source.head, source.weight});
+    recipe.weights = normalized_weights(std::move(weights));
+  } else {
+    take_position(casting, target,
+                  hand.position ? *hand.position
+                                : draw_position(casting, sampling.position, target, draws, name),
+                  recipe);
+  }
+  draw_smoothness(hand.smoothness.value_or(sampling.smoothness), casting.scale, draws, name,
+                  recipe);
+  recipe.extrapolation =
+      draws.in(hand.extrapolation.value_or(sampling.extrapolation), "extrapolation", name);
+  return recipe;
+}
+
+}  // namespace
+
+std::uint64_t iterations_of(double smoothness, const LevelScale& scale) {
+  return static_cast<std::uint64_t>(std::round(smoothness * static_cast<double>(scale.max_level)));
+}
+
+std::string face_id(const std::string& crowd, std::uint64_t index) {
+  std::string digits = concat(index);
+  if (digits.size() < 4) digits.insert(0, 4 - digits.size(), '0');
+  return concat(crowd, '_', digits);
+}
+
+Recipe draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
+                   const std::vector<WeightedHead>& targets) {
+  const FaceDraws draws(casting.seed, key);
+  Recipe recipe;
+  recipe.id = hand.id;
+  recipe.attempt = key.attempt;
+  recipe.target = hand.target ? *hand.target : draw_target(targets, draws);
+  for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
+    const HandRecipe::Region& region =
+        k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
+    recipe.regions.push_back(draw_region(casting, k, recipe.target, draws, region));
+  }
+  apply_age(recipe, draws.in(hand.age.value_or(casting.sampling.age), "age", ""), casting.sampling);
+  return recipe;
+}
+
+Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
+                 const std::vector<WeightedHead>& targets) {
+  HandRecipe open;
+  open.id = face_id(casting.name, index);
+  Recipe recipe = draw_recipe(casting, open, {index, attempt}, targets);
+  recipe.index = index;
+  return recipe;
+}
+
+Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt) {
+  return draw_face(casting, index, attempt, casting.sampling.targets);
+}
+
+Recipe draw_hand_recipe(const Casting& casting, const HandRecipe& hand) {
+  return draw_recipe(casting, hand, {0, 0, concat("recipe/", hand.id)}, casting.sampling.targets);
+}
+
+}  // namespace crowdface

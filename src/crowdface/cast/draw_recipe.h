@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/review.h"
+#include "crowdface/cast/sampling.h"
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// What turns a smoothness into iterations on this face set.
+struct LevelScale {
+  OperatorKind kind = OperatorKind::kUmbrella;
+  std::uint64_t max_level = 1;  ///< L_max, what smoothness 1 stands for
+  double edge_length_mm = 1;    ///< rms edge length of the skin, averaged over the face set
+};
+
+/// All that casting needs to know beside the face space.
+struct Casting {
+  std::string name;         ///< the crowd's
+  std::uint64_t count = 0;  ///< sampled faces
+  std::uint64_t seed = 1;
+  std::vector<PlanePoint> anchors;        ///< #heads
+  std::vector<std::string> region_names;  ///< "all" if there are no regions
+  SamplingOptions sampling;
+  std::vector<HandRecipe> recipes;
+  Normalization normalization = Normalization::kPartition;
+  LevelScale scale;
+  DiversityOptions diversity = {};
+  std::vector<FamilyOptions> families = {};
+  std::vector<Review> reviews = {};  ///< one after the other
+};
+
+/// Whole iterations of a smoothness: the nearest to smoothness·L_max.
+std::uint64_t iterations_of(double smoothness, const LevelScale& scale);
+
+/// The id of sampled face `index`: the crowd's name and at least four digits.
+std::string face_id(const std::string& crowd, std::uint64_t index);
+
+/// Whose numbers are drawn: each combination has its own, whatever else is drawn.
+struct DrawKey {
+  std::uint64_t index = 0;    ///< of the face, from 1
+  std::uint32_t attempt = 0;  ///< draws of this face thrown away before
+  std::string who = {};       ///< empty for a sampled face; keeps the draws of others apart
+};
+
+/// Draws what `hand` leaves open; a sampled face leaves everything open. A pure function of the
+/// arguments, so that a face is the same whatever the count or the order.
+/// \param targets  heads that the target is drawn from if `hand` names none.
+Recipe draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
+                   const std::vector<WeightedHead>& targets);
+
+/// Attempt `attempt` at sampled face `index` (from 1).
+Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
+                 const std::vector<WeightedHead>& targets);
+/// The same with any target that may be sampled.
+Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0);
+
+/// A hand-written recipe; what it leaves open is drawn under its own name.
+/// \throws InvalidInput if its weights cannot be normalised.
+Recipe draw_hand_recipe(const Casting& casting, const HandRecipe& hand);
+
+}  // namespace crowdface

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/cast/spread.h"
+#include "crowdface/core/interrupt.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kHalvings = 7;
+/// A set is told from the pool only while the pool is many times its size.
+constexpr std::uint64_t kPoolPerFace = 5;
+
+/// How many of the pool, in order, first fit keeps at this distance; it stops at `enough`.
+std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
+  if (pool.places.empty()) return 0;
+  PlaceIndex kept(pool.places[0].as_built.size());
+  for (const FaceSpace::Place& place : pool.places) {
+    if (static_cast<std::uint64_t>(kept.size()) >= enough) break;
+    if (kept.nearest(place, mm).face < 0) kept.add(place);
+  }
+  return static_cast<std::uint64_t>(kept.size());
+}
+
+}  // namespace
+
+std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJudge& judge,
+                                           const std::vector<std::uint64_t>& counts,
+                                           std::uint64_t pool_size) {
+  // Quotas would need a pass for each; capacity is about the faces there are.
+  Casting free = casting;
+  free.diversity.quotas.clear();
+  const CandidatePool pool = draw_pool(free, judge, targets_by_quota(free), pool_size);
+  const CrowdSoFar nobody(judge.space().dimensions());
+  FarthestPoints points(pool, nobody);
+  std::vector<double> closest;  // of the first n picked
+  std::uint64_t most = 0;
+  for (const std::uint64_t count : counts) {
+    if (count * kPoolPerFace <= pool.recipes.size()) most = std::max(most, count);
+  }
+  while (closest.size() < most) {
+    throw_if_interrupted();
+    const FarthestPoints::Pick pick = points.farthest(-1);
+    if (pick.candidate < 0) break;
+    if (judge.closely(pool.recipes[static_cast<std::size_t>(pick.candidate)])) {
+      points.drop(pick.candidate);
+      continue;
+    }
+    points.pick(pick.candidate);
+    closest.push_back(closest.empty() ? pick.mm : std::min(closest.back(), pick.mm));
+  }
+  std::vector<EstimateRow> rows;
+  for (const std::uint64_t count : counts) {
+    if (count < 2 || count > closest.size()) continue;
+    EstimateRow row{count, closest[count - 1], 0};
+    double works = 0, fails = 1.2 * row.spread_mm;
+    for (int i = 0; i < kHalvings; ++i) {
+      throw_if_interrupted();
+      const double mm = 0.5 * (works + fails);
+      (first_fit_count(pool, mm, count) >= count ? works : fails) = mm;
+    }
+    row.first_fit_mm = works;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace crowdface

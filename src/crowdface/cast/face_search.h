@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "crowdface/cast/crowd_so_far.h"
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/face_judge.h"
+
+namespace crowdface {
+
+/// The search for one face: draws candidates, throws away those that will not do, and settles on
+/// the one farthest from the crowd (Mitchell 1991, best-candidate sampling; with one candidate:
+/// the first that is far enough). What it finds depends on the crowd that it is settled against and
+/// on its own draws alone, not on when it was prepared.
+class FaceSearch {
+ public:
+  /// Draws attempt number n. Must be a pure function.
+  using Draw = std::function<Recipe(std::uint32_t attempt)>;
+  /// One more reason to refuse a place, given the crowd.
+  using Refuses = std::function<bool(const FaceSpace::Place&)>;
+
+  FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
+             std::uint32_t first_attempt = 0);
+
+  /// Draws candidates ahead, against the crowd as it is now. May run beside others.
+  void prepare(const CrowdSoFar& crowd);
+
+  struct Found {
+    Recipe recipe;
+    FaceSpace::Place place;
+  };
+  /// The face, against the crowd as it is now; nothing once all attempts are used up.
+  std::optional<Found> settle(const CrowdSoFar& crowd, const Refuses& refuses = {});
+
+  const Rejections& rejections() const { return rejections_; }
+
+ private:
+  struct Candidate {
+    Recipe recipe;
+    FaceSpace::Place place;
+    double nearest_mm = 0;
+    bool judged = false;  ///< closely
+    std::optional<Reason> broken = std::nullopt;
+  };
+
+  void draw_candidates(const CrowdSoFar& crowd);
+  void compare_with_newer(const CrowdSoFar& crowd);
+  void farthest_first();
+  void judge_closely(Candidate& candidate) const;
+
+  Draw draw_;
+  const FaceJudge& judge_;
+  const DiversityOptions& diversity_;
+  std::size_t wanted_;
+  std::uint32_t next_attempt_, last_attempt_;
+  Index compared_ = 0;  ///< faces of the crowd that the candidates were compared with
+  std::vector<Candidate> candidates_;
+  Rejections rejections_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/feasibility.h"
+
+#include <cmath>
+
+namespace crowdface {
+namespace {
+
+/// Draws that all tries together may take; one that has begun is finished.
+constexpr std::uint64_t kMostDraws = 100'000;
+/// Near enough: what fails is at most this many times what works.
+constexpr double kNearEnough = 1.12;
+
+double whole_hundredths(double mm) {
+  return std::floor(mm * 100) / 100;
+}
+
+}  // namespace
+
+Remedy find_remedy(const Casting& casting, const FaceSpace& space,
+                   const BelievabilityOptions& believability, const ProxySkin* skin,
+                   const Shortfall& shortfall) {
+  Remedy remedy;
+  remedy.binding = shortfall.rejections.main();
+  Casting easier = casting;
+  double* distance = nullptr;
+  if (!shortfall.family.empty() || !shortfall.reviewed.empty()) return remedy;
+  easier.reviews.clear();
+  if (remedy.binding == Reason::kMinDistance) {
+    distance = &easier.diversity.min_distance_mm;
+  } else if (remedy.binding == Reason::kMinDistanceToFaces) {
+    distance = &easier.diversity.min_distance_to_faces_mm;
+  } else {
+    return remedy;
+  }
+  if (casting.diversity.min_distance_mm > 0 && !casting.diversity.candidates) {
+    easier.diversity.candidates = 1;  // also where a try asks for no distance at all
+  }
+  // Faces fill a space of about five dimensions, so that many more fit at a little less distance.
+  double works = 0, fails = *distance;
+  double next = fails * std::pow((static_cast<double>(shortfall.reached) + 0.5) /
+                                     (static_cast<double>(casting.count) + 1),
+                                 0.2);
+  for (std::uint64_t draws = 0; draws < kMostDraws || works == 0;) {
+    *distance = whole_hundredths(next);
+    if (*distance <= works) break;
+    const FaceJudge judge(space, easier.diversity, believability, skin);
+    const CrowdCast cast = cast_crowd(easier, judge);
+    draws += cast.rejections.total() + cast.crowd.size();
+    if (cast.shortfall) {
+      fails = *distance;
+      next = works > 0 ? std::sqrt(works * fails) : 0.7 * fails;
+    } else {
+      works = *distance;
+      remedy.largest_mm = works;
+      next = std::sqrt(works * fails);
+    }
+    if (works > 0 && fails < kNearEnough * works) break;
+  }
+  return remedy;
+}
+
+}  // namespace crowdface

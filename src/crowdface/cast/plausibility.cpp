@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/plausibility.h"
+
+#include <cmath>
+
+namespace crowdface {
+namespace {
+
+constexpr double kRidge = 0.1;  ///< of the mean variance along the heads' own directions
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// L with L Lᵀ = A, for a symmetric positive matrix.
+std::vector<std::vector<double>> cholesky(std::vector<std::vector<double>> a) {
+  const std::size_t n = a.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = a[i][j];
+      for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
+      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
+    }
+  }
+  return a;
+}
+
+/// ‖L⁻¹ b‖².
+double solved_square(const std::vector<std::vector<double>>& lower, std::vector<double> b) {
+  double total = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) b[i] -= lower[i][k] * b[k];
+    b[i] /= lower[i][i];
+    total += b[i] * b[i];
+  }
+  return total;
+}
+
+}  // namespace
+
+Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::VectorXf>& heads,
+                                                  Index left_out) {
+  Metric metric;
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    if (static_cast<Index>(h) == left_out) continue;
+    metric.offsets.emplace_back(heads[h].data(), heads[h].data() + heads[h].size());
+  }
+  const std::size_t count = metric.offsets.size();
+  metric.mean.assign(metric.offsets[0].size(), 0.0);
+  for (const auto& head : metric.offsets) {
+    for (std::size_t d = 0; d < head.size(); ++d) metric.mean[d] += head[d];
+  }
+  for (double& value : metric.mean) value /= static_cast<double>(count);
+  double variance = 0;
+  for (auto& head : metric.offsets) {
+    for (std::size_t d = 0; d < head.size(); ++d) head[d] -= metric.mean[d];
+    variance += dot(head, head);
+  }
+  const double freedom = std::max<double>(static_cast<double>(count) - 1, 1);
+  metric.ridge = std::max(kRidge * variance / (freedom * freedom), 1e-12);
+  std::vector<std::vector<double>> gram(count, std::vector<double>(count));
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      gram[a][b] = gram[b][a] = dot(metric.offsets[a], metric.offsets[b]);
+    }
+    gram[a][a] += metric.ridge * freedom;
+  }
+  metric.lower = cholesky(std::move(gram));
+  return metric;
+}
+
+/// zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1), by the Woodbury identity
+/// (‖z‖² − (Y z)ᵀ (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
+double Plausibility::squared(const Metric& metric, const Eigen::VectorXf& at) {
+  std::vector<double> z(metric.mean.size()), along;
+  for (std::size_t d = 0; d < z.size(); ++d) {
+    z[d] = static_cast<double>(at[static_cast<Index>(d)]) - metric.mean[d];
+  }
+  for (const auto& head : metric.offsets) along.push_back(dot(head, z));
+  return (dot(z, z) - solved_square(metric.lower, std::move(along))) / metric.ridge;
+}
+
+Plausibility::Plausibility(const FaceSpace& space) {
+  std::vector<Eigen::VectorXf> heads;
+  for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.place_head(h).as_built);
+  metric_ = metric_without(heads, -1);
+  if (heads.size() < 3) {  // one alone has no spread: the heads themselves are the measure
+    unit_ = std::sqrt(squared(metric_, heads[0]));
+  } else {
+    double sum = 0;
+    for (std::size_t h = 0; h < heads.size(); ++h) {
+      sum += squared(metric_without(heads, static_cast<Index>(h)), heads[h]);
+    }
+    unit_ = std::sqrt(sum / static_cast<double>(heads.size()));
+  }
+  if (!(unit_ > 0)) unit_ = 1;
+}
+
+double Plausibility::score(const FaceSpace::Place& place) const {
+  return std::sqrt(std::max(squared(metric_, place.as_built), 0.0)) / unit_;
+}
+
+}  // namespace crowdface

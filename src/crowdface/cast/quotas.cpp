@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/quotas.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crowdface {
+namespace {
+
+constexpr double kRounding = 1e-9;  // 0.3 · 10 is 3, whatever doubles make of it
+
+std::uint64_t floor_share(double share, std::uint64_t n) {
+  return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
+}
+
+/// The face at which a quota must have got `m` faces.
+std::uint64_t deadline(double share, std::uint64_t m) {
+  return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
+}
+
+/// Whether leaving place `n` to the rest would make some quota late at a later place.
+bool must_serve(const std::vector<Quota>& quotas, std::uint64_t served, std::uint64_t n,
+                std::uint64_t horizon) {
+  for (std::uint64_t m = n; m <= n + horizon; ++m) {
+    std::uint64_t due = 0;
+    for (const Quota& quota : quotas) due += floor_share(quota.share, m);
+    if (due > served + (m - n)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t count) {
+  std::vector<int> schedule(count, -1);
+  double total = 0;
+  for (const Quota& quota : quotas) total += quota.share;
+  const bool all_taken = total > 1 - kRounding;
+  // Later than that nothing can fall due that is not due already (docs/casting.md).
+  const auto kinds = static_cast<double>(quotas.size());
+  const std::uint64_t horizon =
+      quotas.size() <= 1 ? 0
+      : all_taken        ? 0
+                         : static_cast<std::uint64_t>(std::min((kinds + 1) / (1 - total), 1e4)) + 1;
+  std::vector<std::uint64_t> served(quotas.size(), 0);
+  std::uint64_t all_served = 0;
+  for (std::uint64_t n = 1; n <= count; ++n) {
+    if (!all_taken && !must_serve(quotas, all_served, n, horizon)) continue;
+    int next = -1;
+    std::uint64_t earliest = 0;
+    for (std::size_t j = 0; j < quotas.size(); ++j) {
+      if (quotas[j].share <= 0) continue;
+      const std::uint64_t due = deadline(quotas[j].share, served[j] + 1);
+      if (next < 0 || due < earliest) {
+        next = static_cast<int>(j);
+        earliest = due;
+      }
+    }
+    if (next < 0) continue;
+    schedule[n - 1] = next;
+    ++served[static_cast<std::size_t>(next)];
+    ++all_served;
+  }
+  return schedule;
+}
+
+std::vector<WeightedHead> targets_of_quota(const std::vector<WeightedHead>& targets,
+                                           const std::vector<Quota>& quotas, int quota) {
+  const auto holds = [](const Quota& one, Eigen::Index head) {
+    return std::find(one.heads.begin(), one.heads.end(), head) != one.heads.end();
+  };
+  std::vector<WeightedHead> allowed;
+  for (const WeightedHead& target : targets) {
+    const bool in_any = std::any_of(quotas.begin(), quotas.end(),
+                                    [&](const Quota& one) { return holds(one, target.head); });
+    if (quota < 0 ? !in_any : holds(quotas[static_cast<std::size_t>(quota)], target.head)) {
+      allowed.push_back(target);
+    }
+  }
+  return allowed;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/sampling.h"
+
+namespace crowdface {
+
+/// Which quota each face counts for, −1 for none: of the first n faces a quota q gets ⌊q·n⌋, and
+/// never fewer; where several quotas would fall due at once some get theirs a little earlier. Each
+/// entry depends on the shares and its own place alone, so growing the crowd moves nobody.
+/// As late as possible, earliest deadline first (Liu & Layland 1973): the m-th face of a quota is
+/// due at face ⌈m/q⌉, and a place goes to a quota only if one would otherwise come too late.
+std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t count);
+
+/// Targets for faces of no quota, then for those of each.
+using TargetsOfQuota = std::vector<std::vector<WeightedHead>>;
+
+/// The targets that a face may have which counts for `quota` (−1: for none).
+std::vector<WeightedHead> targets_of_quota(const std::vector<WeightedHead>& targets,
+                                           const std::vector<Quota>& quotas, int quota);
+
+}  // namespace crowdface

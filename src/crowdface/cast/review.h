@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crowdface {
+
+/// What a reviewer says about one face.
+struct ReviewMark {
+  enum class Verdict {
+    kKeep,    ///< stays as it is
+    kReject,  ///< drawn anew, all of it but the locked regions
+  };
+  std::string id;
+  Verdict verdict = Verdict::kKeep;
+  std::vector<std::size_t> locked;  ///< regions that stay when the face is drawn anew
+  std::optional<std::string> note;
+};
+using Review = std::vector<ReviewMark>;
+
+}  // namespace crowdface

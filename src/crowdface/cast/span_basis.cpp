@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/span_basis.h"
+
+#include <cmath>
+#include <vector>
+
+#include "crowdface/core/parallel.h"
+
+namespace crowdface {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kLanes = 16;
+constexpr Index kRowsAtATime = 64;
+
+}  // namespace
+
+double fixed_dot(const float* a, const float* b, Index size) {
+  constexpr Index kChunk = 64 * kLanes;  // single precision within a chunk, double across them
+  double sum = 0;
+  for (Index begin = 0; begin < size; begin += kChunk) {
+    const Index end = begin + kChunk < size ? begin + kChunk : size;
+    float lanes[kLanes] = {};
+    Index i = begin;
+    for (; i + kLanes <= end; i += kLanes) {
+      for (Index l = 0; l < kLanes; ++l) lanes[l] += a[i + l] * b[i + l];
+    }
+    for (Index l = 0; i < end; ++i, ++l) lanes[l] += a[i] * b[i];
+    for (const float lane : lanes) sum += static_cast<double>(lane);
+  }
+  return sum;
+}
+
+SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
+  const Index count = rows.rows(), size = rows.cols();
+  const double enough = tolerance * tolerance;
+  std::vector<double> left(static_cast<std::size_t>(count));
+  parallel_blocks(count, kRowsAtATime, [&](Index begin, Index end) {
+    for (Index n = begin; n < end; ++n) {
+      left[static_cast<std::size_t>(n)] = fixed_dot(rows.row(n).data(), rows.row(n).data(), size);
+    }
+  });
+  std::vector<Eigen::VectorXf> directions, coordinates;
+  while (static_cast<Index>(directions.size()) < most) {
+    Index pivot = 0;
+    for (Index n = 1; n < count; ++n) {
+      if (left[static_cast<std::size_t>(n)] > left[static_cast<std::size_t>(pivot)]) pivot = n;
+    }
+    if (count == 0 || left[static_cast<std::size_t>(pivot)] <= enough ||
+        left[static_cast<std::size_t>(pivot)] == 0) {
+      break;
+    }
+    Eigen::VectorXf& q = directions.emplace_back(size);
+    const auto scale = static_cast<float>(1 / std::sqrt(left[static_cast<std::size_t>(pivot)]));
+    for (Index i = 0; i < size; ++i) q[i] = rows(pivot, i) * scale;
+    Eigen::VectorXf& along = coordinates.emplace_back(Eigen::VectorXf::Zero(count));
+    parallel_blocks(count, kRowsAtATime, [&](Index begin, Index end) {
+      for (Index n = begin; n < end; ++n) {
+        double& rest = left[static_cast<std::size_t>(n)];
+        if (rest <= enough) continue;  // well enough already
+        float* row = rows.row(n).data();
+        const auto part = static_cast<float>(fixed_dot(q.data(), row, size));
+        along[n] = part;
+        for (Index i = 0; i < size; ++i) row[i] -= part * q[i];
+        rest = n == pivot ? 0 : fixed_dot(row, row, size);
+      }
+    });
+  }
+  SpanBasis basis;
+  const auto rank = static_cast<Index>(directions.size());
+  basis.directions.resize(rank, size);
+  basis.coordinates.resize(count, rank);
+  for (Index p = 0; p < rank; ++p) {
+    basis.directions.row(p) = directions[static_cast<std::size_t>(p)].transpose();
+    basis.coordinates.col(p) = coordinates[static_cast<std::size_t>(p)];
+  }
+  return basis;
+}
+
+}  // namespace crowdface

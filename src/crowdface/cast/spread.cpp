@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/spread.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kCandidatesAtATime = 256;
+
+/// The squared distance, or anything above `limit` once it is sure to exceed that.
+double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
+  constexpr Index kLanes = 8, kChunk = 32;
+  double sum = 0;
+  for (Index begin = 0; begin < a.size() && sum <= limit; begin += kChunk) {
+    const Index end = std::min(a.size(), begin + kChunk);
+    float lanes[kLanes] = {};
+    Index i = begin;
+    for (; i + kLanes <= end; i += kLanes) {
+      for (Index l = 0; l < kLanes; ++l) {
+        const float d = a[i + l] - b[i + l];
+        lanes[l] += d * d;
+      }
+    }
+    for (Index l = 0; i < end; ++i, ++l) {
+      const float d = a[i] - b[i];
+      lanes[l] += d * d;
+    }
+    for (const float lane : lanes) sum += static_cast<double>(lane);
+  }
+  return sum;
+}
+
+double squared_up_to(const FaceSpace::Place& a, const FaceSpace::Place& b, double limit) {
+  const double as_built = squared_up_to(a.as_built, b.as_built, limit);
+  return std::min(as_built, squared_up_to(a.unit, b.unit, std::min(limit, as_built)));
+}
+
+}  // namespace
+
+CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
+                        const TargetsOfQuota& targets_of, std::uint64_t size) {
+  const std::vector<int> schedule = schedule_quotas(casting.diversity.quotas, size);
+  std::vector<std::optional<std::pair<Recipe, FaceSpace::Place>>> drawn(size);
+  std::vector<Rejections> rejections(size);
+  parallel_for_each(static_cast<Index>(size), [&](Index p) {
+    const auto at = static_cast<std::size_t>(p);
+    if (at % 1024 == 0) throw_if_interrupted();
+    const auto& targets = targets_of[static_cast<std::size_t>(schedule[at] + 1)];
+    for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
+      const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
+      Recipe recipe = draw_recipe(casting, {}, key, targets);
+      FaceSpace::Place place = judge.space().place(recipe);
+      if (const auto reason = judge.at_a_glance(recipe, place)) {
+        rejections[at].add(*reason);
+        continue;
+      }
+      drawn[at].emplace(std::move(recipe), std::move(place));
+      return;
+    }
+  });
+  CandidatePool pool;
+  for (std::size_t p = 0; p < size; ++p) {
+    pool.rejections.add(rejections[p]);
+    if (!drawn[p]) continue;
+    pool.recipes.push_back(std::move(drawn[p]->first));
+    pool.places.push_back(std::move(drawn[p]->second));
+    pool.quotas.push_back(schedule[p]);
+  }
+  return pool;
+}
+
+FarthestPoints::FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd)
+    : pool_(pool), squared_(pool.places.size(), HUGE_VAL), gone_(pool.places.size(), false) {
+  parallel_for_each(static_cast<Index>(squared_.size()), [&](Index p) {
+    const auto at = static_cast<std::size_t>(p);
+    const double mm = crowd.index().nearest(pool_.places[at]).mm;
+    squared_[at] = mm * mm;
+  });
+}
+
+FarthestPoints::Pick FarthestPoints::farthest(int quota) const {
+  Pick best;
+  double most = -1;
+  for (std::size_t p = 0; p < squared_.size(); ++p) {
+    if (gone_[p] || pool_.quotas[p] != quota || squared_[p] <= most) continue;
+    most = squared_[p];
+    best.candidate = static_cast<Index>(p);
+  }
+  best.mm = std::sqrt(std::max(most, 0.0));
+  return best;
+}
+
+void FarthestPoints::pick(Index candidate) {
+  drop(candidate);
+  const FaceSpace::Place& picked = pool_.places[static_cast<std::size_t>(candidate)];
+  parallel_blocks(
+      static_cast<Index>(squared_.size()), kCandidatesAtATime, [&](Index begin, Index end) {
+        for (Index p = begin; p < end; ++p) {
+          const auto at = static_cast<std::size_t>(p);
+          if (gone_[at]) continue;
+          squared_[at] =
+              std::min(squared_[at], squared_up_to(picked, pool_.places[at], squared_[at]));
+        }
+      });
+}
+
+void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
+                 const Kinship& kinship, CrowdSoFar& crowd, CrowdCast& result) {
+  const auto size = static_cast<std::uint64_t>(casting.diversity.pool) * casting.count;
+  CandidatePool pool = draw_pool(casting, judge, targets_of, size);
+  result.rejections.add(pool.rejections);
+  FarthestPoints points(pool, crowd);
+  for (std::uint64_t index = 1; index <= casting.count; ++index) {
+    throw_if_interrupted();
+    const int quota = result.quotas[index - 1];
+    FarthestPoints::Pick pick = points.farthest(quota);
+    while (pick.candidate >= 0) {
+      const auto at = static_cast<std::size_t>(pick.candidate);
+      std::optional<Reason> why = judge.closely(pool.recipes[at]);
+      if (!why && kinship.intrudes(pool.places[at])) why = Reason::kFamily;
+      if (!why) break;
+      result.rejections.add(*why);
+      points.drop(pick.candidate);
+      pick = points.farthest(quota);
+    }
+    if (pick.candidate < 0 || pick.mm < casting.diversity.min_distance_mm) {
+      Rejections why = pool.rejections;
+      if (pick.candidate >= 0) why.add(Reason::kMinDistance, why.total() + 1);
+      result.shortfall = Shortfall{index - 1, why, quota};
+      return;
+    }
+    points.pick(pick.candidate);
+    const auto at = static_cast<std::size_t>(pick.candidate);
+    Recipe recipe = pool.recipes[at];
+    recipe.id = face_id(casting.name, index);
+    recipe.index = index;
+    crowd.add(std::move(recipe), pool.places[at]);
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/cast/crowd_so_far.h"
+#include "crowdface/cast/quotas.h"
+
+namespace crowdface {
+
+/// Candidates of a pool, each of which will do by itself.
+struct CandidatePool {
+  std::vector<Recipe> recipes;
+  std::vector<FaceSpace::Place> places;
+  std::vector<int> quotas;  ///< that each counts for, or −1
+  Rejections rejections;
+};
+
+/// Draws a pool. Quotas are met by the pool as they are by a crowd.
+/// \param targets_of  targets for faces of no quota, then for those of each.
+CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
+                        const TargetsOfQuota& targets_of, std::uint64_t size);
+
+/// Picks one of a pool's candidates after the other, each the one that is farthest from those
+/// picked before and from the crowd it starts with (greedy farthest point). Whatever is picked, no
+/// set of as many candidates has a closest pair more than twice as far apart (Gonzalez 1985; Ravi,
+/// Rosenkrantz & Tayi 1994), as long as the distance is a metric: with every factor 1, no quotas and
+/// an empty crowd to start with.
+class FarthestPoints {
+ public:
+  FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);
+
+  struct Pick {
+    Index candidate = -1;  ///< −1: none left
+    double mm = 0;         ///< from what was there before; infinite for the first of all
+  };
+  /// The farthest of the candidates that count for this quota; it is not marked as picked yet.
+  Pick farthest(int quota) const;
+  /// Takes a candidate out, and measures how far all others are from it.
+  void pick(Index candidate);
+  /// Takes a candidate out, without it having joined.
+  void drop(Index candidate) { gone_[static_cast<std::size_t>(candidate)] = true; }
+
+ private:
+  const CandidatePool& pool_;
+  std::vector<double> squared_;  ///< from the nearest that was picked
+  std::vector<bool> gone_;
+};
+
+/// Faces 1 … count as the most spread set out of a pool.
+void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
+                 const Kinship& kinship, CrowdSoFar& crowd, CrowdCast& result);
+
+}  // namespace crowdface

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/validity/intersections.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+#include <embree3/rtcore.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+struct DeviceRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease>;
+using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
+
+/// What Embree's callbacks are handed.
+struct Query {
+  const std::vector<Triangle>& triangles;
+  const Positions& positions;
+  double margin;
+  std::mutex lock;
+  std::vector<TrianglePair> found;
+};
+
+void bounds_of(const RTCBoundsFunctionArguments* arguments) {
+  const auto& query = *static_cast<const Query*>(arguments->geometryUserPtr);
+  const Triangle& t = query.triangles[arguments->primID];
+  float low[3], high[3];
+  for (int c = 0; c < 3; ++c) {
+    const double a = query.positions(t[0], c), b = query.positions(t[1], c);
+    const double d = query.positions(t[2], c);
+    low[c] = static_cast<float>(std::min({a, b, d}) - query.margin);
+    high[c] = static_cast<float>(std::max({a, b, d}) + query.margin);
+    // Never smaller than the box in double precision.
+    low[c] -= 1e-6F * std::abs(low[c]);
+    high[c] += 1e-6F * std::abs(high[c]);
+  }
+  *arguments->bounds_o = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
+}
+
+void keep_pairs(void* user, RTCCollision* collisions, unsigned int count) {
+  auto& query = *static_cast<Query*>(user);
+  std::vector<TrianglePair> kept;
+  for (unsigned int i = 0; i < count; ++i) {
+    const std::uint32_t a = collisions[i].primID0, b = collisions[i].primID1;
+    if (a >= b || share_vertex(query.triangles[a], query.triangles[b])) continue;
+    kept.emplace_back(a, b);
+  }
+  const std::lock_guard<std::mutex> guard(query.lock);
+  query.found.insert(query.found.end(), kept.begin(), kept.end());
+}
+
+}  // namespace
+
+std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
+                                     const Positions& positions, double margin) {
+  if (triangles.empty()) return {};
+  Query query{triangles, positions, margin, {}, {}};
+  const Device device(rtcNewDevice(nullptr));
+  if (!device) throw InvalidInput("Embree could not be started");
+  const Scene scene(rtcNewScene(device.get()));
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(triangles.size()));
+  rtcSetGeometryUserData(geometry, &query);
+  rtcSetGeometryBoundsFunction(geometry, bounds_of, nullptr);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene.get());
+  rtcCollide(scene.get(), scene.get(), keep_pairs, &query);
+  if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE) {
+    throw InvalidInput(concat("Embree failed with error ", static_cast<int>(error)));
+  }
+  std::sort(query.found.begin(), query.found.end());
+  query.found.erase(std::unique(query.found.begin(), query.found.end()), query.found.end());
+  return std::move(query.found);
+}
+
+std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
+                                       const Positions& positions,
+                                       const std::vector<TrianglePair>& pairs) {
+  std::vector<TrianglePair> found;
+  std::copy_if(
+      pairs.begin(), pairs.end(), std::back_inserter(found), [&](const TrianglePair& pair) {
+        return triangles_intersect(positions, triangles[pair.first], triangles[pair.second]);
+      });
+  return found;
+}
+
+NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index vertex_count,
+                                   const std::vector<TrianglePair>& target_pairs)
+    : excused_(triangles.size(), false) {
+  std::vector<bool> there(static_cast<std::size_t>(vertex_count), false);
+  const auto mark = [&](std::uint32_t triangle) {
+    for (const std::uint32_t vertex : triangles[triangle]) there[vertex] = true;
+  };
+  for (const auto& [a, b] : target_pairs) {
+    mark(a);
+    mark(b);
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    excused_[t] = std::any_of(triangles[t].begin(), triangles[t].end(),
+                              [&](std::uint32_t vertex) { return there[vertex]; });
+  }
+}
+
+Index NewIntersections::count(const std::vector<TrianglePair>& face_pairs) const {
+  std::vector<std::uint32_t> taking_part;
+  for (const auto& [a, b] : face_pairs) {
+    if (excused_[a] && excused_[b]) continue;
+    taking_part.push_back(a);
+    taking_part.push_back(b);
+  }
+  std::sort(taking_part.begin(), taking_part.end());
+  return std::unique(taking_part.begin(), taking_part.end()) - taking_part.begin();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <set>
+#include <vector>
+
+#include "crowdface/validity/intersections.h"
+
+namespace crowdface {
+
+/// What is wrong with a face's skin against that of its target.
+struct SkinDefects {
+  LocalDefects local;
+  Index intersecting = 0;  ///< triangles that pass through others, where the target's do not
+};
+
+/// Judges whole meshes of one topology against their targets, from any thread.
+class SkinCheck {
+ public:
+  /// \param heads    #V by 3 each.
+  /// \param targets  heads that will be asked about.
+  SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
+            const std::set<Index>& targets);
+
+  /// \param target  one of those named to the constructor.
+  SkinDefects compare(const Positions& positions, Index target) const;
+  Index triangle_count() const { return static_cast<Index>(triangles_.size()); }
+
+ private:
+  struct Target {
+    TargetTriangles triangles;
+    NewIntersections intersections;
+  };
+  std::vector<Triangle> triangles_;
+  std::map<Index, Target> targets_;
+};
+
+}  // namespace crowdface
