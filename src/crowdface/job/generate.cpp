@@ -223,7 +223,7 @@ void tell_dry_run(const Job& job) {
 
 /// Everything after the crowd is cast and the folder is ready.
 void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
-                    StageSeconds& stages) {
+                    const GenerateOptions& options, StageSeconds& stages) {
   const Prepared& prepared = cast_job.prepared;
   const std::vector<Recipe>& crowd = cast_job.cast.crowd;
   write_plan(job, directory, cast_job.cast);
@@ -277,7 +277,7 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   // Said before there was a folder for the log; at this level they reach the file alone.
   for (const std::string& warning : job.inputs.warnings) log_debug(warning);
   try {
-    fill_directory(job, directory, crowd, stages);
+    fill_directory(job, directory, crowd, options, stages);
   } catch (const std::exception& error) {
     log_debug(error.what());  // `main` says it aloud, when this log is closed
     throw;
