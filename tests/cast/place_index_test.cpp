@@ -38,8 +38,7 @@ TEST(PlaceIndex, FindsTheNearestAsASearchThroughAllDoes) {
         for (const auto& [begin, end] : {std::pair<Index, Index>{0, 203}, {5, 150}, {33, 34}}) {
           PlaceIndex::Nearest expected;
           for (Index i = begin; i < end; ++i) {
-            const double mm =
-                FaceSpace::distance(queries[q], places[static_cast<std::size_t>(i)]);
+            const double mm = FaceSpace::distance(queries[q], places[static_cast<std::size_t>(i)]);
             if (mm < expected.mm) expected = {i, mm};
           }
           const auto found = index.nearest(queries[q], HUGE_VAL, begin, end);

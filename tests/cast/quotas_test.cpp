@@ -24,9 +24,12 @@ TEST(Quotas, OneQuotaIsMetExactlyAtEveryCount) {
 }
 
 TEST(Quotas, SeveralAreNeverLateAndHardlyEarly) {
-  for (const std::vector<double>& shares :
-       {std::vector<double>{0.3, 0.3, 0.4}, {0.5, 0.5}, {0.25, 0.25, 0.2}, {0.1, 0.6, 0.29},
-        {1. / 3, 1. / 3, 1. / 3}, {0.05, 0.05, 0.05, 0.05, 0.7}}) {
+  for (const std::vector<double>& shares : {std::vector<double>{0.3, 0.3, 0.4},
+                                            {0.5, 0.5},
+                                            {0.25, 0.25, 0.2},
+                                            {0.1, 0.6, 0.29},
+                                            {1. / 3, 1. / 3, 1. / 3},
+                                            {0.05, 0.05, 0.05, 0.05, 0.7}}) {
     std::vector<Quota> quotas;
     for (const double share : shares) quotas.push_back(quota(share));
     const auto schedule = schedule_quotas(quotas, 600);

@@ -596,17 +596,18 @@ TEST_F(WrongHead, SectionsAreCheckedToo) {
 }
 
 TEST_F(ConfigTest, CastingIsRead) {
-  const auto config = read(kBands +
-                           "diversity: {mode: spread, min_distance: 1.5 mm, min_distance_to_faces: "
-                           "1 mm, max_weight: 0.7, quotas: {ann: 0.25}, candidates: 4, pool: 20, "
-                           "max_attempts: 50}\n"
-                           "distance: {area: skin}\n"
-                           "believability: {max_deviation: 2, max_stretch: 4, max_flipped: 0.01, "
-                           "max_intersecting: 0.02, meshes: none}\n"
-                           "families:\n"
-                           "  - {name: smith, members: 2, target: bob, max_distance: 2 mm}\n"
-                           "  - {name: jones, members: 3, parents: {mother: ann, father: smith_02}, "
-                           "max_distance: 2 mm, min_distance: 0.5 mm}\n");
+  const auto config =
+      read(kBands +
+           "diversity: {mode: spread, min_distance: 1.5 mm, min_distance_to_faces: "
+           "1 mm, max_weight: 0.7, quotas: {ann: 0.25}, candidates: 4, pool: 20, "
+           "max_attempts: 50}\n"
+           "distance: {area: skin}\n"
+           "believability: {max_deviation: 2, max_stretch: 4, max_flipped: 0.01, "
+           "max_intersecting: 0.02, meshes: none}\n"
+           "families:\n"
+           "  - {name: smith, members: 2, target: bob, max_distance: 2 mm}\n"
+           "  - {name: jones, members: 3, parents: {mother: ann, father: smith_02}, "
+           "max_distance: 2 mm, min_distance: 0.5 mm}\n");
   ASSERT_TRUE(config) << told();
   EXPECT_EQ(config->diversity.mode, DiversityOptions::Mode::kSpread);
   EXPECT_EQ(config->diversity.min_distance_mm, 1.5);
@@ -645,16 +646,17 @@ TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
   refused("families: [{name: 7, members: 2, max_distance: 2 mm}]\n", "needs a letter");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, min_distance: 3 mm}]\n",
           "twice that apart");
-  refused("families: [{name: a, members: 2, max_distance: 1 mm, parents: {mother: a_01, father: "
-          "bob}}]\n",
-          "expected a head, a recipe's id or a member");
+  refused(
+      "families: [{name: a, members: 2, max_distance: 1 mm, parents: {mother: a_01, father: "
+      "bob}}]\n",
+      "expected a head, a recipe's id or a member");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, inherit: {all: mother}}]\n",
           "only a family with parents");
   refused("sampling: {age: 0.5}\n", "no head is tagged old");
   refused("believability: {max_flipped: 2}\n", "from 0 to 1");
   refused("review: nowhere.yaml\n", "missing");
   touch("review.yaml");
-  refused("review: review.yaml\n", "schema");
+  refused("review: review.yaml\n", "review.yaml:1:1");
 }
 
 TEST_F(ConfigTest, ReviewsAreReadAtTheirPlaces) {

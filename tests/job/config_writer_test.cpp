@@ -27,8 +27,8 @@ bool same(const SmoothnessDistribution& a, const SmoothnessDistribution& b) {
 bool same(const RegionSampling& a, const RegionSampling& b) {
   return a.position.kind == b.position.kind && a.position.head == b.position.head &&
          a.position.radius == b.position.radius && a.position.at == b.position.at &&
-         a.position.pull == b.position.pull &&
-         same(a.smoothness, b.smoothness) && a.extrapolation == b.extrapolation;
+         a.position.pull == b.position.pull && same(a.smoothness, b.smoothness) &&
+         a.extrapolation == b.extrapolation;
 }
 
 bool same(const HandRecipe::Region& a, const HandRecipe::Region& b) {
@@ -234,7 +234,7 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "distance: {area: skin, mask: mask.png}\n"
       "diversity: {mode: spread, min_distance: 1.25 mm, min_distance_to_faces: 0.5 mm, max_weight: "
       "0.75,\n"
-      "            quotas: {bob: 0.25}, candidates: 3, pool: 7, max_attempts: 99}\n"
+      "            quotas: {cyd: 0.25}, candidates: 3, pool: 7, max_attempts: 99}\n"
       "believability: {max_deviation: 4, max_stretch: 5, max_flipped: 0.125, meshes: all}\n"
       "families:\n"
       "  - {name: 'yes', members: 2, target: bob, max_distance: 1.5 mm}\n"

@@ -183,10 +183,10 @@ TEST(Generate, LeavesNoTemporaryFiles) {
   run(folder, "out");
   std::vector<std::string> names;
   for (const auto& [name, bytes] : crowd_files(folder.out())) names.push_back(name);
-  EXPECT_THAT(names, ::testing::UnorderedElementsAre("config.yaml", "crowd.csv", "plan.jsonl",
-                                                     "report.json", "meshes/mob_0001.obj",
-                                                     "meshes/mob_0002.obj", "meshes/mob_0003.obj",
-                                                     "meshes/mob_0004.obj"));
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("casting.json", "config.yaml", "crowd.csv",
+                                                     "plan.jsonl", "report.json",
+                                                     "meshes/mob_0001.obj", "meshes/mob_0002.obj",
+                                                     "meshes/mob_0003.obj", "meshes/mob_0004.obj"));
 }
 
 TEST(Generate, LargerCountKeepsTheFirstFaces) {
@@ -268,7 +268,7 @@ TEST(Generate, PlanWritesNoMeshesAndTheSamePlan) {
   ConfigOverrides overrides;
   plan(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
   const auto planned = crowd_files(folder.out());
-  EXPECT_EQ(planned.size(), 3U) << "config.yaml, plan.jsonl, crowd.csv";
+  EXPECT_EQ(planned.size(), 4U) << "config.yaml, plan.jsonl, crowd.csv, casting.json";
   run(folder, "out");
   for (const auto& [name, bytes] : planned) EXPECT_EQ(bytes, crowd_files(folder.out()).at(name));
 }

@@ -72,7 +72,8 @@ TEST(Intersections, NearPairsGrowWithTheMargin) {
     const auto pairs = near_pairs(sheet.triangles, positions, margin);
     EXPECT_GT(pairs.size(), before);
     before = pairs.size();
-    for (const auto& [a, b] : pairs) EXPECT_FALSE(share_vertex(sheet.triangles[a], sheet.triangles[b]));
+    for (const auto& [a, b] : pairs)
+      EXPECT_FALSE(share_vertex(sheet.triangles[a], sheet.triangles[b]));
   }
 }
 

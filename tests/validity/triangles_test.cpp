@@ -53,7 +53,8 @@ TEST(Triangles, CrossingIsAnEdgeThroughOneOfThem) {
   int crossing = 0;
   for (std::uint64_t n = 0; n < 3000; ++n) {
     const Positions p = testing::random_positions(6, n);
-    const bool expected = edges_pierce(p, {0, 1, 2}, {3, 4, 5}) || edges_pierce(p, {3, 4, 5}, {0, 1, 2});
+    const bool expected =
+        edges_pierce(p, {0, 1, 2}, {3, 4, 5}) || edges_pierce(p, {3, 4, 5}, {0, 1, 2});
     EXPECT_EQ(triangles_intersect(p, {0, 1, 2}, {3, 4, 5}), expected) << n;
     crossing += expected ? 1 : 0;
   }

@@ -77,6 +77,7 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge) {
     }
     result.families.push_back(std::move(*cast));
   }
+  crowd.begin_sampled();
   result.quotas = schedule_quotas(casting.diversity.quotas, casting.count);
   const TargetsOfQuota targets_of = targets_by_quota(casting);
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {

@@ -19,6 +19,11 @@ class CrowdSoFar {
     places_.push_back(std::move(place));
   }
   Index size() const { return index_.size(); }
+  /// What comes from now on is sampled.
+  void begin_sampled() { first_sampled_ = size(); }
+  /// Candidates compete by their distance from the faces from here on, so that a recipe or a family
+  /// more does not change which of them wins (though all faces must be far enough from all).
+  Index first_sampled() const { return first_sampled_; }
   const std::vector<Recipe>& recipes() const { return recipes_; }
   const std::vector<FaceSpace::Place>& places() const { return places_; }
   const PlaceIndex& index() const { return index_; }
@@ -27,6 +32,7 @@ class CrowdSoFar {
   std::vector<Recipe> recipes_;
   std::vector<FaceSpace::Place> places_;
   PlaceIndex index_;
+  Index first_sampled_ = 0;
 };
 
 }  // namespace crowdface

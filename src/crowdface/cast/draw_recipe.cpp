@@ -14,6 +14,13 @@
 namespace crowdface {
 namespace {
 
+/// Numbers that one position may take.
+constexpr std::uint32_t kLanesOfPosition = 64;
+/// A position that gives one head too much weight is drawn again so often at most, and each time
+/// the pull away from its anchor may be that much more.
+constexpr std::uint32_t kPositionRetries = 20;
+constexpr double kFartherEachTime = 0.1;
+
 /// Where the numbers of one face come from: its own key, whatever else is drawn.
 class FaceDraws {
  public:
@@ -50,9 +57,9 @@ Index draw_target(const std::vector<WeightedHead>& targets, const FaceDraws& dra
 
 /// Uniform in the unit disc, by drawing from the square until it hits: no sine that a plan could
 /// depend on. Misses 64 times once in 10⁴³ faces; then the centre.
-PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region) {
+PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region, std::uint32_t first) {
   for (std::uint32_t lane = 0; lane < 64; ++lane) {
-    const auto [u, v] = draws.pair("position", region, lane);
+    const auto [u, v] = draws.pair("position", region, first + lane);
     PlanePoint point(2 * u - 1, 2 * v - 1);
     if (point.x() * point.x() + point.y() * point.y() <= 1) return point;
   }
@@ -60,38 +67,44 @@ PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region) {
 }
 
 /// Uniform by area in the convex hull of the sources' anchors.
-PlanePoint draw_in_hull(const Casting& casting, const FaceDraws& draws, const std::string& region) {
+PlanePoint draw_in_hull(const Casting& casting, const FaceDraws& draws, const std::string& region,
+                        std::uint32_t first) {
   std::vector<PlanePoint> anchors;
   for (const Index head : casting.sampling.sources) {
     anchors.push_back(casting.anchors[static_cast<std::size_t>(head)]);
   }
-  const auto [pick, a] = draws.pair("position", region, 0);
-  const double b = draws.pair("position", region, 1)[0];
+  const auto [pick, a] = draws.pair("position", region, first);
+  const double b = draws.pair("position", region, first + 1)[0];
   return point_in_polygon(convex_hull(std::move(anchors)), pick, a, b);
 }
 
+/// \param retry  how many positions of this draw gave one head too much weight; the later ones go
+///               farther from its anchor.
 PlanePoint draw_position(const Casting& casting, const PositionDistribution& distribution,
-                         Index target, const FaceDraws& draws, const std::string& region) {
+                         Index target, const FaceDraws& draws, const std::string& region,
+                         std::uint32_t retry) {
+  const std::uint32_t first = kLanesOfPosition * retry;
   switch (distribution.kind) {
     case PositionDistribution::Kind::kFixed:
       return distribution.at;
     case PositionDistribution::Kind::kAround: {
       const Index head = distribution.head.value_or(target);
       return casting.anchors[static_cast<std::size_t>(head)] +
-             distribution.radius * draw_in_disc(draws, region);
+             distribution.radius * draw_in_disc(draws, region, first);
     }
     case PositionDistribution::Kind::kUniform:
-      return draw_in_hull(casting, draws, region);
+      return draw_in_hull(casting, draws, region, first);
     case PositionDistribution::Kind::kAnchored:
       break;
   }
   const std::vector<Index>& sources = casting.sampling.sources;
-  const auto [which, how_far] = draws.pair("position", region, 2);
+  const auto [which, how_far] = draws.pair("position", region, first + 2);
   const auto at = static_cast<std::size_t>(which * static_cast<double>(sources.size()));
   const Index head = sources[std::min(at, sources.size() - 1)];
   const PlanePoint anchor = casting.anchors[static_cast<std::size_t>(head)];
-  const double step = how_far * distribution.pull;
-  return anchor + step * (draw_in_hull(casting, draws, region) - anchor);
+  const double step =
+      how_far * std::min(distribution.pull + kFartherEachTime * static_cast<double>(retry), 1.0);
+  return anchor + step * (draw_in_hull(casting, draws, region, first) - anchor);
 }
 
 void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScale& scale,
@@ -121,6 +134,12 @@ void take_position(const Casting& casting, Index target, const PlanePoint& posit
                               casting.normalization, casting.sampling.max_sources);
 }
 
+double largest_weight(const RegionRecipe& region) {
+  double largest = 0;
+  for (const SourceWeight& source : region.weights) largest = std::max(largest, source.weight);
+  return largest;
+}
+
 /// Draws what `hand` leaves open of region k; a sampled face leaves everything open.
 RegionRecipe draw_region(const Casting& casting, std::size_t k, Index target,
                          const FaceDraws& draws, const HandRecipe::Region& hand) {
@@ -134,8 +153,15 @@ RegionRecipe draw_region(const Casting& casting, std::size_t k, Index target,
   } else {
     take_position(casting, target,
                   hand.position ? *hand.position
-                                : draw_position(casting, sampling.position, target, draws, name),
+                                : draw_position(casting, sampling.position, target, draws, name, 0),
                   recipe);
+  }
+  const bool drawn = hand.weights.empty() && !hand.position;
+  for (std::uint32_t retry = 1;
+       drawn && retry <= kPositionRetries && largest_weight(recipe) > casting.diversity.max_weight;
+       ++retry) {
+    take_position(casting, target,
+                  draw_position(casting, sampling.position, target, draws, name, retry), recipe);
   }
   draw_smoothness(hand.smoothness.value_or(sampling.smoothness), casting.scale, draws, name,
                   recipe);

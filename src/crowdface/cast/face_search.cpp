@@ -26,8 +26,11 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
     }
     // Only one candidate: how far it is does not matter once it is far enough.
     const double limit = wanted_ == 1 ? diversity_.min_distance_mm : HUGE_VAL;
-    candidate.nearest_mm = crowd.index().nearest(candidate.place, limit).mm;
-    if (candidate.nearest_mm < diversity_.min_distance_mm) {
+    const double least = diversity_.min_distance_mm;
+    candidate.nearest_mm =
+        crowd.index().nearest(candidate.place, limit, crowd.first_sampled(), crowd.size()).mm;
+    if (candidate.nearest_mm < least ||
+        crowd.index().nearest(candidate.place, least, 0, crowd.first_sampled()).face >= 0) {
       rejections_.add(Reason::kMinDistance);
       continue;
     }

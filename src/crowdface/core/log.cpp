@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/ringbuffer_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -71,6 +72,27 @@ void close_log_file() {
   sinks().files.back()->flush();
   std::erase(sinks().logger->sinks(), sinks().files.back());
   sinks().files.pop_back();
+}
+
+struct LogMemory::Lines {
+  static constexpr std::size_t kMost = 1000;
+  std::shared_ptr<spdlog::sinks::ringbuffer_sink_mt> sink =
+      std::make_shared<spdlog::sinks::ringbuffer_sink_mt>(kMost);
+};
+
+LogMemory::LogMemory() : lines_(std::make_unique<Lines>()) {
+  lines_->sink->set_level(spdlog::level::debug);
+  sinks().logger->sinks().push_back(lines_->sink);
+}
+
+LogMemory::~LogMemory() {
+  std::erase(sinks().logger->sinks(), lines_->sink);
+}
+
+void LogMemory::replay() const {
+  if (sinks().files.empty()) return;
+  for (const auto& line : lines_->sink->last_raw()) sinks().files.back()->log(line);
+  sinks().files.back()->flush();
 }
 
 void log_debug(std::string_view text) {

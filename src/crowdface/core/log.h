@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace crowdface {
@@ -15,6 +16,22 @@ LogLevel log_level();
 void add_log_file(const std::filesystem::path& path);
 /// Stops writing to the file that was added last.
 void close_log_file();
+
+/// Remembers, for as long as it lives, the last thousand lines, for a log file that cannot be opened
+/// yet.
+class LogMemory {
+ public:
+  LogMemory();
+  ~LogMemory();
+  LogMemory(const LogMemory&) = delete;
+  LogMemory& operator=(const LogMemory&) = delete;
+  /// Writes what is remembered to the file that was added last.
+  void replay() const;
+
+ private:
+  struct Lines;
+  std::unique_ptr<Lines> lines_;
+};
 
 /// One line each; the text is used as it is.
 void log_debug(std::string_view text);

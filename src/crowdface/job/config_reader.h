@@ -13,11 +13,11 @@ namespace crowdface {
 
 /// What the command line changes in a config, as the user typed it.
 struct ConfigOverrides {
-  std::vector<std::string> set;      ///< `--set`: "key.path=value"; later ones win
-  std::optional<std::string> count;  ///< `--count`, wins over `--set crowd.count`
-  std::optional<std::string> seed;   ///< `--seed`
-  std::optional<std::string> out;    ///< `--out`, relative to the working directory
-  std::vector<std::string> review;   ///< `--review`, likewise; in place of the key `review`
+  std::vector<std::string> set;          ///< `--set`: "key.path=value"; later ones win
+  std::optional<std::string> count;      ///< `--count`, wins over `--set crowd.count`
+  std::optional<std::string> seed;       ///< `--seed`
+  std::optional<std::string> out;        ///< `--out`, relative to the working directory
+  std::vector<std::string> review = {};  ///< `--review`, likewise; in place of the key `review`
 };
 
 /// What could be read of a config, whatever is wrong with the rest.

@@ -267,6 +267,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
 
 void generate(const fs::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options) {
+  const LogMemory memory;  // the crowd's log is opened once there is a crowd
   StageSeconds stages;
   const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
   if (options.dry_run) return tell_dry_run(job);
@@ -274,8 +275,7 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const CastJob crowd = cast_job(job, directory, options, stages);
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
   const CrowdLog log(directory.log());
-  // Said before there was a folder for the log; at this level they reach the file alone.
-  for (const std::string& warning : job.inputs.warnings) log_debug(warning);
+  memory.replay();
   try {
     fill_directory(job, directory, crowd, options, stages);
   } catch (const std::exception& error) {
