@@ -15,8 +15,10 @@ TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
   for (int i = 1; i <= 8; ++i) {
     touch(concat("out/demo_heads/synth_0", i, ".obj"));
     touch(concat("heads/ict/ict_0", i, ".obj"));
+    touch(concat("heads/makehuman/makehuman_0", i, ".obj"));
   }
   touch("heads/ict/ict_bands.1001.png");
+  touch("heads/makehuman/makehuman_bands.png");
   touch("masks/synth_bands.png");
   int examples = 0;
   for (const auto& entry : std::filesystem::directory_iterator(
