@@ -115,29 +115,46 @@ void CrowdBlender::pack(const Block& block, std::vector<Chunk>& packed) const {
   }
 }
 
+/// α of the block's regions for each value: #regions by #values, zero past the last.
+void CrowdBlender::spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const {
+  alpha.assign(block.regions.size(), BlockValues{});
+  for (std::size_t k = 0; k < block.regions.size(); ++k) {
+    for (std::size_t i = 0; i < block.count; ++i) {
+      const auto share =
+          static_cast<float>(regions_.alpha(vertices_[block.first + i], block.regions[k]));
+      std::fill_n(alpha[k].begin() + static_cast<std::ptrdiff_t>(3 * i), 3, share);
+    }
+  }
+}
+
 /// What a group of faces adds to the target at the block's vertices: Σ_k α_k times the product.
 void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& packed,
+                                 const std::vector<BlockValues>& alpha,
                                  std::span<const Factors> of_region,
-                                 BlockDisplacements& result) const {
+                                 std::array<BlockValues, kChunkFaces>& result) const {
   for (auto& face : result) face.fill(0);
-  float products[kChunkFaces][kChunkValues];
-  for (const std::uint32_t k : block.regions) {
-    const Factors& factors = of_region[k];
+  for (std::size_t k = 0; k < block.regions.size(); ++k) {
+    const Factors& factors = of_region[block.regions[k]];
     if (factors.fields.empty()) continue;
-    std::array<float, kBlockValues> alpha{};
-    for (std::size_t i = 0; i < 3 * block.count; ++i) {
-      alpha[i] = static_cast<float>(regions_.alpha(vertices_[block.first + i / 3], k));
+    for (std::size_t i = 0; i < 3 * block.count; i += kChunkValues) {
+      add_product(packed[i / kChunkValues * field_count_].values, factors.fields.data(),
+                  factors.fields.size(), factors.coefficients.data(), alpha[k].data() + i,
+                  result[0].data() + i, kBlockValues);
     }
-    for (std::size_t chunk = 0; chunk * kChunkValues < 3 * block.count; ++chunk) {
-      multiply_chunk(packed[chunk * field_count_].values, factors.fields.data(),
-                     factors.fields.size(), factors.coefficients.data(), products[0]);
-      for (std::size_t face = 0; face < kChunkFaces; ++face) {
-        float* sum = result[face].data() + chunk * kChunkValues;
-        for (std::size_t i = 0; i < kChunkValues; ++i) {
-          sum[i] += alpha[chunk * kChunkValues + i] * products[face][i];  // Eq. 7
-        }
-      }
-    }
+  }
+}
+
+/// The face at the block's vertices: the target's positions and what is added to them.
+void CrowdBlender::write(const Block& block, const Positions& target, const BlockValues& added,
+                         Positions& result) const {
+  for (std::size_t begin = 0, end = 0; begin < block.count; begin = end) {
+    const std::uint32_t first = vertices_[block.first + begin];
+    do {
+      ++end;
+    } while (end < block.count && vertices_[block.first + end] == first + (end - begin));
+    const std::size_t from = std::size_t{3} * first;
+    write_sums(target.data() + from, added.data() + 3 * begin, 3 * (end - begin),
+               result.data() + from);
   }
 }
 
@@ -156,28 +173,23 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
   constexpr std::ptrdiff_t kBlocksATask = 8;
   parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
     std::vector<Chunk> packed;
-    BlockDisplacements added;
+    std::vector<BlockValues> alpha;
+    std::array<BlockValues, kChunkFaces> added;
     for (Index b = begin; b < end; ++b) {
       const Block& block = blocks_[static_cast<std::size_t>(b)];
       pack(block, packed);
+      spread_alpha(block, alpha);
       for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
-        displacements(block, packed,
+        displacements(block, packed, alpha,
                       std::span(all_factors).subspan(first / kChunkFaces * regions, regions),
                       added);
         for (std::size_t f = first; f < std::min(first + kChunkFaces, recipes.size()); ++f) {
-          const Positions& target =
-              faces_.heads[static_cast<std::size_t>(recipes[f]->target)].positions;
-          for (std::size_t i = 0; i < block.count; ++i) {
-            const Index vertex = vertices_[block.first + i];
-            for (Index c = 0; c < 3; ++c) {
-              results[f](vertex, c) =
-                  target(vertex, c) +
-                  static_cast<double>(added[f - first][3 * i + static_cast<std::size_t>(c)]);
-            }
-          }
+          const auto target = static_cast<std::size_t>(recipes[f]->target);
+          write(block, faces_.heads[target].positions, added[f - first], results[f]);
         }
       }
     }
+    finish_writing();
   });
 }
 

@@ -64,14 +64,18 @@ class CrowdBlender {
   struct alignas(64) Chunk {
     float values[kChunkValues];
   };
-  using BlockDisplacements = std::array<std::array<float, kBlockValues>, kChunkFaces>;
+  using BlockValues = std::array<float, kBlockValues>;
 
   void cut_into_blocks();
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
   Factors factors(std::span<const Recipe* const> recipes, std::size_t region) const;
   void pack(const Block& block, std::vector<Chunk>& packed) const;
+  void spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const;
   void displacements(const Block& block, const std::vector<Chunk>& packed,
-                     std::span<const Factors> of_region, BlockDisplacements& result) const;
+                     const std::vector<BlockValues>& alpha, std::span<const Factors> of_region,
+                     std::array<BlockValues, kChunkFaces>& result) const;
+  void write(const Block& block, const Positions& target, const BlockValues& added,
+             Positions& result) const;
 
   const FaceSet& faces_;
   std::vector<HeadLevels> levels_;

@@ -11,13 +11,20 @@ namespace crowdface {
 inline constexpr std::size_t kChunkValues = 32;
 inline constexpr std::size_t kChunkFaces = 6;
 
-/// products[face][i] = Σ_f coefficients[f][face]·chunk[fields[f]][i], added in the order of f with
-/// one rounding a term.
+/// sums[face][i] += alpha[i]·Σ_f coefficients[f][face]·chunk[fields[f]][i] (Eq. 7), the products added
+/// in the order of f with one rounding a term.
 /// \param chunk         #fields by kChunkValues
 /// \param fields        `count` rows of it
 /// \param coefficients  `count` by kChunkFaces
-/// \param products      kChunkFaces by kChunkValues, overwritten
-void multiply_chunk(const float* chunk, const std::uint32_t* fields, std::size_t count,
-                    const float* coefficients, float* products);
+/// \param alpha         kChunkValues
+/// \param sums          kChunkFaces rows of kChunkValues, `stride` apart
+void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,
+                 const float* coefficients, const float* alpha, float* sums, std::size_t stride);
+
+/// results[i] = base[i] + added[i] for `count` numbers, written past the caches: a crowd's faces are
+/// far larger, and a cached store would read from memory what it is about to overwrite.
+/// finish_writing() must follow on the same thread before another may read them.
+void write_sums(const double* base, const float* added, std::size_t count, double* results);
+void finish_writing();
 
 }  // namespace crowdface
