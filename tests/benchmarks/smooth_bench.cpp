@@ -13,6 +13,7 @@
 #include <benchmark/benchmark.h>
 
 #include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/subdivision.h"
 #include "crowdface/smooth/iterate.h"
 #include "crowdface/smooth/level_basis.h"
 #include "crowdface/synth/synthetic_head.h"
@@ -24,23 +25,37 @@ namespace {
 
 constexpr std::int64_t kLarge = 1'200'000, kSmall = 5'000;
 
+/// In which order a head's vertices stand in its file.
+enum Order : std::int64_t {
+  kGrid,  ///< of the synthetic layout's grids: neighbours stand together, which suits plain loops
+  kSubdivided,  ///< of a subdivided mesh, as sculpting programs write: old vertices, edges, faces
+};
+
+Mesh head_of(std::int64_t vertices, std::int64_t order) {
+  const int rounds = order == kGrid ? 0 : 3;
+  const SyntheticHeads heads(std::max<Index>(vertices >> (2 * rounds), kSmall));
+  Mesh mesh{heads.topology(), heads.positions(1, 1), heads.uvs()};
+  for (int round = 0; round < rounds && mesh.topology.vertex_count < vertices / 2; ++round) {
+    mesh = subdivide(mesh);
+  }
+  return mesh;
+}
+
 /// A synthetic head of about this many vertices and what smoothing it needs.
 struct Subject {
-  explicit Subject(std::int64_t vertices)
-      : heads(static_cast<Index>(vertices)),
-        positions(heads.positions(1, 1)),
-        smoothing(build_adjacency(heads.topology()), Boundary::kFixed, OperatorKind::kUmbrella),
-        filter(smoothing, positions) {}
-  SyntheticHeads heads;
-  Positions positions;
+  explicit Subject(Mesh head)
+      : mesh(std::move(head)),
+        smoothing(build_adjacency(mesh.topology), Boundary::kFixed, OperatorKind::kUmbrella),
+        filter(smoothing, mesh.positions) {}
+  Mesh mesh;
   SmoothingOperator smoothing;
   ChebyshevFilter filter;
 };
 
-const Subject& subject(std::int64_t vertices) {
-  static std::map<std::int64_t, std::unique_ptr<Subject>> subjects;
-  auto& entry = subjects[vertices];
-  if (!entry) entry = std::make_unique<Subject>(vertices);
+const Subject& subject(std::int64_t vertices, std::int64_t order = kGrid) {
+  static std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<Subject>> subjects;
+  auto& entry = subjects[{vertices, order}];
+  if (!entry) entry = std::make_unique<Subject>(head_of(vertices, order));
   return *entry;
 }
 
@@ -69,7 +84,7 @@ void eigen_sweep(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix, Col
 /// Seconds of one Eigen sweep, the least of a few.
 double eigen_sweep_seconds(const Subject& s) {
   const auto matrix = eigen_operator(s.smoothing);
-  Columns now = s.positions, next(now.rows(), now.cols());
+  Columns now = s.mesh.positions, next(now.rows(), now.cols());
   double least = HUGE_VAL;
   for (int i = 0; i < 5; ++i) {
     const auto start = std::chrono::steady_clock::now();
@@ -99,12 +114,17 @@ class ProductTime {
 };
 
 void BM_SweepEigen(benchmark::State& state) {
-  const Subject& s = subject(bench::size(kLarge, kSmall));
+  const Subject& s = subject(bench::size(kLarge, kSmall), state.range(0));
   const auto matrix = eigen_operator(s.smoothing);
-  Columns now = s.positions, next(now.rows(), now.cols());
+  Columns now = s.mesh.positions, next(now.rows(), now.cols());
   for (auto _ : state) eigen_sweep(matrix, now, next);
 }
-BENCHMARK(BM_SweepEigen)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_SweepEigen)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->ArgName("order")
+    ->Arg(kGrid)
+    ->Arg(kSubdivided);
 
 struct DoubleTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -116,12 +136,13 @@ void BM_SweepOpenMesh(benchmark::State& state) {
   const Subject& s = subject(bench::size(kLarge, kSmall));
   Mesh mesh;
   std::vector<Mesh::VertexHandle> vertices;
-  for (Index i = 0; i < s.positions.rows(); ++i) {
-    vertices.push_back(mesh.add_vertex({s.positions(i, 0), s.positions(i, 1), s.positions(i, 2)}));
+  for (Index i = 0; i < s.mesh.positions.rows(); ++i) {
+    vertices.push_back(
+        mesh.add_vertex({s.mesh.positions(i, 0), s.mesh.positions(i, 1), s.mesh.positions(i, 2)}));
   }
-  for (Index f = 0; f < s.heads.topology().face_count(); ++f) {
+  for (Index f = 0; f < s.mesh.topology.face_count(); ++f) {
     std::vector<Mesh::VertexHandle> face;
-    for (const std::uint32_t v : s.heads.topology().face(f)) face.push_back(vertices[v]);
+    for (const std::uint32_t v : s.mesh.topology.face(f)) face.push_back(vertices[v]);
     mesh.add_face(face);
   }
   mesh.request_face_normals();
@@ -137,7 +158,7 @@ void BM_SweepPlain(benchmark::State& state) {
   const Subject& s = subject(bench::size(kLarge, kSmall));
   constexpr int kSweeps = 10;
   ProductTime time(state, kSweeps);
-  for (auto _ : state) benchmark::DoNotOptimize(iterate(s.smoothing, s.positions, kSweeps));
+  for (auto _ : state) benchmark::DoNotOptimize(iterate(s.smoothing, s.mesh.positions, kSweeps));
 }
 BENCHMARK(BM_SweepPlain)->Unit(benchmark::kMillisecond)->UseRealTime();
 
@@ -146,7 +167,7 @@ template <class T>
 void BM_FilterPass(benchmark::State& state) {
   constexpr std::size_t kTerms = 401;
   const Subject& s = subject(bench::size(kLarge, kSmall));
-  FilterInput<T> input{s.filter.rows_of<T>(s.positions), {}};
+  FilterInput<T> input{s.filter.rows_of<T>(s.mesh.positions), {}};
   ChebyshevSeries series(kTerms, 0.0);
   for (std::size_t k = 0; k < kTerms; k += 2) series[k] = 1.0 / 201;  // one parity, as powers have
   input.series.assign(static_cast<std::size_t>(state.range(0)), series);
@@ -161,17 +182,17 @@ BENCHMARK(BM_FilterPass<double>)->Unit(benchmark::kMillisecond)->UseRealTime()->
 
 /// Tiles, filter and basis of one head: what `crowdface prepare` does for the first of a set.
 void BM_PrepareHead(benchmark::State& state) {
-  const Subject& s = subject(bench::size(state.range(0), kSmall));
+  const Subject& s = subject(bench::size(state.range(0), kSmall), state.range(2));
   const auto max_level = static_cast<std::uint64_t>(bench::size(state.range(1), 300));
   constexpr double kToleranceCm = 0.005;
   Index rank = 0;
   double seconds = 0;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    const ChebyshevFilter filter(s.smoothing, s.positions);
+    const ChebyshevFilter filter(s.smoothing, s.mesh.positions);
     const LevelNodes nodes(OperatorKind::kUmbrella, max_level);
     const LevelBasis basis =
-        fit_level_basis(filter, nodes, filter_nodes(filter, nodes, s.positions), kToleranceCm);
+        fit_level_basis(filter, nodes, filter_nodes(filter, nodes, s.mesh.positions), kToleranceCm);
     rank = basis.rank();
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
@@ -183,15 +204,16 @@ BENCHMARK(BM_PrepareHead)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(1)
-    ->ArgNames({"vertices", "L_max"})
-    ->Args({10'000, 166})
-    ->Args({40'000, 666})
-    ->Args({150'000, 2'500})
-    ->Args({400'000, 6'660})
-    ->Args({kLarge, 20'000})
-    ->Args({kLarge, 1'000})
-    ->Args({kLarge, 5'000})
-    ->Args({kLarge, 100'000});
+    ->ArgNames({"vertices", "L_max", "order"})
+    ->Args({10'000, 166, kGrid})
+    ->Args({40'000, 666, kGrid})
+    ->Args({150'000, 2'500, kGrid})
+    ->Args({400'000, 6'660, kGrid})
+    ->Args({kLarge, 20'000, kGrid})
+    ->Args({kLarge, 20'000, kSubdivided})
+    ->Args({kLarge, 1'000, kGrid})
+    ->Args({kLarge, 5'000, kGrid})
+    ->Args({kLarge, 100'000, kGrid});
 
 }  // namespace
 }  // namespace crowdface

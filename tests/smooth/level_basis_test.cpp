@@ -115,6 +115,37 @@ TEST_P(Basis, StaysWithinItsToleranceAtEveryLevelAndVertex) {
   }
 }
 
+/// The same at the length of the paper's runs, every single level of 20,000, at a share of the
+/// vertices.
+TEST(LevelBasis, StaysWithinItsToleranceAtEveryLevelOfALongRun) {
+  constexpr std::uint64_t kMaxLevel = 20'000;
+  const Fitted fitted(OperatorKind::kUmbrella, kMaxLevel);
+  const LevelBasis basis = fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, 0.01);
+  double largest = 0;
+  std::uint64_t where = 0;
+  Columns level = fitted.positions;  // by plain iteration
+  for (std::uint64_t l = 1; l <= kMaxLevel; ++l) {
+    level = iterate(fitted.smoothing, level, 1);
+    const std::vector<double> phi = basis_functions(fitted.nodes, basis.mixing, l);
+    for (Index v = static_cast<Index>(l % 7); v < level.rows(); v += 7) {
+      Eigen::RowVector3d found = fitted.positions.row(v);
+      for (Index p = 0; p < basis.rank(); ++p) {
+        const float* field = basis.field(p).data() + 3 * v;
+        for (Index c = 0; c < 3; ++c) {
+          found[c] += phi[static_cast<std::size_t>(p)] * static_cast<double>(field[c]);
+        }
+      }
+      const double missed = (found - level.row(v)).norm();
+      if (missed > largest) {
+        largest = missed;
+        where = l;
+      }
+    }
+  }
+  EXPECT_LE(largest, basis.error.max * 1.02) << "at level " << where;
+  EXPECT_GT(largest, basis.error.max / 4) << "the bound is no empty one";
+}
+
 TEST_P(Basis, LevelZeroAndRimsKeepTheirBits) {
   const auto [kind, boundary] = GetParam();
   const Fitted fitted(kind, 300, boundary);
