@@ -5,6 +5,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #include <Eigen/SparseCore>
 #include <OpenMesh/Core/IO/MeshIO.hh>
@@ -12,6 +13,7 @@
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 #include <benchmark/benchmark.h>
 
+#include "crowdface/core/random.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/subdivision.h"
 #include "crowdface/smooth/iterate.h"
@@ -29,16 +31,33 @@ constexpr std::int64_t kLarge = 1'200'000, kSmall = 5'000;
 enum Order : std::int64_t {
   kGrid,  ///< of the synthetic layout's grids: neighbours stand together, which suits plain loops
   kSubdivided,  ///< of a subdivided mesh, as sculpting programs write: old vertices, edges, faces
+  kShuffled,    ///< none: the worst that a file can do
 };
 
+/// The mesh with its vertices in an order drawn at random.
+Mesh shuffled(const Mesh& mesh) {
+  std::vector<std::uint32_t> place(static_cast<std::size_t>(mesh.topology.vertex_count));
+  std::iota(place.begin(), place.end(), 0U);
+  for (std::size_t i = place.size(); i > 1; --i) {  // Fisher and Yates
+    const double drawn = random_between({1, i, "place", 0}, 0, static_cast<double>(i));
+    std::swap(place[i - 1], place[std::min(i - 1, static_cast<std::size_t>(drawn))]);
+  }
+  Mesh result = mesh;
+  for (std::uint32_t& v : result.topology.corner_vertices) v = place[v];
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    result.positions.row(place[v]) = mesh.positions.row(static_cast<Index>(v));
+  }
+  return result;
+}
+
 Mesh head_of(std::int64_t vertices, std::int64_t order) {
-  const int rounds = order == kGrid ? 0 : 3;
+  const int rounds = order == kSubdivided ? 3 : 0;
   const SyntheticHeads heads(std::max<Index>(vertices >> (2 * rounds), kSmall));
   Mesh mesh{heads.topology(), heads.positions(1, 1), heads.uvs()};
   for (int round = 0; round < rounds && mesh.topology.vertex_count < vertices / 2; ++round) {
     mesh = subdivide(mesh);
   }
-  return mesh;
+  return order == kShuffled ? shuffled(mesh) : mesh;
 }
 
 /// A synthetic head of about this many vertices and what smoothing it needs.
@@ -124,7 +143,8 @@ BENCHMARK(BM_SweepEigen)
     ->UseRealTime()
     ->ArgName("order")
     ->Arg(kGrid)
-    ->Arg(kSubdivided);
+    ->Arg(kSubdivided)
+    ->Arg(kShuffled);
 
 struct DoubleTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -211,6 +231,7 @@ BENCHMARK(BM_PrepareHead)
     ->Args({400'000, 6'660, kGrid})
     ->Args({kLarge, 20'000, kGrid})
     ->Args({kLarge, 20'000, kSubdivided})
+    ->Args({kLarge, 20'000, kShuffled})
     ->Args({kLarge, 1'000, kGrid})
     ->Args({kLarge, 5'000, kGrid})
     ->Args({kLarge, 100'000, kGrid});
