@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/memory.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace crowdface {
@@ -24,6 +26,16 @@ TEST(FormatBytes, IsShort) {
 TEST(MachineMemory, IsPlausible) {
   EXPECT_GT(machine_memory(), 64ULL << 20);
   EXPECT_LT(machine_memory(), 1ULL << 50);
+}
+
+TEST(PeakMemory, GrowsWithWhatIsHeld) {
+  constexpr std::uint64_t kMore = 64ULL << 20;
+  const std::uint64_t before = peak_memory();
+  std::vector<char> held(kMore, 1);
+  EXPECT_EQ(held[kMore / 2], 1);
+  EXPECT_GE(peak_memory(), before);
+  EXPECT_GE(peak_memory(), kMore);
+  EXPECT_LE(peak_memory(), machine_memory());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "crowdface/core/text.h"
@@ -29,6 +30,12 @@ std::uint64_t machine_memory() {
     if (const auto limit = group_limit(file)) bytes = std::min(bytes, *limit);
   }
   return bytes;
+}
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 std::optional<std::uint64_t> parse_bytes(std::string_view text) {

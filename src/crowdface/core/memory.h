@@ -11,6 +11,9 @@ namespace crowdface {
 /// Bytes of memory that this process may use: the machine's, or its control group's if that is less.
 std::uint64_t machine_memory();
 
+/// The most memory this process has held so far, in bytes.
+std::uint64_t peak_memory();
+
 /// "4 GiB", "512 MiB", "3 GB" as bytes; nothing if it is no such size.
 std::optional<std::uint64_t> parse_bytes(std::string_view text);
 

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
@@ -156,6 +157,7 @@ std::string format_timings(const StageSeconds& stages, const StageBusy& busy, st
                                          [](auto& a, auto& b) { return a.second < b.second; });
   for (const auto& [part, seconds] : parts) timings["busy_seconds"][part] = rounded(seconds);
   timings["slowest"] = slowest->first;
+  timings["peak_memory_bytes"] = peak_memory();
   return timings.dump(2) + "\n";
 }
 
