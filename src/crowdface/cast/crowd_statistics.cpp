@@ -2,27 +2,28 @@
 #include "crowdface/cast/crowd_statistics.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "crowdface/core/parallel.h"
 
 namespace crowdface {
 namespace {
 
-using Distance = std::function<double(const FaceSpace::Place&, const FaceSpace::Place&)>;
-
-std::vector<double> pair_distances_by(const Distance& distance,
-                                      const std::vector<FaceSpace::Place>& places,
-                                      std::size_t most) {
+/// Up to `most` of `places`, evenly spread.
+std::vector<const FaceSpace::Place*> some_of(const std::vector<FaceSpace::Place>& places,
+                                             std::size_t most) {
   std::vector<const FaceSpace::Place*> chosen;
   const std::size_t count = std::min(places.size(), most);
   for (std::size_t i = 0; i < count; ++i) chosen.push_back(&places[i * places.size() / count]);
+  return chosen;
+}
+
+/// distance(i, j) for all j < i < count.
+template <class Distance>
+std::vector<double> pairwise(std::size_t count, const Distance& distance) {
   std::vector<double> distances(count * (count - (count > 0 ? 1 : 0)) / 2);
   parallel_for_each(static_cast<Index>(count), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
-    for (std::size_t j = 0; j < at; ++j) {
-      distances[at * (at - 1) / 2 + j] = distance(*chosen[at], *chosen[j]);
-    }
+    for (std::size_t j = 0; j < at; ++j) distances[at * (at - 1) / 2 + j] = distance(at, j);
   });
   return distances;
 }
@@ -39,16 +40,23 @@ Quartiles quartiles(std::vector<double> values) {
 }
 
 std::vector<double> pair_distances(const std::vector<FaceSpace::Place>& places, std::size_t most) {
-  return pair_distances_by(FaceSpace::distance, places, most);
+  const auto chosen = some_of(places, most);
+  return pairwise(chosen.size(), [&](std::size_t i, std::size_t j) {
+    return FaceSpace::distance(*chosen[i], *chosen[j]);
+  });
 }
 
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Place>& places, std::size_t most) {
-  return pair_distances_by(
-      [&](const FaceSpace::Place& a, const FaceSpace::Place& b) {
-        return space.region_distance(a, b, region);
-      },
-      places, most);
+  const auto chosen = some_of(places, most);
+  std::vector<FaceSpace::RegionPlace> in_region(chosen.size());
+  parallel_for_each(static_cast<Index>(chosen.size()), [&](Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    in_region[at] = space.in_region(*chosen[at], region);
+  });
+  return pairwise(chosen.size(), [&](std::size_t i, std::size_t j) {
+    return space.region_distance(in_region[i], in_region[j], region);
+  });
 }
 
 }  // namespace crowdface

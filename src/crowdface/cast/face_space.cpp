@@ -53,6 +53,15 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
   for (Index s = 0; s < count; ++s) {
     sampled.alpha.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
   }
+  constexpr Index kGap = 8;  // a short one costs less than another stretch
+  for (Index k = 0; k < sampled.alpha.cols(); ++k) {
+    auto& stretches = sampled.stretches.emplace_back();
+    for (Index s = 0; s < count; ++s) {
+      if (sampled.alpha(s, k) == 0) continue;
+      if (stretches.empty() || s > stretches.back().second + kGap) stretches.emplace_back(s, s);
+      stretches.back().second = s + 1;
+    }
+  }
   return sampled;
 }
 
@@ -64,23 +73,26 @@ Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant v
     const RegionRecipe& region = recipe.regions[k];
     const double e = variant == Variant::kUnit ? 1 : region.extrapolation;
     std::fill(change.begin(), change.end(), 0.F);
-    // S_L D − D at the samples, D = B − e Σ ω̂_i C_i.
+    // S_L D − D at the region's samples, D = B − e Σ ω̂_i C_i.
     for (const LevelTerm& term : level_terms(heads.levels, region.iterations)) {
       const auto add = [&](Index head, double factor) {
         const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(head)];
         const float* row = trajectory.data() + term.row * trajectory.cols();
         const auto f = static_cast<float>(factor * term.factor * heads.mm_per_unit);
-        float* out = change.data();
-        for (std::size_t i = 0; i < change.size(); ++i) out[i] += f * row[i];
+        for (const auto& [begin, end] : heads.stretches[k]) {
+          float* out = change.data();
+          for (Index i = 3 * begin; i < 3 * end; ++i) out[i] += f * row[i];
+        }
       };
       add(recipe.target, 1);
       for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
     }
-    for (Index s = 0; s < face.rows(); ++s) {
-      const double alpha = heads.alpha(s, static_cast<Index>(k));
-      if (alpha == 0) continue;
-      for (Index c = 0; c < 3; ++c) {
-        face(s, c) += alpha * static_cast<double>(change[static_cast<std::size_t>(3 * s + c)]);
+    for (const auto& [begin, end] : heads.stretches[k]) {
+      for (Index s = begin; s < end; ++s) {
+        const double alpha = heads.alpha(s, static_cast<Index>(k));
+        for (Index c = 0; c < 3; ++c) {
+          face(s, c) += alpha * static_cast<double>(change[static_cast<std::size_t>(3 * s + c)]);
+        }
       }
     }
   }
@@ -374,21 +386,39 @@ void FaceSpace::build_region_metrics() {
   }
 }
 
-double FaceSpace::region_distance(const Place& a, const Place& b, Index region) const {
-  if (region_metrics_.empty()) return distance(a, b);
-  const auto k = static_cast<std::size_t>(region);
-  const FloatRows& metric = region_metrics_[k];
-  if (!(region_shares_[k] > 0)) return 0;
-  const auto squared = [&](const Eigen::VectorXf& x, const Eigen::VectorXf& y) {
-    const Eigen::VectorXf d = x.head(metric.rows()) - y.head(metric.rows());
-    double sum = 0;
+FaceSpace::RegionPlace FaceSpace::in_region(const Place& place, Index region) const {
+  RegionPlace result{&place, {}, {}};
+  if (region_metrics_.empty()) return result;
+  const FloatRows& metric = region_metrics_[static_cast<std::size_t>(region)];
+  const auto times = [&](const Eigen::VectorXf& at) {
+    Eigen::VectorXf product(metric.rows());
     for (Index i = 0; i < metric.rows(); ++i) {
-      sum += static_cast<double>(d[i]) * fixed_dot(metric.row(i).data(), d.data(), metric.rows());
+      product[i] = static_cast<float>(fixed_dot(metric.row(i).data(), at.data(), metric.rows()));
+    }
+    return product;
+  };
+  result.as_built = times(place.as_built);
+  result.unit = times(place.unit);
+  return result;
+}
+
+double FaceSpace::region_distance(const RegionPlace& a, const RegionPlace& b, Index region) const {
+  if (region_metrics_.empty()) return distance(*a.place, *b.place);
+  const double share = region_shares_[static_cast<std::size_t>(region)];
+  if (!(share > 0)) return 0;
+  // (x − y)ᵀ M (x − y) with M x and M y known.
+  const auto squared = [](const Eigen::VectorXf& x, const Eigen::VectorXf& y,
+                          const Eigen::VectorXf& metric_x, const Eigen::VectorXf& metric_y) {
+    double sum = 0;
+    for (Index i = 0; i < metric_x.size(); ++i) {
+      sum += (static_cast<double>(x[i]) - static_cast<double>(y[i])) *
+             (static_cast<double>(metric_x[i]) - static_cast<double>(metric_y[i]));
     }
     return std::max(sum, 0.0);
   };
-  return std::sqrt(std::min(squared(a.as_built, b.as_built), squared(a.unit, b.unit)) /
-                   region_shares_[k]);
+  return std::sqrt(std::min(squared(a.place->as_built, b.place->as_built, a.as_built, b.as_built),
+                            squared(a.place->unit, b.place->unit, a.unit, b.unit)) /
+                   share);
 }
 
 Eigen::MatrixXd FaceSpace::head_distances() const {

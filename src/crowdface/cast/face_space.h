@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "crowdface/blend/recipe.h"
@@ -17,6 +18,9 @@ struct SampledHeads {
   Positions mean;                ///< #S by 3
   Columns alpha;                 ///< #S by #regions
   std::span<const Trajectory> trajectories;
+  /// For each region the stretches of samples that it acts on, [begin, end): regions are patches,
+  /// and samples stand along a curve, so they are few.
+  std::vector<std::vector<std::pair<Index, Index>>> stretches;
   std::vector<std::uint64_t> levels;  ///< of the trajectories' rows
   double mm_per_unit = 1;             ///< of the trajectories
 };
@@ -61,8 +65,14 @@ class FaceSpace {
   /// Root mean square over the face in mm: the smaller of the distances between the faces as built
   /// and with factors of 1.
   static double distance(const Place& a, const Place& b);
+  /// A place and what one region's metric makes of it.
+  struct RegionPlace {
+    const Place* place = nullptr;
+    Eigen::VectorXf as_built, unit;  ///< the metric times the place's
+  };
+  RegionPlace in_region(const Place& place, Index region) const;
   /// The same over one region alone, the faces aligned as wholes.
-  double region_distance(const Place& a, const Place& b, Index region) const;
+  double region_distance(const RegionPlace& a, const RegionPlace& b, Index region) const;
 
   /// Distances between all heads, #heads by #heads, in mm.
   Eigen::MatrixXd head_distances() const;
