@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same comparison on real heads, where they are at hand: sixteen identities of the ICT face
 // model, 26,719 vertices each, which are not kept in this repository.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
@@ -8,6 +12,7 @@
 
 #include "support/bowl_heads.h"
 #include "support/crowd_files.h"
+#include "support/reference_distance.h"
 #include "support/small_crowd.h"
 
 namespace crowdface {
@@ -15,11 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(RealHeads, MatchThePlainMethod) {
-  const fs::path heads = fs::path(CROWDFACE_SOURCE_DIR) / "../shared/faces/ict16";
-  if (!fs::exists(heads / "ict_00.obj")) {
-    GTEST_SKIP() << "no real heads at " << heads << ": put OBJ files ict_00.obj … there";
+class RealHeads : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(heads / "ict_00.obj")) {
+      GTEST_SKIP() << "no real heads at " << heads << ": put OBJ files ict_00.obj … there";
+    }
   }
+  const fs::path heads = fs::path(CROWDFACE_SOURCE_DIR) / "../shared/faces/ict16";
+};
+
+TEST_F(RealHeads, MatchThePlainMethod) {
   const testing::TemporaryFolder folder;
   const std::vector<std::string> names = {"ict_00", "ict_03", "ict_07", "ict_12"};
   std::vector<std::string> files;
@@ -57,6 +68,58 @@ TEST(RealHeads, MatchThePlainMethod) {
     testing::expect_same_but_positions(heads / (line.at("target").get<std::string>() + ".obj"),
                                        path);
   }
+}
+
+/// What casting says of a crowd from recipes and samples, measured on every vertex of the meshes
+/// that were written; and what the default settings promise.
+TEST_F(RealHeads, DefaultsCastFarAndDistancesAreThoseOfTheMeshes) {
+  const testing::TemporaryFolder folder;
+  const fs::path config = folder.write(
+      "config.yaml", concat("schema: 1\ncrowd: {name: real, count: 100, seed: 11}\n",
+                            "faces: {directory: ", heads.string(), ", units: cm}\n",
+                            "sampling: {extrapolation: 1}\n",  // as built and at 1 are the same
+                            "output: {directory: out, contact_sheet: none}\n"));
+  generate(config, {}, {folder / "cache", Replace::kRefuse, false});
+
+  std::map<std::string, reference::Points> inputs;
+  std::vector<reference::Points> all;
+  for (const auto& file : fs::directory_iterator(heads)) {
+    if (file.path().extension() != ".obj") continue;
+    all.push_back(reference::read_obj(file.path()).vertices);
+    inputs[file.path().stem().string()] = all.back();
+  }
+  const std::vector<double> areas =
+      reference::front_areas(reference::read_obj(heads / "ict_00.obj"), all);
+  constexpr double kMmPerCm = 10;
+  const auto between = [&](const reference::Points& a, const reference::Points& b) {
+    return reference::distance_mm(areas, a, b, kMmPerCm);
+  };
+  const auto lines = testing::plan_lines(folder / "out");
+  ASSERT_EQ(lines.size(), 100U);
+  std::vector<reference::Points> crowd;
+  std::vector<double> distances, of_inputs;
+  for (const auto& line : lines) {
+    const fs::path path = folder / concat("out/meshes/", line.at("id").get<std::string>(), ".obj");
+    crowd.push_back(reference::read_obj(path).vertices);
+    const reference::Points& face = crowd.back();
+    const auto& nearest = line.at("nearest");
+    const double to_head = between(face, inputs.at(nearest.at("face").get<std::string>()));
+    EXPECT_NEAR(nearest.at("face_mm").get<double>(), to_head, 0.02 * to_head);
+    if (crowd.size() == 1) continue;
+    double closest = HUGE_VAL;
+    for (std::size_t j = 0; j + 1 < crowd.size(); ++j) {
+      distances.push_back(between(face, crowd[j]));
+      closest = std::min(closest, distances.back());
+    }
+    EXPECT_NEAR(nearest.at("crowd_mm").get<double>(), closest, 0.02 * closest);
+  }
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) of_inputs.push_back(between(all[a], all[b]));
+  }
+  std::sort(distances.begin(), distances.end());
+  std::sort(of_inputs.begin(), of_inputs.end());
+  EXPECT_GE(distances.front(), 2) << "no pair of one face for two";
+  EXPECT_GE(distances[distances.size() / 2], 0.8 * of_inputs[of_inputs.size() / 2]);
 }
 
 }  // namespace
