@@ -221,6 +221,38 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
   EXPECT_LT(faces[20].nearest->crowd_mm, 1e-3);
 }
 
+TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
+  const ProxySkin skin(
+      cell_triangles(faces_.topology, find_sample_cells(adjacency_, mean_, samples_)),
+      space_->sampled().mean, space_->sampled().heads);
+  const Recipe recipe = crowd(1).front();
+  int asked = 0;
+  SkinDefects found{{}, 0};
+  found.local.compared = 1000;
+  BelievabilityOptions limits;
+  limits.max_stretch = 1000;  // only what the mesh says is of interest
+  limits.max_flipped = limits.max_intersecting = 0.5;
+  const FaceJudge judge(*space_, {}, limits, &skin, [&](const Recipe&) {
+    ++asked;
+    return found;
+  });
+  EXPECT_EQ(judge.closely(recipe), std::nullopt);
+  found.intersecting = 501;
+  EXPECT_EQ(judge.closely(recipe), Reason::kIntersecting);
+  found.local.flipped = 501;
+  EXPECT_EQ(judge.closely(recipe), Reason::kFlipped);
+  EXPECT_EQ(asked, 3);
+  limits.max_stretch = 1;  // no face is stretched so little
+  EXPECT_EQ(FaceJudge(*space_, {}, limits, &skin,
+                      [&](const Recipe&) {
+                        ++asked;
+                        return found;
+                      })
+                .closely(recipe),
+            Reason::kStretched);
+  EXPECT_EQ(asked, 3) << "a mesh is built only for what the samples let pass";
+}
+
 TEST_F(FaceSpaceTest, SampledFacesAreThoseOfWholeMeshes) {
   for (const Recipe& recipe : crowd(5)) {
     const Positions built = kMmPerUnit * blend_exact(faces_, *filter_, regions_, recipe);

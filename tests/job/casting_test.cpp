@@ -347,9 +347,9 @@ TEST(Casting, ExtrapolationThatGoesTooFarIsThrownAway) {
   ConfigOverrides anything;
   anything.set = {"believability=none"};
   run(folder, anything, "anything");
-  for (const json& count : testing::read_json(folder / "anything/casting.json").at("thrown_away")) {
-    EXPECT_EQ(count, 0);
-  }
+  const json let_pass = testing::read_json(folder / "anything/casting.json").at("thrown_away");
+  EXPECT_FALSE(let_pass.empty());
+  for (const json& count : let_pass) EXPECT_EQ(count, 0);
 }
 
 }  // namespace

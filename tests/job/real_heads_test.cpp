@@ -122,5 +122,33 @@ TEST_F(RealHeads, DefaultsCastFarAndDistancesAreThoseOfTheMeshes) {
   EXPECT_GE(distances[distances.size() / 2], 0.8 * of_inputs[of_inputs.size() / 2]);
 }
 
+TEST_F(RealHeads, NoMeshGoesBeyondALimitWhereMeshesAreJudged) {
+  const testing::TemporaryFolder folder;
+  const fs::path config = folder.write(
+      "config.yaml", concat("schema: 1\ncrowd: {name: real, count: 30, seed: 11}\n",
+                            "faces: {directory: ", heads.string(), ", units: cm}\n",
+                            "sampling: {extrapolation: 1}\n",
+                            "output: {directory: out, meshes: [points], contact_sheet: none}\n"));
+  const auto beyond = [&](const std::string& meshes) {
+    ConfigOverrides overrides;
+    overrides.set = {"believability.meshes=" + meshes};
+    generate(config, overrides, {folder / "cache", Replace::kForce, false});
+    int count = 0;
+    const auto report = testing::read_json(folder / "out/report.json");
+    for (const auto& face : report.at("faces")) {
+      const auto& skin = face.at("skin");
+      const auto triangles = skin.at("triangles").get<double>();
+      if (skin.at("flipped").get<double>() > 0.003 * triangles ||
+          skin.at("intersecting").get<double>() > 0.01 * triangles ||
+          skin.at("stretch").get<double>() > 3) {
+        ++count;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(beyond("all"), 0) << "else this crowd shows nothing";
+  EXPECT_EQ(beyond("judge"), 0);
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -7,12 +7,13 @@ namespace crowdface {
 /// slivers, and lips that touch) and refuse extrapolation that goes too far; docs/casting.md has
 /// figures for choosing others.
 struct BelievabilityOptions {
-  /// Whether whole meshes are judged as well, once they are built. Only to be reported: by then the
-  /// plan is made.
+  /// Whether whole meshes are looked at besides the samples: when they are built, only to be
+  /// reported, as by then the plan is made; or while casting.
   enum class Meshes {
     kAuto,  ///< up to 200,000 polygons
     kAll,
     kNone,
+    kJudge,  ///< each candidate's mesh is built and judged before it is accepted; reported as well
   };
   Meshes meshes = Meshes::kAuto;
   bool check = true;               ///< false: no candidate is judged by any of these

@@ -18,7 +18,7 @@ constexpr std::uint64_t kBatch = 64;
 /// Faces 1 … count, each against all before it.
 void cast_first_fit(const Casting& casting, const FaceJudge& judge,
                     const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
-                    CrowdCast& result) {
+                    const std::function<void()>& joined, CrowdCast& result) {
   for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
     throw_if_interrupted();
     const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
@@ -43,6 +43,7 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
         return;
       }
       crowd.add(std::move(found->recipe), std::move(found->place));
+      if (joined) joined();
     }
   }
 }
@@ -58,7 +59,8 @@ TargetsOfQuota targets_by_quota(const Casting& casting) {
   return targets_of;
 }
 
-CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge) {
+CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
+                     const std::function<void()>& joined) {
   CrowdCast result;
   CrowdSoFar crowd(judge.space().dimensions());
   for (const HandRecipe& hand : casting.recipes) {
@@ -81,9 +83,9 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge) {
   result.quotas = schedule_quotas(casting.diversity.quotas, casting.count);
   const TargetsOfQuota targets_of = targets_by_quota(casting);
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
-    cast_spread(casting, judge, targets_of, kinship, crowd, result);
+    cast_spread(casting, judge, targets_of, kinship, crowd, joined, result);
   } else {
-    cast_first_fit(casting, judge, targets_of, kinship, crowd, result);
+    cast_first_fit(casting, judge, targets_of, kinship, crowd, joined, result);
   }
   result.crowd = crowd.recipes();
   result.places = crowd.places();

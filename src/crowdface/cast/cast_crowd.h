@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +34,12 @@ struct CrowdCast {
 
 /// Casts the crowd: hand-written recipes in their order, then families, then the sampled faces, each
 /// judged before it joins; then the reviews, one after the other. Each face gets its nearest head
-/// and the nearest face that was there before it. Effort is bounded; what cannot be met ends in a shortfall, not in an exception.
+/// and the nearest face that was there before it. Effort is bounded; what cannot be met ends in a
+/// shortfall, not in an exception.
+/// \param joined  called after each sampled face, if given.
 /// \throws InvalidInput if a hand-written recipe's weights cannot be normalised.
-CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge);
+CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
+                     const std::function<void()>& joined = {});
 
 /// The targets that faces of no quota may have, then those of each.
 TargetsOfQuota targets_by_quota(const Casting& casting);

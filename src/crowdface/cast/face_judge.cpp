@@ -2,17 +2,32 @@
 #include "crowdface/cast/face_judge.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace crowdface {
 
+std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const SkinDefects& skin) {
+  const auto triangles = static_cast<double>(skin.local.compared);
+  if (static_cast<double>(skin.local.flipped) > limits.max_flipped * triangles) {
+    return Reason::kFlipped;
+  }
+  if (skin.local.stretch > limits.max_stretch) return Reason::kStretched;
+  if (static_cast<double>(skin.intersecting) > limits.max_intersecting * triangles) {
+    return Reason::kIntersecting;
+  }
+  return std::nullopt;
+}
+
 FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
-                     const BelievabilityOptions& believability, const ProxySkin* skin)
+                     const BelievabilityOptions& believability, const ProxySkin* skin,
+                     MeshDefects meshes)
     : space_(space),
       diversity_(diversity),
       believability_(believability),
       heads_(space.dimensions()),
       plausibility_(space),
-      skin_(skin) {
+      skin_(skin),
+      meshes_(std::move(meshes)) {
   for (Index h = 0; h < space.head_count(); ++h) heads_.add(space.place_head(h));
 }
 
@@ -34,17 +49,11 @@ std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
 std::optional<Reason> FaceJudge::closely(const Recipe& recipe) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
   const Positions samples = sample_face(space_.sampled(), recipe, Variant::kAsBuilt);
-  const LocalDefects defects = skin_->local(samples, recipe.target);
-  const auto triangles = static_cast<double>(defects.compared);
-  if (static_cast<double>(defects.flipped) > believability_.max_flipped * triangles) {
-    return Reason::kFlipped;
-  }
-  if (defects.stretch > believability_.max_stretch) return Reason::kStretched;
-  const Index intersecting = skin_->intersecting_triangles(samples, recipe.target);
-  if (static_cast<double>(intersecting) > believability_.max_intersecting * triangles) {
-    return Reason::kIntersecting;
-  }
-  return std::nullopt;
+  SkinDefects defects{skin_->local(samples, recipe.target), 0};
+  if (const auto why = limit_passed(believability_, defects)) return why;
+  defects.intersecting = skin_->intersecting_triangles(samples, recipe.target);
+  if (const auto why = limit_passed(believability_, defects)) return why;
+  return meshes_ ? limit_passed(believability_, meshes_(recipe)) : std::nullopt;
 }
 
 }  // namespace crowdface

@@ -110,7 +110,8 @@ void FarthestPoints::pick(Index candidate) {
 }
 
 void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
-                 const Kinship& kinship, CrowdSoFar& crowd, CrowdCast& result) {
+                 const Kinship& kinship, CrowdSoFar& crowd, const std::function<void()>& joined,
+                 CrowdCast& result) {
   const auto size = static_cast<std::uint64_t>(casting.diversity.pool) * casting.count;
   CandidatePool pool = draw_pool(casting, judge, targets_of, size);
   result.rejections.add(pool.rejections);
@@ -140,6 +141,7 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOf
     recipe.id = face_id(casting.name, index);
     recipe.index = index;
     crowd.add(std::move(recipe), pool.places[at]);
+    if (joined) joined();
   }
 }
 

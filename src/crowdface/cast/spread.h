@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,7 @@ class FarthestPoints {
 
 /// Faces 1 … count as the most spread set out of a pool.
 void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
-                 const Kinship& kinship, CrowdSoFar& crowd, CrowdCast& result);
+                 const Kinship& kinship, CrowdSoFar& crowd, const std::function<void()>& joined,
+                 CrowdCast& result);
 
 }  // namespace crowdface

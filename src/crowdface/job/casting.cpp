@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <set>
 
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/face_builder.h"
 
 namespace crowdface {
 namespace {
@@ -183,6 +187,23 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   throw Unsatisfiable(message);
 }
 
+/// Builds candidates and judges their whole meshes, if the config asks for it.
+MeshDefects mesh_defects(const Job& job, const Prepared& prepared) {
+  if (job.config.believability.meshes != BelievabilityOptions::Meshes::kJudge) return {};
+  const FaceSet& faces = job.inputs.faces;
+  std::set<Index> targets;
+  for (std::size_t h = 0; h < faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
+  const auto builder = std::make_shared<FaceBuilder>(job, prepared);
+  const auto check =
+      std::make_shared<SkinCheck>(faces.topology, job.inputs.components, faces.heads, targets);
+  return [builder, check](const Recipe& recipe) {
+    const Recipe* one = &recipe;
+    Positions face;
+    builder->build(std::span(&one, 1), std::span(&face, 1));
+    return check->compare(face, recipe.target);
+  };
+}
+
 }  // namespace
 
 CastingGround casting_ground(const Job& job, const Prepared& prepared) {
@@ -214,8 +235,13 @@ Cast cast(const Job& job, const Prepared& prepared) {
   const Eigen::MatrixXd head_distances = space.head_distances();
   const Casting casting = casting_of(job, head_distances);
   const BelievabilityOptions& believability = job.config.believability;
-  const FaceJudge judge(space, casting.diversity, believability, &ground.skin);
-  CrowdCast crowd = cast_crowd(casting, judge);
+  const FaceJudge judge(space, casting.diversity, believability, &ground.skin,
+                        mesh_defects(job, prepared));
+  CrowdCast crowd;
+  {
+    Progress progress("casting", casting.count);
+    crowd = cast_crowd(casting, judge, [&] { progress.step(); });
+  }
   if (crowd.shortfall) {
     tell_shortfall(job, find_remedy(casting, space, believability, &ground.skin, *crowd.shortfall),
                    *crowd.shortfall);

@@ -155,8 +155,10 @@ void read_believability(const YamlNode* node, ConfigDraft& draft) {
                       draft.complaints);
   using Meshes = BelievabilityOptions::Meshes;
   if (const YamlNode* meshes = map.find("meshes")) {
-    const Choices<Meshes> choices = {
-        {"auto", Meshes::kAuto}, {"all", Meshes::kAll}, {"none", Meshes::kNone}};
+    const Choices<Meshes> choices = {{"auto", Meshes::kAuto},
+                                     {"all", Meshes::kAll},
+                                     {"none", Meshes::kNone},
+                                     {"judge", Meshes::kJudge}};
     believability.meshes = read_choice(*meshes, choices, draft.complaints).value_or(Meshes::kAuto);
   }
   const auto read = [&](std::string_view key, double low, double high, double& value) {

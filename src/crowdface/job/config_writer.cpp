@@ -273,9 +273,10 @@ class Writer {
     line("  max_flipped: ", believability.max_flipped);
     line("  max_intersecting: ", believability.max_intersecting);
     using Meshes = BelievabilityOptions::Meshes;
-    line("  meshes: ", believability.meshes == Meshes::kAll    ? "all"
-                       : believability.meshes == Meshes::kNone ? "none"
-                                                               : "auto");
+    line("  meshes: ", believability.meshes == Meshes::kAll     ? "all"
+                       : believability.meshes == Meshes::kNone  ? "none"
+                       : believability.meshes == Meshes::kJudge ? "judge"
+                                                                : "auto");
   }
 
   std::string flow_recipe_region(const HandRecipe::Region& region) const {

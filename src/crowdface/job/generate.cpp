@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "crowdface/cast/face_judge.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -174,13 +175,7 @@ std::vector<std::string> judge_meshes(const Job& job, const std::vector<Recipe>&
   std::vector<std::string> beyond;
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (!files[i].skin) continue;
-    const SkinDefects& skin = *files[i].skin;
-    const auto triangles = static_cast<double>(skin.local.compared);
-    if (static_cast<double>(skin.local.flipped) > limits.max_flipped * triangles ||
-        skin.local.stretch > limits.max_stretch ||
-        static_cast<double>(skin.intersecting) > limits.max_intersecting * triangles) {
-      beyond.push_back(crowd[i].id);
-    }
+    if (limit_passed(limits, *files[i].skin)) beyond.push_back(crowd[i].id);
   }
   if (beyond.empty()) return {};
   constexpr std::size_t kNamed = 8;
@@ -189,10 +184,12 @@ std::vector<std::string> judge_meshes(const Job& job, const std::vector<Recipe>&
     beyond.resize(kNamed);
     beyond.emplace_back("…");
   }
-  const std::string warning =
-      concat(count, count == 1 ? " face goes" : " faces go",
-             " beyond a limit of believability on the whole mesh, though not at the samples: ",
-             join(beyond), "; report.json says by how much, and a review can reject them");
+  const std::string warning = concat(
+      count, count == 1 ? " face goes" : " faces go",
+      " beyond a limit of believability on the whole mesh, though not at the samples: ",
+      join(beyond),
+      "; report.json says by how much; a review can reject them, and \"believability: {meshes: "
+      "judge}\" casts none");
   log_warning(warning);
   return {warning};
 }
