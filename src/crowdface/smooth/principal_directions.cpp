@@ -2,6 +2,7 @@
 #include "crowdface/smooth/principal_directions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -94,43 +95,74 @@ Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd
   return directions;
 }
 
-/// The largest distance missed at the sample, for each tested level and each number of directions
-/// kept: #levels by #nodes + 1.
-Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sample) {
-  const Index nodes = sample.nodes, levels = directions.functions.rows();
-  const Eigen::MatrixXd functions = directions.functions.transpose();  // a level's stand together
-  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(nodes + 1, levels);
-  std::mutex mutex;
-  constexpr Index kBlock = 256;
-  parallel_blocks(sample.vertices(), kBlock, [&](Index begin, Index end) {
-    Eigen::MatrixXd mine = Eigen::MatrixXd::Zero(nodes + 1, levels);
-    std::vector<double> fields(static_cast<std::size_t>(3 * nodes));
-    for (Index v = begin; v < end; ++v) {
-      const double* displacement = sample.values.data() + 3 * nodes * v;
-      std::fill(fields.begin(), fields.end(), 0.0);
-      for (Index p = 0; p < nodes; ++p) {
-        double* field = fields.data() + 3 * p;
-        for (Index n = 0; n < nodes; ++n) {
-          for (Index c = 0; c < 3; ++c) {
-            field[c] += directions.combining(n, p) * displacement[3 * n + c];
-          }
+/// Vertices that are looked at together, so that the loops over them become vector instructions.
+constexpr Index kLanes = 16;
+using Lanes = std::array<float, kLanes>;
+
+/// c_p of up to kLanes vertices from `begin` on (zero beyond `end`): 3·#nodes by lanes.
+void combine_fields(const Directions& directions, const NodeDisplacements& sample, Index begin,
+                    Index end, std::vector<Lanes>& fields) {
+  const Index nodes = sample.nodes;
+  fields.assign(static_cast<std::size_t>(3 * nodes), Lanes{});
+  for (Index v = begin; v < end; ++v) {
+    const double* displacement = sample.values.data() + 3 * nodes * v;
+    for (Index p = 0; p < nodes; ++p) {
+      double field[3] = {};
+      for (Index n = 0; n < nodes; ++n) {
+        for (Index c = 0; c < 3; ++c) {
+          field[c] += directions.combining(n, p) * displacement[3 * n + c];
         }
       }
+      for (Index c = 0; c < 3; ++c) {
+        fields[static_cast<std::size_t>(3 * p + c)][static_cast<std::size_t>(v - begin)] =
+            static_cast<float>(field[c]);
+      }
+    }
+  }
+}
+
+/// The largest distance missed at the sample, for each tested level and each number of directions
+/// kept: #levels by #nodes + 1. In single precision, ample for choosing.
+Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sample) {
+  const Index nodes = sample.nodes, levels = directions.functions.rows();
+  // A level's functions stand together.
+  const Eigen::MatrixXf functions = directions.functions.transpose().cast<float>();
+  Eigen::MatrixXf most = Eigen::MatrixXf::Zero(nodes + 1, levels);
+  std::mutex mutex;
+  constexpr Index kBlock = 32 * kLanes;
+  parallel_blocks(sample.vertices(), kBlock, [&](Index begin, Index end) {
+    std::vector<Lanes> mine(static_cast<std::size_t>(levels * nodes)), fields;
+    for (Index v = begin; v < end; v += kLanes) {
+      combine_fields(directions, sample, v, std::min(v + kLanes, end), fields);
       for (Index l = 0; l < levels; ++l) {
-        double left[3] = {};
+        Lanes left[3] = {};
         for (Index p = nodes; p-- > 0;) {
-          for (Index c = 0; c < 3; ++c) {
-            left[c] += functions(p, l) * fields[static_cast<std::size_t>(3 * p + c)];
+          const float function = functions(p, l);
+          Lanes squared{};
+          for (std::size_t c = 0; c < 3; ++c) {
+            const Lanes& field = fields[static_cast<std::size_t>(3 * p) + c];
+            for (std::size_t i = 0; i < kLanes; ++i) {
+              left[c][i] += function * field[i];
+              squared[i] += left[c][i] * left[c][i];
+            }
           }
-          const double squared = left[0] * left[0] + left[1] * left[1] + left[2] * left[2];
-          mine(p, l) = std::max(mine(p, l), squared);
+          Lanes& largest = mine[static_cast<std::size_t>(l * nodes + p)];
+          for (std::size_t i = 0; i < kLanes; ++i) {
+            largest[i] = largest[i] > squared[i] ? largest[i] : squared[i];
+          }
         }
       }
     }
     const std::lock_guard lock(mutex);  // the order of maxima does not matter
-    most = most.cwiseMax(mine);
+    for (Index l = 0; l < levels; ++l) {
+      for (Index p = 0; p < nodes; ++p) {
+        for (const float value : mine[static_cast<std::size_t>(l * nodes + p)]) {
+          most(p, l) = std::max(most(p, l), value);
+        }
+      }
+    }
   });
-  return most.cwiseSqrt().transpose();
+  return most.cast<double>().cwiseSqrt().transpose();
 }
 
 /// The least rank whose distances are all within the tolerance.
