@@ -43,7 +43,7 @@ def panel(title, label, points, left):
 def main(source, target):
     runs = {}
     for run in json.load(open(source, encoding="utf-8"))["benchmarks"]:
-        match = re.search(r"PrepareHead/vertices:(\d+)/L_max:(\d+)", run["name"])
+        match = re.search(r"PrepareHead/vertices:(\d+)/L_max:(\d+)/order:0", run["name"])
         if match:
             runs[int(match[1]), int(match[2])] = run["real_time"] / 1e3
     largest = max(v for v, _ in runs)
