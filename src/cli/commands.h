@@ -16,6 +16,8 @@ Run add_prepare(CLI::App& program);
 Run add_plan(CLI::App& program);
 Run add_blend(CLI::App& program);
 Run add_smooth(CLI::App& program);
+Run add_gather(CLI::App& program);
+Run add_verify(CLI::App& program);
 Run add_sheet(CLI::App& program);
 Run add_synth(CLI::App& program);
 Run add_import(CLI::App& program);

@@ -2,6 +2,7 @@
 #include "cli/common_options.h"
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/input_limits.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
@@ -28,12 +29,19 @@ void CommonOptions::add_to(CLI::App& command) {
   command.add_flag("-v,--verbose", verbose, "More about what happens")->excludes(quiet_flag);
   command.add_option("--log-file", log_file, "Also write everything to this file")
       ->type_name("FILE");
+  command
+      .add_option("--limit", limits,
+                  "How large inputs may be; may be repeated: " + describe_input_limits())
+      ->type_name("NAME=NUMBER")
+      ->expected(1)
+      ->take_all();
 }
 
 std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   constexpr std::uint64_t kMostThreads = 1024;
   set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);
   if (!log_file.empty()) add_log_file(log_file);
+  for (const std::string& limit : limits) set_input_limit(limit);
   const std::uint64_t limit =
       threads.empty() ? 0 : whole_number("--threads", threads, 1, kMostThreads);
   return std::make_unique<ThreadLimit>(static_cast<int>(limit));
@@ -89,6 +97,13 @@ void WriteOptions::add_to(CLI::App& command) {
       ->type_name("SIZE");
 }
 
+void WriteOptions::add_shard_to(CLI::App& command) {
+  command
+      .add_option("--shard", shard,
+                  "Only part I of N of the faces; `crowdface gather` puts the parts together")
+      ->type_name("I/N");
+}
+
 GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {
   std::uint64_t bytes = 0;
   if (!memory.empty()) {
@@ -99,7 +114,18 @@ GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) con
     }
     bytes = *given;
   }
-  return {cache, force ? Replace::kForce : Replace::kRefuse, dry_run, bytes};
+  Shard part;
+  if (!shard.empty()) {
+    const auto given = parse_shard(shard);
+    if (!given) {
+      throw UsageError(
+          concat("--shard: expected I/N, such as 2/7, with I from 1 to N and N at most "
+                 "9999, found ",
+                 quoted(shard)));
+    }
+    part = *given;
+  }
+  return {cache, force ? Replace::kForce : Replace::kRefuse, dry_run, bytes, part};
 }
 
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,

@@ -22,6 +22,7 @@ struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
   std::string log_file;
+  std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
   /// Applies them. \return keeps the thread limit for as long as it lives.
@@ -45,8 +46,11 @@ struct WriteOptions {
   bool force = false;
   bool dry_run = false;
   std::string memory;
+  std::string shard;
 
   void add_to(CLI::App& command);
+  /// `--shard`, of commands that build faces.
+  void add_shard_to(CLI::App& command);
   GenerateOptions with_cache(const std::filesystem::path& cache) const;
 };
 

@@ -20,6 +20,7 @@ Run add_generate(CLI::App& program) {
   options->config.add_to(*command);
   options->config.add_review_to(*command);
   options->write.add_to(*command);
+  options->write.add_shard_to(*command);
   options->common.add_to(*command);
   return [options] {
     const auto threads = options->common.apply();

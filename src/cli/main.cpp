@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -40,6 +41,7 @@ constexpr const char* kFooter =
 int run(const crowdface::cli::Run& command) {
   try {
     command();
+    if (!std::cout.flush()) throw crowdface::IoError("standard output: writing failed");
     return static_cast<int>(ExitCode::kDone);
   } catch (const crowdface::Error& error) {
     crowdface::log_error(error.what());
@@ -78,8 +80,9 @@ int main(int argc, char** argv) {
   for (Run (*add)(CLI::App&) :
        {crowdface::cli::add_generate, crowdface::cli::add_check, crowdface::cli::add_init,
         crowdface::cli::add_plan, crowdface::cli::add_prepare, crowdface::cli::add_blend,
-        crowdface::cli::add_smooth, crowdface::cli::add_sheet, crowdface::cli::add_synth,
-        crowdface::cli::add_import, crowdface::cli::add_cache}) {
+        crowdface::cli::add_smooth, crowdface::cli::add_gather, crowdface::cli::add_verify,
+        crowdface::cli::add_sheet, crowdface::cli::add_synth, crowdface::cli::add_import,
+        crowdface::cli::add_cache}) {
     const std::size_t before = program.get_subcommands({}).size();
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(
@@ -95,6 +98,7 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
   crowdface::catch_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then a failed write, with a message
   return run([&] {
     if (const char* set =
             std::getenv("CROWDFACE_INSTRUCTION_SET")) {  // NOLINT(concurrency-mt-unsafe): at start

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "crowdface/core/hash.h"
 
 namespace crowdface {
 
 /// The whole file. \throws MissingInput if it cannot be opened, IoError if reading fails half-way.
 std::string read_file(const std::filesystem::path& path);
+
+/// What a file holds, without its bytes.
+struct FileDigest {
+  std::uint64_t bytes = 0;
+  Digest digest;  ///< hash_bytes of the whole
+  bool operator==(const FileDigest&) const = default;
+};
+
+/// Reads a file piece by piece. \throws MissingInput, IoError like read_file.
+FileDigest hash_file(const std::filesystem::path& path);
 
 /// A file's bytes mapped read-only for as long as the object lives; the pages belong to the system,
 /// so that large inputs cost no memory of ours.
@@ -30,10 +42,17 @@ class MappedFile {
 };
 
 /// Writes a file so that it is either whole under its final name or not there at all: temporary
-/// file in the same folder, fsync, rename, fsync of the folder. The pieces are written one after
-/// the other. \throws CannotCreate, IoError; the temporary file is removed.
+/// file in the same folder (locked while it is written, see remove_leftovers), fsync, checked close,
+/// rename, fsync of the folder. The pieces are written one after the other. Every file that
+/// crowdface leaves behind, but for the log, is written here.
+/// \throws CannotCreate, IoError; the temporary file is removed.
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Removes the temporary files that killed runs left in this folder (not in those below it), and
+/// none that is still being written, here or on another machine. A folder that is not there has
+/// none. \return how many.
+std::size_t remove_leftovers(const std::filesystem::path& folder);
 
 /// Creates a folder and its parents. \throws CannotCreate.
 void make_directories(const std::filesystem::path& path);

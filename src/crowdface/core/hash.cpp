@@ -2,6 +2,7 @@
 #include "crowdface/core/hash.h"
 
 #include <bit>
+#include <charconv>
 #include <new>
 
 #include <xxhash.h>
@@ -36,6 +37,17 @@ std::string Digest::hex() const {
     out[static_cast<std::size_t>(31 - i)] = kDigits[(low >> (4 * i)) & 15];
   }
   return out;
+}
+
+std::optional<Digest> parse_digest(std::string_view hex) {
+  constexpr std::size_t kHalf = 16;
+  if (hex.size() != 2 * kHalf || hex.find_first_not_of("0123456789abcdef") != hex.npos) {
+    return std::nullopt;
+  }
+  Digest digest;
+  std::from_chars(hex.data(), hex.data() + kHalf, digest.high, 16);
+  std::from_chars(hex.data() + kHalf, hex.data() + 2 * kHalf, digest.low, 16);
+  return digest;
 }
 
 Digest hash_bytes(std::string_view bytes) {

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ struct Digest {
   /// 32 lower-case hexadecimal digits.
   std::string hex() const;
 };
+
+/// What `hex` wrote, or nothing.
+std::optional<Digest> parse_digest(std::string_view hex);
 
 /// Digest of a run of bytes.
 Digest hash_bytes(std::string_view bytes);

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "crowdface/core/interrupt.h"
+
 namespace crowdface {
 namespace {
 
@@ -102,7 +104,10 @@ void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
       const LoopOrder::Item item(order);
-      error.guard([&] { body(b * block, std::min(count, (b + 1) * block)); });
+      error.guard([&] {
+        throw_if_interrupted();
+        body(b * block, std::min(count, (b + 1) * block));
+      });
     });
   });
   error.rethrow();
@@ -114,7 +119,12 @@ void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdi
   FirstError error;
   const auto run = [&](const tbb::blocked_range<std::ptrdiff_t>& range) {
     const LoopOrder::Item item(order);
-    for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) error.guard([&] { body(i); });
+    for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) {
+      error.guard([&] {
+        throw_if_interrupted();
+        body(i);
+      });
+    }
   };
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(items, run, tbb::simple_partitioner()); });
   error.rethrow();

@@ -12,6 +12,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -73,6 +74,10 @@ void check_size(const path& file, const OIIO::ImageSpec& spec, const ImageLimits
   }
   if (spec.width > limits.max_side || spec.height > limits.max_side) {
     refuse(file, concat("expected at most ", limits.max_side, " pixels a side, found ", size));
+  }
+  const auto most = static_cast<std::int64_t>(input_limits().image_pixels);
+  if (std::int64_t{spec.width} * spec.height > most) {
+    refuse(file, concat("expected at most ", most, " pixels (--limit), found ", size));
   }
   if (spec.nchannels > limits.max_channels) {
     refuse(file, concat("expected at most ", limits.max_channels, " channels, found ", size));

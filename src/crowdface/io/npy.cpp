@@ -104,14 +104,18 @@ Positions read_npy(const std::filesystem::path& path) {
   return positions;
 }
 
-void write_topology_arrays(const Topology& topology, const TextureCoordinates& uvs,
-                           const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> write_topology_arrays(const Topology& topology,
+                                                         const TextureCoordinates& uvs,
+                                                         const std::filesystem::path& folder) {
   make_directories(folder);
-  write_indices(topology.corner_vertices, folder / "corners.npy");
-  write_indices(topology.face_offsets, folder / "offsets.npy");
-  if (topology.corner_uvs.empty()) return;
-  write_uvs(uvs, folder / "uvs.npy");
-  write_indices(topology.corner_uvs, folder / "corner_uvs.npy");
+  std::vector<std::filesystem::path> files = {folder / "corners.npy", folder / "offsets.npy"};
+  write_indices(topology.corner_vertices, files[0]);
+  write_indices(topology.face_offsets, files[1]);
+  if (topology.corner_uvs.empty()) return files;
+  files.insert(files.end(), {folder / "uvs.npy", folder / "corner_uvs.npy"});
+  write_uvs(uvs, files[2]);
+  write_indices(topology.corner_uvs, files[3]);
+  return files;
 }
 
 }  // namespace crowdface

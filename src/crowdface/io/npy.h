@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/mesh/topology.h"
@@ -25,7 +26,9 @@ Positions read_npy(const std::filesystem::path& path);
 /// corners begin) and, if there are texture coordinates, `uvs.npy` (float32, #T by 2) and
 /// `corner_uvs.npy` (int32, #C, the row of each corner; −1: none).
 /// \throws InvalidInput if an index needs more than 31 bits; CannotCreate, IoError.
-void write_topology_arrays(const Topology& topology, const TextureCoordinates& uvs,
-                           const std::filesystem::path& folder);
+/// \return the files, in this order.
+std::vector<std::filesystem::path> write_topology_arrays(const Topology& topology,
+                                                         const TextureCoordinates& uvs,
+                                                         const std::filesystem::path& folder);
 
 }  // namespace crowdface

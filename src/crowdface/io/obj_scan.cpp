@@ -8,14 +8,15 @@
 #include <optional>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostCorners = 255;   // the loader counts corners in a byte
+constexpr std::size_t kMostCorners = 255;  // the loader counts corners in a byte
+constexpr std::uint64_t kMostPerVertex = 8;
 constexpr double kLargestCoordinate = 1e7;  // beyond, single precision keeps no tenth of a unit
-constexpr std::size_t kMostVertices = 1 << 26;
 
 /// Statements that carry no geometry we blend; they are copied through.
 constexpr std::array<std::string_view, 31> kOtherStatements = {
@@ -52,7 +53,7 @@ std::string_view rest_after(std::string_view line, std::string_view word) {
 }
 
 struct Counts {
-  std::uint64_t vertices = 0, uvs = 0, normals = 0;
+  std::uint64_t vertices = 0, uvs = 0, normals = 0, faces = 0;
 };
 
 class Scanner {
@@ -64,10 +65,11 @@ class Scanner {
       fail("expected plain text, found a byte-order mark; save the file as UTF-8 without BOM");
     }
     for_each_line([&](std::string_view line) { count(line); });
-    if (total_.vertices > kMostVertices) {
-      throw InvalidInput(concat(name_, ": expected at most ", kMostVertices, " vertices, found ",
-                                total_.vertices));
-    }
+    require_at_most(input_limits().vertices, total_.vertices, "vertices");
+    // A vertex may have several of these, but not without end.
+    require_at_most(kMostPerVertex * input_limits().vertices, total_.uvs, "texture coordinates");
+    require_at_most(kMostPerVertex * input_limits().vertices, total_.normals, "normals");
+    require_at_most(input_limits().faces, total_.faces, "faces");
     scan_.positions.resize(static_cast<Index>(total_.vertices), 3);
     scan_.uvs.resize(static_cast<Index>(total_.uvs), 2);
     scan_.vertex_spans.reserve(total_.vertices);
@@ -100,9 +102,16 @@ class Scanner {
     throw InvalidInput(concat(name_, ":", std::max<std::size_t>(line_number_, 1), ": ", what));
   }
 
+  void require_at_most(std::uint64_t most, std::uint64_t found, std::string_view what) const {
+    if (found <= most) return;
+    throw InvalidInput(
+        concat(name_, ": expected at most ", most, ' ', what, " (--limit), found ", found));
+  }
+
   /// First pass: how many of each there are, so that indices can be checked as they come.
   void count(std::string_view line) {
     while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    if (line.size() >= 2 && line[0] == 'f' && is_blank(line[1])) ++total_.faces;
     if (line.size() < 2 || line[0] != 'v') return;
     if (is_blank(line[1])) ++total_.vertices;
     if (line.size() < 3 || !is_blank(line[2])) return;

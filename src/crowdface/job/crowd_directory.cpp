@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/crowd_directory.h"
 
+#include <algorithm>
 #include <system_error>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -24,21 +24,6 @@ void remove_file(const fs::path& path) {
   }
 }
 
-/// The ids an old plan names; lines that cannot be read name none.
-std::vector<std::string> ids_of(const std::string& plan) {
-  std::vector<std::string> ids;
-  for (std::size_t begin = 0; begin < plan.size();) {
-    const std::size_t end = std::min(plan.find('\n', begin), plan.size());
-    const auto line = nlohmann::json::parse(plan.substr(begin, end - begin), nullptr, false);
-    if (line.is_object() && line.contains("id") && line["id"].is_string()) {
-      const auto id = line["id"].get<std::string>();
-      if (id.find('/') == id.npos) ids.push_back(id);
-    }
-    begin = end + 1;
-  }
-  return ids;
-}
-
 bool is_sheet(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.starts_with("sheet_") && name.ends_with(".png");
@@ -49,7 +34,7 @@ bool is_sheet(const fs::path& path) {
 void remove_crowd(const CrowdDirectory& directory) {
   std::error_code ignored;
   if (fs::exists(directory.plan(), ignored)) {
-    for (const std::string& id : ids_of(read_file(directory.plan()))) {
+    for (const std::string& id : ids_in_plan(read_file(directory.plan()))) {
       for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
       remove_file(directory.render(id));
     }
@@ -62,10 +47,12 @@ void remove_crowd(const CrowdDirectory& directory) {
   for (const char* array : {"corners.npy", "offsets.npy", "uvs.npy", "corner_uvs.npy"}) {
     remove_file(directory.topology() / array);
   }
+  for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
+  for (const fs::path& path : directory.shard_logs()) remove_file(path);
   for (const fs::path& path :
        {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
         directory.report(), directory.casting(), directory.timings(), directory.table(),
-        directory.plan(), directory.log(), directory.config()}) {
+        directory.plan(), directory.ledger(), directory.log(), directory.config()}) {
     remove_file(path);
   }
 }
@@ -98,7 +85,80 @@ bool same_crowd(const std::string& old_config, const std::string& config) {
          (list.size() == old_list.size() || old_list.empty() || list[old_list.size()] == ',');
 }
 
+/// "ledger-2of7.jsonl" beside "ledger.jsonl".
+fs::path of_shard(const fs::path& path, const Shard& shard) {
+  if (shard.whole()) return path;
+  fs::path result = path;
+  return result.replace_filename(
+      concat(path.stem().string(), '-', shard.name(), path.extension().string()));
+}
+
+std::vector<fs::path> of_all_shards(const fs::path& path) {
+  const std::string start = path.stem().string() + "-", end = path.extension().string();
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(path.parent_path(), ignored)) {
+    std::string name = entry.path().filename().string();
+    if (name.size() <= start.size() + end.size() || !name.starts_with(start) ||
+        !name.ends_with(end)) {
+      continue;
+    }
+    name = name.substr(start.size(), name.size() - start.size() - end.size());
+    const std::size_t of = name.find("of");
+    if (of != name.npos && parse_shard(name.replace(of, 2, "/"))) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Files of a crowd never land outside its folder, not by a link either.
+/// \throws CannotCreate if one of its folders is such a link.
+void refuse_folders_elsewhere(const CrowdDirectory& directory) {
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(directory.root, error);
+  for (const fs::path& folder :
+       {directory.meshes(), directory.topology(), directory.renders(), directory.sheets()}) {
+    const fs::path real = fs::weakly_canonical(folder, error);
+    if (!error && !real.lexically_relative(root).empty() &&
+        *real.lexically_relative(root).begin() != "..") {
+      continue;
+    }
+    throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
+                              ", where nothing is written"));
+  }
+}
+
 }  // namespace
+
+fs::path CrowdDirectory::log(const Shard& shard) const {
+  return of_shard(log(), shard);
+}
+fs::path CrowdDirectory::ledger(const Shard& shard) const {
+  return of_shard(ledger(), shard);
+}
+fs::path CrowdDirectory::lock(const Shard& shard) const {
+  return of_shard(lock(), shard);
+}
+std::vector<fs::path> CrowdDirectory::shard_ledgers() const {
+  return of_all_shards(ledger());
+}
+std::vector<fs::path> CrowdDirectory::shard_logs() const {
+  return of_all_shards(log());
+}
+
+std::vector<std::string> ids_in_plan(const std::string& plan) {
+  std::vector<std::string> ids;
+  for (std::size_t begin = 0; begin < plan.size();) {
+    const std::size_t end = std::min(plan.find('\n', begin), plan.size());
+    const auto line = nlohmann::json::parse(plan.substr(begin, end - begin), nullptr, false);
+    if (line.is_object() && line.contains("id") && line["id"].is_string()) {
+      const auto id = line["id"].get<std::string>();
+      if (id.find('/') == id.npos) ids.push_back(id);
+    }
+    begin = end + 1;
+  }
+  return ids;
+}
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {
   std::string number = concat(page);
@@ -127,6 +187,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
   while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
     existing = existing.parent_path();
   }
+  refuse_folders_elsewhere(directory);
   if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
     throw CannotCreate(
         concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "crowdface/job/mesh_format.h"
+#include "crowdface/job/shard.h"
 
 namespace crowdface {
 
@@ -19,6 +21,15 @@ struct CrowdDirectory {
   std::filesystem::path report() const { return root / "report.json"; }
   std::filesystem::path timings() const { return root / "timings.json"; }
   std::filesystem::path log() const { return root / "crowdface.log"; }
+  std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
+  std::filesystem::path lock() const { return root / ".crowdface.lock"; }
+  /// A shard's own; those above if the shard is the whole crowd.
+  std::filesystem::path log(const Shard& shard) const;
+  std::filesystem::path ledger(const Shard& shard) const;
+  std::filesystem::path lock(const Shard& shard) const;
+  /// The ledgers and logs of all shards that have written some, by name.
+  std::vector<std::filesystem::path> shard_ledgers() const;
+  std::vector<std::filesystem::path> shard_logs() const;
   std::filesystem::path meshes() const { return root / "meshes"; }
   std::filesystem::path renders() const { return root / "renders"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
@@ -29,6 +40,9 @@ struct CrowdDirectory {
   /// Sheet number `page`, from 1.
   std::filesystem::path sheet(std::size_t page) const;
 };
+
+/// The ids a plan names; lines that cannot be read, or whose id is no file's name, name none.
+std::vector<std::string> ids_in_plan(const std::string& plan);
 
 enum class Replace { kRefuse, kForce };
 

@@ -72,8 +72,12 @@ std::size_t faces_at_once(const Job& job, const Prepared& prepared, const FaceBu
 class FaceOutput {
  public:
   FaceOutput(const MeshWriters& writers, const CrowdDirectory& directory,
-             const CrowdRenders* renders, const SkinCheck* check)
-      : writers_(writers), directory_(directory), renders_(renders), check_(check) {}
+             const CrowdRenders* renders, const SkinCheck* check, const FaceLedger& ledger)
+      : writers_(writers),
+        directory_(directory),
+        renders_(renders),
+        check_(check),
+        ledger_(ledger) {}
 
   FaceFiles write(const Recipe& recipe, const Positions& positions) {
     throw_if_interrupted();
@@ -91,12 +95,15 @@ class FaceOutput {
     }
     if (renders_ != nullptr) {
       const Busy busy(render_);
-      write_file(directory_.render(recipe.id), renders_->render_png(positions));
+      const std::string png = renders_->render_png(positions);
+      write_file(directory_.render(recipe.id), png);
+      files.picture = {png.size(), hash_bytes(png)};
     }
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);
       files.skin = check_->compare(positions, recipe.target);
     }
+    ledger_.record(recipe, files);
     return files;
   }
 
@@ -112,6 +119,7 @@ class FaceOutput {
   const CrowdDirectory& directory_;
   const CrowdRenders* renders_;
   const SkinCheck* check_;
+  const FaceLedger& ledger_;
   std::atomic<double> encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
 };
 
@@ -125,7 +133,8 @@ struct Slot {
 
 BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDirectory& directory,
                        const CrowdRenders* renders, const SkinCheck* check,
-                       const std::vector<Recipe>& crowd, std::uint64_t memory) {
+                       const FaceLedger& ledger, const std::vector<Recipe>& crowd,
+                       std::uint64_t memory) {
   const std::vector<MeshFormat>& formats = job.config.output.meshes;
   const MeshWriters writers(job.config, job.inputs, formats, crowd);
   const FaceBuilder builder(job, prepared);
@@ -133,10 +142,9 @@ BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDire
   built.files.resize(crowd.size());
   built.at_once = faces_at_once(job, prepared, builder, writers, renders != nullptr, memory);
   if (!formats.empty()) make_directories(directory.meshes());
-  writers.write_shared(directory);
   if (renders != nullptr) make_directories(directory.renders());
 
-  FaceOutput output(writers, directory, renders, check);
+  FaceOutput output(writers, directory, renders, check, ledger);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", crowd.size());
   std::array<Slot, 2> slots;

@@ -22,10 +22,14 @@
 #include "crowdface/io/material_files.h"
 #include "crowdface/job/casting.h"
 #include "crowdface/job/config_writer.h"
+#include "crowdface/job/crowd_lock.h"
 #include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/face_ledger.h"
 #include "crowdface/job/face_stages.h"
+#include "crowdface/job/ledger.h"
 #include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/report.h"
+#include "crowdface/job/resume.h"
 
 namespace crowdface {
 namespace {
@@ -110,16 +114,21 @@ CastJob cast_job(const Job& job, const CrowdDirectory& directory, const Generate
   return {std::move(prepared), std::move(crowd)};
 }
 
-void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast) {
-  write_file(directory.plan(), format_plan(job, cast.crowd));
-  write_file(directory.table(), format_csv(cast.crowd, job.names));
-  write_file(directory.casting(), format_casting(job, cast));
+/// \param write  takes a path in the crowd's folder and the file's bytes.
+template <class Write>
+void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+                const Write& write) {
+  const std::string plan = format_plan(job, cast.crowd);
+  remove_report_of_other_plan(directory, plan);
+  write(directory.plan(), plan);
+  write(directory.table(), format_csv(cast.crowd, job.names));
+  write(directory.casting(), format_casting(job, cast));
 }
 
 /// Copies material files and textures of all heads that are targets. \return warnings, each once
 /// with the heads it is about.
 std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& directory,
-                                        const std::vector<Recipe>& crowd) {
+                                        const std::vector<Recipe>& crowd, Ledger& ledger) {
   std::set<Index> targets;
   for (const Recipe& recipe : crowd) targets.insert(recipe.target);
   std::map<std::string, std::vector<std::string>> heads_of_warning;
@@ -136,7 +145,7 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
       if (is_new) {
         const fs::path to = directory.meshes() / material.relative;
         make_directories(to.parent_path());
-        write_file(to, bytes.bytes());
+        ledger.write(name_in(directory, to), bytes.bytes());
       } else if (known->second != digest) {
         heads_of_warning[concat(material.relative.string(),
                                 " is not the same file for all heads; the first head's is kept")]
@@ -152,16 +161,18 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
   return warnings;
 }
 
-/// Judges the skin of whole meshes, if the config asks for it.
-std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>& crowd) {
+/// Whether whole meshes are judged, as the config asks.
+bool skin_is_judged(const Job& job) {
   constexpr Index kMostFaces = 200'000;  // polygons; beyond that it would rule the time of a run
   const BelievabilityOptions& believability = job.config.believability;
   using Meshes = BelievabilityOptions::Meshes;
-  if (!believability.check || believability.meshes == Meshes::kNone ||
-      (believability.meshes == Meshes::kAuto &&
-       job.inputs.faces.topology.face_count() > kMostFaces)) {
-    return nullptr;
-  }
+  return believability.check && believability.meshes != Meshes::kNone &&
+         (believability.meshes != Meshes::kAuto ||
+          job.inputs.faces.topology.face_count() <= kMostFaces);
+}
+
+std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>& crowd) {
+  if (!skin_is_judged(job)) return nullptr;
   std::set<Index> targets;
   for (const Recipe& recipe : crowd) targets.insert(recipe.target);
   return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.components,
@@ -218,67 +229,157 @@ void tell_dry_run(const Job& job) {
                   config.output.directory.string(), "; nothing was written"));
 }
 
-/// Everything after the crowd is cast and the folder is ready.
-void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
-                    const GenerateOptions& options, StageSeconds& stages) {
-  const Prepared& prepared = cast_job.prepared;
-  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
-  write_plan(job, directory, cast_job.cast);
+/// What a run over a crowd is for.
+enum class Purpose {
+  kGenerate,  ///< build what is missing
+  kGather,    ///< refuse if a face is missing
+};
 
-  std::vector<std::string> warnings = job.inputs.warnings;
-  const auto& formats = job.config.output.meshes;
-  if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) != formats.end()) {
-    for (std::string& text : copy_materials(job, directory, crowd)) {
-      warnings.push_back(std::move(text));
-    }
-  }
+/// Builds the faces that are not done; their files take their places in `so_far`.
+/// \return how long threads were busy.
+StageBusy build_missing(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
+                        const FaceLedger& ledger, const GenerateOptions& options,
+                        FacesSoFar& so_far) {
+  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
+  if (so_far.todo.empty()) return {};
+  std::vector<Recipe> recipes;
+  for (const std::size_t i : so_far.todo) recipes.push_back(crowd[i]);
   const auto& sheet = job.config.output.contact_sheet;
   std::unique_ptr<CrowdRenders> renders;
   if (sheet) renders = std::make_unique<CrowdRenders>(job.config, *sheet, job.inputs);
-  const std::unique_ptr<SkinCheck> check = skin_check(job, crowd);
-  const BuiltFaces built = timed(stages, "build", [&] {
-    const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
-    return build_faces(job, prepared, directory, renders.get(), check.get(), crowd, memory);
+  const std::unique_ptr<SkinCheck> check = skin_check(job, recipes);
+  const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
+  BuiltFaces built = build_faces(job, cast_job.prepared, directory, renders.get(), check.get(),
+                                 ledger, recipes, memory);
+  for (std::size_t f = 0; f < recipes.size(); ++f) {
+    so_far.files[so_far.todo[f]] = std::move(built.files[f]);
+  }
+  return built.busy;
+}
+
+/// The contact sheets, unless they are there: they follow from their pictures and the config.
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
+                        const std::vector<Recipe>& crowd, const std::vector<FaceFiles>& files,
+                        Ledger& ledger) {
+  constexpr const char* kItem = "sheets";
+  constexpr int kSheetVersion = 1;  // raised whenever a change of the code alters a sheet
+  const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
+  const std::string title = sheet_title(job.config, crowd.size());
+  Hasher hasher;
+  hasher.add(kSheetVersion).add(title).add(sheet.columns).add(sheet.rows).add(sheet.cell);
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    hasher.add(crowd[i].id).add(files[i].picture->digest);
+  }
+  const Digest key = hasher.digest();
+  if (const auto entry = ledger.proven(kItem, key)) return entry->files.size();
+  const std::size_t pages =
+      write_sheets(directory, sheet, title, ids_of(crowd),
+                   [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
+  std::vector<std::string> names;
+  for (std::size_t page = 1; page <= pages; ++page) {
+    names.push_back(name_in(directory, directory.sheet(page)));
+  }
+  ledger.record(kItem, key, names);
+  return pages;
+}
+
+/// Everything after the crowd is cast and the folder is ready.
+void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
+                    const GenerateOptions& options, Purpose purpose, StageSeconds& stages) {
+  const Prepared& prepared = cast_job.prepared;
+  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
+  Ledger ledger(directory.root, directory.ledger(options.shard), directory.shard_ledgers());
+  const auto write = [&](const fs::path& path, std::string_view bytes) {
+    ledger.write(name_in(directory, path), bytes);
+  };
+  write(directory.config(), effective_config(job.config, directory.root));
+  write_plan(job, directory, cast_job.cast, write);
+
+  const auto& formats = job.config.output.meshes;
+  const auto& sheet = job.config.output.contact_sheet;
+  const bool judged = skin_is_judged(job);
+  const FaceLedger face_ledger(ledger, job, directory, {sheet.has_value(), judged});
+  FacesSoFar so_far = find_done_faces(face_ledger, crowd, options.shard);
+  const std::size_t built = so_far.todo.size();
+  if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);
+
+  std::vector<std::string> warnings = job.inputs.warnings;
+  if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) != formats.end()) {
+    for (std::string& text : copy_materials(job, directory, crowd, ledger)) {
+      warnings.push_back(std::move(text));
+    }
+  }
+  write_shared_arrays(job, directory, ledger);
+  const StageBusy busy = timed(stages, "build", [&] {
+    return build_missing(job, directory, cast_job, face_ledger, options, so_far);
   });
-  for (std::string& text : judge_meshes(job, crowd, built.files)) {
+  if (!options.shard.whole()) {
+    log_info(concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
+                    " built; when all shards are done: crowdface gather ",
+                    directory.root.string()));
+    return;
+  }
+  for (std::string& text : judge_meshes(job, crowd, so_far.files)) {
     warnings.push_back(std::move(text));
   }
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
-    pages = timed(stages, "sheets", [&] {
-      return write_sheets(
-          directory, *sheet, sheet_title(job.config, crowd.size()), ids_of(crowd),
-          [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
-    });
+    pages = timed(stages, "sheets",
+                  [&] { return make_sheets(job, directory, crowd, so_far.files, ledger); });
   }
-  write_file(directory.report(),
-             format_report(job, prepared, cast_job.cast, built.files, pages, warnings));
-  write_file(directory.timings(),
-             format_timings(stages, built.busy, crowd.size(), prepared.from_cache));
-  log_info(concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ",
-                  directory.root.string(),
-                  pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : ""));
+  write(directory.report(),
+        format_report(job, prepared, cast_job.cast, so_far.files, pages, warnings));
+  ledger.settle();
+  gather_logs(directory);
+  write_file(directory.timings(), format_timings(stages, busy, built, prepared.from_cache));
+  log_info(
+      concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ", directory.root.string(),
+             built < crowd.size() ? concat(", ", crowd.size() - built, " of them done before") : "",
+             pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : ""));
+}
+
+/// Casts the crowd and fills its folder, as far as that is not done.
+void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
+             const LogMemory& memory, StageSeconds& stages) {
+  const CrowdDirectory directory{job.config.output.directory};
+  const CastJob crowd = cast_job(job, directory, options, stages);
+  const CrowdLock lock(directory, options.shard);
+  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+  const CrowdLog log(directory.log(options.shard));
+  memory.replay();
+  try {
+    fill_directory(job, directory, crowd, options, purpose, stages);
+  } catch (const std::exception& error) {
+    log_debug(error.what());  // `main` says it aloud, when this log is closed
+    throw;
+  }
 }
 
 }  // namespace
 
 void generate(const fs::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options) {
+  if (!options.shard.whole() && options.replace == Replace::kForce) {
+    throw UsageError(
+        "--force does not go with --shard, as one shard would remove what another made; replace "
+        "the "
+        "old crowd with crowdface plan --force first");
+  }
   const LogMemory memory;  // the crowd's log is opened once there is a crowd
   StageSeconds stages;
   const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
   if (options.dry_run) return tell_dry_run(job);
-  const CrowdDirectory directory{job.config.output.directory};
-  const CastJob crowd = cast_job(job, directory, options, stages);
-  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
-  const CrowdLog log(directory.log());
-  memory.replay();
-  try {
-    fill_directory(job, directory, crowd, options, stages);
-  } catch (const std::exception& error) {
-    log_debug(error.what());  // `main` says it aloud, when this log is closed
-    throw;
-  }
+  run_job(job, options, Purpose::kGenerate, memory, stages);
+}
+
+void gather(const fs::path& crowd_directory, const fs::path& cache) {
+  const CrowdDirectory directory{crowd_directory};
+  const LogMemory memory;
+  StageSeconds stages;
+  const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}); });
+  GenerateOptions options;
+  options.cache = cache;
+  run_job(job, options, Purpose::kGather, memory, stages);
 }
 
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,
@@ -288,8 +389,10 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
   const CrowdDirectory directory{job.config.output.directory};
   StageSeconds stages;
   const CastJob crowd = cast_job(job, directory, options, stages);
+  const CrowdLock lock(directory, {});
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
-  write_plan(job, directory, crowd.cast);
+  write_plan(job, directory, crowd.cast,
+             [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });
   log_info(concat(crowd.cast.crowd.size(), " recipes in ", directory.plan().string()));
 }
 

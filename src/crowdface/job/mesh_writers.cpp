@@ -114,11 +114,6 @@ std::vector<MeshFile> MeshWriters::write(const Recipe& recipe, const Positions& 
   return files;
 }
 
-void MeshWriters::write_shared(const CrowdDirectory& directory) const {
-  if (!has(MeshFormat::kPoints)) return;
-  write_topology_arrays(inputs_.faces.topology, inputs_.faces.uvs, directory.topology());
-}
-
 std::size_t MeshWriters::memory_bytes() const {
   std::size_t bytes = fans_ ? fans_->memory_bytes() : 0;
   for (const auto& [target, form] : obj_) bytes += form.memory_bytes();
@@ -135,6 +130,13 @@ std::size_t MeshWriters::encode_bytes() const {
   if (glb_) bytes += glb_->encode_bytes();
   if (has(MeshFormat::kPoints)) bytes += npy_encode_bytes(inputs_.faces.topology.vertex_count);
   return bytes;
+}
+
+std::vector<std::filesystem::path> write_shared(const Inputs& inputs,
+                                                const std::vector<MeshFormat>& formats,
+                                                const CrowdDirectory& directory) {
+  if (std::find(formats.begin(), formats.end(), MeshFormat::kPoints) == formats.end()) return {};
+  return write_topology_arrays(inputs.faces.topology, inputs.faces.uvs, directory.topology());
 }
 
 MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path) {

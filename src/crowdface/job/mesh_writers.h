@@ -51,8 +51,6 @@ class MeshWriters {
   /// Encodes the face and writes it into the crowd's folder, which must be there.
   std::vector<MeshFile> write(const Recipe& recipe, const Positions& positions,
                               const CrowdDirectory& directory) const;
-  /// Writes what stands once beside all faces: with `points`, the topology.
-  void write_shared(const CrowdDirectory& directory) const;
 
   /// What this object itself takes, and what the encoding of one face takes at most.
   std::size_t memory_bytes() const;
@@ -70,6 +68,11 @@ class MeshWriters {
   std::optional<GlbTemplate> glb_;
   std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
 };
+
+/// Writes what stands once beside all faces: with `points`, the topology. \return the files.
+std::vector<std::filesystem::path> write_shared(const Inputs& inputs,
+                                                const std::vector<MeshFormat>& formats,
+                                                const CrowdDirectory& directory);
 
 /// Writes what `encode` made and tells what it was.
 MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "crowdface/core/file.h"
 #include "crowdface/job/casting.h"
 #include "crowdface/job/mesh_writers.h"
 #include "crowdface/validity/skin_check.h"
@@ -15,7 +16,8 @@ namespace crowdface {
 /// What one face's files are.
 struct FaceFiles {
   std::vector<MeshFile> meshes;
-  std::optional<SkinDefects> skin;  ///< against the target's, if it was judged
+  std::optional<FileDigest> picture;  ///< if it was rendered
+  std::optional<SkinDefects> skin;    ///< against the target's, if it was judged
 };
 
 /// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no

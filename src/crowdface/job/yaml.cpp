@@ -11,13 +11,13 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/yaml_text.h"
 
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxNodes = 100'000;
 constexpr std::size_t kMaxComplaints = 50;  // of one file's YAML; more would only bury the first
 constexpr std::size_t kMaxPath = 120;  // keeps messages, and the memory of a hostile file, small
@@ -152,8 +152,9 @@ class TreeBuilder : public YAML::EventHandler {
   void open(YamlNode::Kind kind, const YAML::Mark& mark) {
     Frame frame;
     frame.node = make(kind, mark);
-    if (frames_.size() >= kMaxDepth) {
-      fail(frame.node.place, concat("nested more than ", kMaxDepth, " levels deep"));
+    const std::uint64_t most = input_limits().yaml_depth;
+    if (frames_.size() >= most) {
+      fail(frame.node.place, concat("nested more than ", most, " levels deep"));
     }
     frames_.push_back(std::move(frame));
   }

@@ -5,13 +5,13 @@
 #include <set>
 #include <system_error>
 
+#include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/yaml.h"
 
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 constexpr std::size_t kMaxKeys = 8;
 
 std::vector<std::string> split_path(std::string_view path) {
@@ -102,7 +102,7 @@ std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return refuse("the config cannot be opened");
   // One byte more than is allowed tells a file that is too long, however long it is.
-  std::string text(kMaxBytes + 4, '\0');
+  std::string text(input_limits().yaml_bytes + 4, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) return refuse("the config cannot be read");
   text.resize(static_cast<std::size_t>(stream.gcount()));

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 
+#include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
 namespace {
-
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 bool is_continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
@@ -84,8 +83,11 @@ YamlPlace YamlText::place(int line, int byte_column) const {
 }
 
 std::optional<YamlText::Problem> YamlText::find_problem() const {
-  if (text_.size() > kMaxBytes) {
-    return Problem{place_of(0), "more than 1 MiB; this is no config file"};
+  if (const std::uint64_t most = input_limits().yaml_bytes; text_.size() > most) {
+    constexpr std::uint64_t kMiB = 1U << 20U;
+    return Problem{place_of(0), concat("more than ", most % kMiB == 0 ? most / kMiB : most,
+                                       most % kMiB == 0 ? " MiB" : " bytes",
+                                       " (--limit); this is no config file")};
   }
   if (is_utf16(text_)) {
     return Problem{place_of(0), "expected UTF-8 text, found UTF-16; save the file as UTF-8"};

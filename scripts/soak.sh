@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The tests of docs/reliability.md with their large numbers, and a long run whose memory and open
+# files are watched; ends with a summary table. Hours on a small machine.
+#
+#   scripts/soak.sh                    all of it
+#   scripts/soak.sh Disturbed*         only tests that match this GoogleTest filter
+#   SOAK_FACES=200 scripts/soak.sh     a shorter long run (default: 1000 faces)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+filter=${1:-*}
+faces=${SOAK_FACES:-1000}
+preset=${PRESET:-release}
+scripts/install_dependencies.sh
+scripts/build.sh "$preset" crowdface crowdface_reliability_test
+bin=$PWD/build/$preset/bin
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+table=()
+status=0
+
+run_tests() {
+  local name start result=passed
+  for name in $("$bin/crowdface_reliability_test" --gtest_filter="$filter" --gtest_list_tests |
+    awk '/^[^ ]/ {suite = $1} /^ / {print suite $1}'); do
+    start=$SECONDS result=passed
+    CROWDFACE_SOAK=1 "$bin/crowdface_reliability_test" --gtest_filter="$name" >"$work/log" 2>&1 ||
+      { result=FAILED status=1; tail -n 40 "$work/log"; }
+    table+=("$(printf '%-62s %-7s %6d s' "$name" "$result" $((SECONDS - start)))")
+    echo "${table[-1]}"
+  done
+}
+
+# Resident memory in KiB and open descriptors of a process, a line every few seconds.
+watch_process() {
+  while kill -0 "$1" 2>/dev/null; do
+    echo "$(awk '/^VmRSS/ {print $2}' "/proc/$1/status" 2>/dev/null || echo 0)" \
+      "$(ls "/proc/$1/fd" 2>/dev/null | wc -l)"
+    sleep "${2:-2}"
+  done
+}
+
+# Test 17: after the first tenth neither may grow by more than a twentieth.
+long_run() {
+  local start=$SECONDS result=passed
+  "$bin/crowdface" synth -q -o "$work/heads" --count 6 --vertices 5000 --seed 1
+  "$bin/crowdface" init -q "$work/heads" -o "$work/crowd.yaml"
+  "$bin/crowdface" generate -q "$work/crowd.yaml" --cache "$work/cache" --out "$work/crowd" \
+    --count "$faces" --set diversity.min_distance=0mm --set diversity.min_distance_to_faces=0mm &
+  local process=$!
+  watch_process $process >"$work/watched"
+  wait $process || result=FAILED
+  "$bin/crowdface" verify -q "$work/crowd" >/dev/null || result=FAILED
+  cp "$work/watched" "build/$preset/soak_watched.txt"
+  read -r early late fds_early fds_late < <(awk '
+    $1 > 0 {rss[++n] = $1; fd[n] = $2}
+    END {
+      tenth = int(n / 10) + 1
+      for (i = 1; i <= n; ++i) {
+        if (i >= tenth && i < 3 * tenth) { if (rss[i] > a) a = rss[i]; if (fd[i] > c) c = fd[i] }
+        if (i > n - 2 * tenth) { if (rss[i] > b) b = rss[i]; if (fd[i] > d) d = fd[i] }
+      }
+      print a, b, c, d
+    }' "$work/watched")
+  [ "$late" -le $((early + early / 20)) ] && [ "$fds_late" -le $((fds_early + 4)) ] || result=FAILED
+  [ "$result" = passed ] || status=1
+  table+=("$(printf '%-62s %-7s %6d s' "$faces faces: $((early / 1024)) then $((late / 1024)) MiB, $fds_early then $fds_late descriptors" \
+    "$result" $((SECONDS - start)))")
+}
+
+run_tests
+[ "$filter" != '*' ] || long_run
+echo
+printf '%s\n' "${table[@]}"
+exit $status

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/verify.h"
+
+#include <iostream>
+#include <memory>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace crowdface::cli {
+namespace {
+
+void tell(const char* what, const std::vector<std::string>& names) {
+  for (const std::string& name : names) std::cout << what << name << '\n';
+}
+
+std::string count(std::size_t number, const char* what) {
+  return concat(number, ' ', what);
+}
+
+}  // namespace
+
+Run add_verify(CLI::App& program) {
+  struct Options {
+    CommonOptions common;
+    std::string directory;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "verify", "A finished crowd against its ledger: what is missing, what is altered");
+  command->add_option("directory", options->directory, "The crowd's folder")
+      ->required()
+      ->type_name("CROWD_DIR");
+  options->common.add_to(*command);
+  return [options] {
+    const auto threads = options->common.apply();
+    const CrowdCheck check = verify_crowd(options->directory);
+    tell("missing: ", check.missing);
+    tell("altered: ", check.altered);
+    tell("not finished: ", check.unfinished);
+    tell("", check.remarks);
+    if (!check.good()) {
+      throw InvalidInput(concat(options->directory, ": of ", check.files, " files ",
+                                count(check.missing.size(), "missing, "),
+                                count(check.altered.size(), "altered; "),
+                                count(check.unfinished.size(),
+                                      "not finished; crowdface generate with the crowd's "
+                                      "config mends that")));
+    }
+    std::cout << options->directory << ": all " << check.files
+              << " files are as they were written\n";
+  };
+}
+
+}  // namespace crowdface::cli

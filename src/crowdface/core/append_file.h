@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string_view>
+
+namespace crowdface {
+
+/// A file that only grows. What `append` has returned from survives a power cut; what it was at when
+/// the process died may be there in part. Any thread may append.
+class AppendFile {
+ public:
+  /// Creates the file if it is not there. \throws CannotCreate.
+  explicit AppendFile(const std::filesystem::path& path);
+  ~AppendFile();
+  AppendFile(const AppendFile&) = delete;
+  AppendFile& operator=(const AppendFile&) = delete;
+
+  /// \throws IoError.
+  void append(std::string_view bytes);
+
+ private:
+  struct Handle;
+  std::filesystem::path path_;
+  std::unique_ptr<Handle> handle_;
+  std::mutex mutex_;
+};
+
+}  // namespace crowdface

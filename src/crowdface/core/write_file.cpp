@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of file.h that writes.
+#include <atomic>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include "crowdface/core/descriptor.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTemporaryStart = ".crowdface-", kTemporaryEnd = ".tmp";
+
+/// A name of its own for this process; short, so that it fits wherever the final name does.
+std::string temporary_name() {
+  static std::atomic<unsigned> serial{0};
+  return concat(kTemporaryStart, ::getpid(), '-', serial++, kTemporaryEnd);
+}
+
+bool is_temporary(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with(kTemporaryStart) && name.ends_with(kTemporaryEnd);
+}
+
+enum class Claim { kOurs, kTaken, kImpossible };
+
+/// Locks a file for as long as it is open, anywhere. Not every file system can.
+Claim claim(int fd) {
+  if (::flock(fd, LOCK_EX | LOCK_NB) == 0) return Claim::kOurs;
+  return errno == EWOULDBLOCK || errno == EINTR ? Claim::kTaken : Claim::kImpossible;
+}
+
+/// A temporary file beside its target. It stays locked until it bears its final name: whoever
+/// removes leftovers can tell it from that of a killed run, whatever machine that ran on.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target) : target_(target) {
+    constexpr int kTries = 1000;
+    for (int i = 0; i < kTries; ++i) {
+      path_ = target;
+      path_.replace_filename(temporary_name());
+      file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+      if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or another machine's
+      if (!file_.valid()) {
+        throw CannotCreate(concat(target.string(), ": cannot be created: ", reason()));
+      }
+      if (still_there()) return;
+    }
+    throw CannotCreate(concat(target.string(), ": cannot be created: no name is free"));
+  }
+  ~TemporaryFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(std::string_view bytes) {
+    if (!write_all(file_.get(), bytes)) fail("writing");
+  }
+
+  /// Nothing of it is in doubt any more when this returns.
+  void finish() {
+    if (!sync(file_.get())) fail("writing to disk");
+    const Descriptor lock(::dup(file_.get()));  // keeps the lock beyond the close
+    if (!file_.close()) fail("closing");
+    if (::rename(path_.c_str(), target_.c_str()) != 0) fail("renaming into place");
+    path_.clear();
+  }
+
+ private:
+  /// Between its creation and its lock somebody may have taken it for a leftover.
+  bool still_there() const {
+    if (claim(file_.get()) == Claim::kTaken) return false;
+    struct stat status {};
+    return ::fstat(file_.get(), &status) == 0 && status.st_nlink > 0;
+  }
+
+  [[noreturn]] void fail(std::string_view what) const {
+    throw IoError(concat(target_.string(), ": ", what, " failed: ", reason()));
+  }
+
+  const fs::path& target_;
+  fs::path path_;
+  Descriptor file_{-1};
+};
+
+/// The new name must outlive a power cut, and a rename lives in the folder.
+void sync_directory(const fs::path& directory) {
+  const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!descriptor.valid() && errno == EACCES) return;  // may be written to, but not read
+  if (!descriptor.valid() || !sync(descriptor.get())) {
+    throw IoError(concat(directory.string(), ": cannot be synchronised: ", reason()));
+  }
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, const std::vector<std::string_view>& pieces) {
+  TemporaryFile file(path);
+  for (const std::string_view piece : pieces) file.write(piece);
+  file.finish();
+  sync_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  write_file(path, std::vector<std::string_view>{bytes});
+}
+
+std::size_t remove_leftovers(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (is_temporary(entry.path())) found.push_back(entry.path());
+  }
+  std::size_t removed = 0;
+  for (const fs::path& path : found) {
+    const Descriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (!file.valid() || claim(file.get()) != Claim::kOurs) continue;
+    if (::unlink(path.c_str()) == 0) ++removed;
+  }
+  return removed;
+}
+
+void make_directories(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path, error)) {
+    throw CannotCreate(concat(path.string(), ": folder cannot be created: ",
+                              error ? error.message() : "something else has that name"));
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/face_ledger.h"
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Raised whenever a change of the code alters a picture, what is found about a skin, or a mesh file
+/// of the same positions. (What alters positions raises kBlendVersion, which is in `settings`.)
+constexpr int kFaceFilesVersion = 1;
+
+/// What determines a face's files beside its recipe and `settings`: formats, frame, pictures.
+Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras) {
+  Hasher hasher;
+  hasher.add(kFaceFilesVersion).add(job.settings);
+  hasher.add(config.output.meshes.size());
+  for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
+  hasher.add(static_cast<int>(config.faces.units));
+  for (const Axis& axis : {config.faces.up, config.faces.front}) {
+    hasher.add(axis.index).add(axis.sign);
+  }
+  hasher.add(extras.skin).add(extras.picture);
+  if (extras.picture) {
+    const Config::ContactSheet& sheet = *config.output.contact_sheet;
+    hasher.add(sheet.cell).add(sheet.views.size());
+    for (const View view : sheet.views) hasher.add(static_cast<int>(view));
+  }
+  return hasher.digest();
+}
+
+std::string name_in(const CrowdDirectory& directory, const std::filesystem::path& path) {
+  return path.lexically_relative(directory.root).generic_string();
+}
+
+std::string item_of(const Recipe& recipe) {
+  return concat("faces/", recipe.id);
+}
+
+Json to_json(const SkinDefects& skin) {
+  return {{"compared", skin.local.compared},
+          {"flipped", skin.local.flipped},
+          {"stretch", skin.local.stretch},
+          {"intersecting", skin.intersecting}};
+}
+
+/// The line's checksum was right, so it is what `to_json` made; a line of another program's version
+/// throws.
+SkinDefects skin_of(const std::string& note) {
+  const Json json = Json::parse(note);
+  SkinDefects skin;
+  skin.local.compared = json.at("compared").get<Index>();
+  skin.local.flipped = json.at("flipped").get<Index>();
+  skin.local.stretch = json.at("stretch").get<double>();
+  skin.intersecting = json.at("intersecting").get<Index>();
+  return skin;
+}
+
+}  // namespace
+
+FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
+                       FaceExtras extras)
+    : ledger_(ledger),
+      job_(job),
+      directory_(directory),
+      extras_(extras),
+      output_(digest_of_output(job.config, job, extras)) {}
+
+Digest FaceLedger::key_of(const Recipe& recipe) const {
+  Recipe shape = recipe;  // without what says how it was found, which no file depends on
+  shape.nearest.reset();
+  shape.note.reset();
+  shape.attempt = 0;
+  return Hasher().add(output_).add(format_recipe(shape, job_.names, job_.settings)).digest();
+}
+
+std::optional<FaceFiles> FaceLedger::done(const Recipe& recipe) const {
+  const auto entry = ledger_.proven(item_of(recipe), key_of(recipe));
+  if (!entry) return std::nullopt;
+  const std::vector<MeshFormat>& formats = job_.config.output.meshes;
+  if (entry->files.size() != formats.size() + (extras_.picture ? 1U : 0U)) return std::nullopt;
+  FaceFiles files;
+  for (std::size_t f = 0; f < formats.size(); ++f) {
+    files.meshes.push_back(
+        {formats[f], entry->files[f].content.digest, entry->files[f].content.bytes});
+  }
+  if (extras_.picture) files.picture = entry->files.back().content;
+  try {
+    if (extras_.skin) files.skin = skin_of(entry->note);
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+  return files;
+}
+
+void FaceLedger::record(const Recipe& recipe, const FaceFiles& files) const {
+  LedgerEntry entry{item_of(recipe), key_of(recipe), {}, {}};
+  for (const MeshFile& mesh : files.meshes) {
+    entry.files.push_back(
+        {name_in(directory_, directory_.mesh(recipe.id, mesh.format)), {mesh.bytes, mesh.digest}});
+  }
+  if (files.picture) {
+    entry.files.push_back({name_in(directory_, directory_.render(recipe.id)), *files.picture});
+  }
+  if (files.skin) entry.note = to_json(*files.skin).dump();
+  ledger_.record(std::move(entry));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/ledger.h"
+
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kSum = R"(,"sum":")", kEnd = R"("})";
+
+std::optional<std::string> text_at(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_string()) return std::nullopt;
+  return found->get<std::string>();
+}
+
+std::optional<Digest> digest_at(const Json& json, const char* key) {
+  const auto text = text_at(json, key);
+  return text ? parse_digest(*text) : std::nullopt;
+}
+
+std::optional<LedgerEntry::File> file_of(const Json& json) {
+  if (!json.is_object()) return std::nullopt;
+  const auto name = text_at(json, "file");
+  const auto hash = digest_at(json, "hash");
+  const auto bytes = json.find("bytes");
+  if (!name || !hash || bytes == json.end() || !bytes->is_number_unsigned()) return std::nullopt;
+  return LedgerEntry::File{*name, {bytes->get<std::uint64_t>(), *hash}};
+}
+
+std::string format_all(const std::map<std::string, LedgerEntry>& entries) {
+  std::string text;
+  for (const auto& [item, entry] : entries) text += format_ledger_line(entry) + '\n';
+  return text;
+}
+
+}  // namespace
+
+std::string format_ledger_line(const LedgerEntry& entry) {
+  Json json;
+  json["item"] = entry.item;
+  json["key"] = entry.key.hex();
+  json["files"] = Json::array();
+  for (const LedgerEntry::File& file : entry.files) {
+    json["files"].push_back(
+        {{"file", file.name}, {"bytes", file.content.bytes}, {"hash", file.content.digest.hex()}});
+  }
+  if (!entry.note.empty()) json["note"] = Json::parse(entry.note);
+  // File names need not be UTF-8.
+  std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  line.pop_back();
+  const std::string sum = hash_bytes(line).hex();
+  return concat(line, kSum, sum, kEnd);
+}
+
+std::optional<LedgerEntry> parse_ledger_line(std::string_view line) {
+  constexpr std::size_t kHex = 32;
+  const std::size_t tail = kSum.size() + kHex + kEnd.size();
+  if (line.size() < tail) return std::nullopt;
+  const std::string_view body = line.substr(0, line.size() - tail);
+  if (line.substr(body.size()) != concat(kSum, hash_bytes(body).hex(), kEnd)) return std::nullopt;
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  const auto item = text_at(json, "item");
+  const auto key = digest_at(json, "key");
+  const auto files = json.find("files");
+  if (!item || !key || files == json.end() || !files->is_array()) return std::nullopt;
+  LedgerEntry entry{*item, *key, {}, {}};
+  for (const Json& each : *files) {
+    auto file = file_of(each);
+    if (!file) return std::nullopt;
+    entry.files.push_back(std::move(*file));
+  }
+  if (const auto note = json.find("note"); note != json.end()) entry.note = note->dump();
+  return entry;
+}
+
+LedgerLines parse_ledger(const std::string& text) {
+  LedgerLines lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    // A line without its end was being written when the run died, even if all else is there.
+    std::optional<LedgerEntry> entry;
+    if (end != text.npos) {
+      entry = parse_ledger_line(std::string_view(text).substr(begin, end - begin));
+    }
+    if (entry) {
+      lines.entries.push_back(std::move(*entry));
+    } else {
+      ++lines.damaged;
+    }
+    begin = end == text.npos ? text.size() : end + 1;
+  }
+  return lines;
+}
+
+LedgerLines read_ledger(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return {};
+  return parse_ledger(read_file(path));
+}
+
+bool files_match(const fs::path& root, const LedgerEntry& entry) {
+  for (const LedgerEntry::File& file : entry.files) {
+    std::error_code error;
+    if (fs::file_size(root / file.name, error) != file.content.bytes || error) return false;
+    try {
+      if (hash_file(root / file.name) != file.content) return false;
+    } catch (const Error&) {  // what cannot be read is not there
+      return false;
+    }
+  }
+  return true;
+}
+
+Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& others)
+    : root_(std::move(root)), own_(own) {
+  for (const fs::path& other : others) {
+    if (other == own) continue;
+    others_.push_back(other);
+    for (LedgerEntry& entry : read_ledger(other).entries) {
+      entries_[entry.item] = std::move(entry);
+    }
+  }
+  std::error_code ignored;
+  const bool exists = fs::exists(own, ignored);
+  if (exists) settled_ = read_file(own);
+  LedgerLines lines = parse_ledger(settled_);
+  std::map<std::string, LedgerEntry> of_own;
+  for (LedgerEntry& entry : lines.entries) of_own[entry.item] = std::move(entry);
+  if (lines.damaged > 0 || !exists) {
+    if (lines.damaged > 0) {
+      log_warning(concat(own.string(), ": ", lines.damaged,
+                         lines.damaged == 1 ? " line is" : " lines are",
+                         " not whole; what they stand for is done again"));
+    }
+    write_file(own, format_all(of_own));
+  }
+  for (auto& [item, entry] : of_own) entries_[item] = std::move(entry);
+  file_ = std::make_unique<AppendFile>(own);
+}
+
+std::optional<LedgerEntry> Ledger::proven(const std::string& item, const Digest& key) {
+  LedgerEntry entry;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = entries_.find(item);
+    if (found == entries_.end() || found->second.key != key) return std::nullopt;
+    entry = found->second;
+  }
+  if (!files_match(root_, entry)) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  used_.insert(item);
+  return entry;
+}
+
+void Ledger::record(LedgerEntry entry) {
+  file_->append(format_ledger_line(entry) + '\n');
+  const std::lock_guard lock(mutex_);
+  used_.insert(entry.item);
+  settled_.clear();
+  entries_[entry.item] = std::move(entry);
+}
+
+void Ledger::record(const std::string& item, const Digest& key,
+                    const std::vector<std::string>& names) {
+  LedgerEntry entry{item, key, {}, {}};
+  for (const std::string& name : names) entry.files.push_back({name, hash_file(root_ / name)});
+  record(std::move(entry));
+}
+
+void Ledger::write(const std::string& name, std::string_view bytes) {
+  const FileDigest content = {bytes.size(), hash_bytes(bytes)};
+  if (proven(name, content.digest)) return;
+  const LedgerEntry entry{name, content.digest, {{name, content}}, {}};
+  if (!files_match(root_, entry)) write_file(root_ / name, bytes);
+  record(entry);
+}
+
+void Ledger::settle() {
+  std::erase_if(entries_, [&](const auto& entry) { return !used_.contains(entry.first); });
+  const std::string text = format_all(entries_);
+  if (settled_ != text) write_file(own_, text);
+  for (const fs::path& other : others_) {
+    std::error_code error;
+    if (!fs::remove(other, error) && error) {
+      throw IoError(concat(other.string(), ": cannot be removed: ", error.message()));
+    }
+  }
+}
+
+}  // namespace crowdface

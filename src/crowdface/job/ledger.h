@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crowdface/core/append_file.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/hash.h"
+
+namespace crowdface {
+
+/// One thing that is done: all its files were written, and on the disk, before its line was.
+struct LedgerEntry {
+  struct File {
+    std::string name;  ///< relative to the crowd's folder, '/' between its parts
+    FileDigest content;
+  };
+  std::string item;         ///< "faces/market_0001", "report.json"
+  Digest key;               ///< of everything that determines the files
+  std::vector<File> files;  ///< may be empty
+  std::string note;         ///< JSON that a later run needs, or empty
+};
+
+/// One line, without line end, and its checksum (docs/crowd-directory.md).
+std::string format_ledger_line(const LedgerEntry& entry);
+/// \return nothing if the line is cut, altered or no such line.
+std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
+
+/// A ledger's whole lines, in their order.
+struct LedgerLines {
+  std::vector<LedgerEntry> entries;
+  std::size_t damaged = 0;  ///< lines that are not whole
+};
+LedgerLines parse_ledger(const std::string& text);
+/// \return no lines if there is no such file. \throws IoError.
+LedgerLines read_ledger(const std::filesystem::path& path);
+
+/// Whether all files of an entry stand in the folder as they were written.
+bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);
+
+/// What is done in a crowd's folder, so that another run can go on. Lines are appended while the
+/// run lasts; in the end the ledger is put in order, and then the same crowd has the same ledger.
+/// Any thread may ask and record.
+class Ledger {
+ public:
+  /// Reads all ledgers of the folder. Lines that are not whole are dropped with a warning: what they
+  /// stood for counts as not done.
+  /// \param own     the ledger to append to, made if it is not there.
+  /// \param others  of shards, only read.
+  Ledger(std::filesystem::path root, const std::filesystem::path& own,
+         const std::vector<std::filesystem::path>& others);
+
+  /// The entry of an item if it has this key and its files match: nothing needs to be done.
+  std::optional<LedgerEntry> proven(const std::string& item, const Digest& key);
+
+  /// Appends a line. Its files must have been written by `write_file`. \throws IoError.
+  void record(LedgerEntry entry);
+  /// The same for files whose hashes are not known yet. \param names  relative to the folder.
+  void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
+
+  /// Writes a file determined by nothing but its bytes, unless it is there, and records it.
+  void write(const std::string& name, std::string_view bytes);
+
+  /// Puts the ledger in order: what this run found proven or recorded, sorted by item, and nothing
+  /// else; the others are removed.
+  void settle();
+
+ private:
+  std::filesystem::path root_, own_;
+  std::vector<std::filesystem::path> others_;
+  std::map<std::string, LedgerEntry> entries_;  ///< the last of each item
+  std::set<std::string> used_;
+  std::string settled_;  ///< the file's text, if nothing was appended since it was read
+  std::mutex mutex_;
+  std::unique_ptr<AppendFile> file_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// A crowd's folder is made whole again from whatever is left of it, with the same bytes.
+#include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/job/generate.h"
+#include "crowdface/job/verify.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::crowd_files;
+using testing::differing_files;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+/// All that a crowd may have: several formats, pictures, materials, judged skins.
+SmallCrowd everything() {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  crowd.count = 7;
+  crowd.levels = "basis";
+  crowd.bowl.materials = true;
+  crowd.contact_sheet = "{columns: 2, rows: 2, cell: 32}";
+  return crowd;
+}
+
+/// The folder of such a crowd, and how its finished files look.
+class Resume : public ::testing::Test {
+ protected:
+  Resume() : folder_(everything()) {
+    folder_.folder().write("heads/bowl.mtl", "newmtl skin\n");
+    run();
+    whole_ = crowd_files(folder_.out());
+  }
+  void run(Shard shard = {}, Replace replace = Replace::kRefuse) {
+    ConfigOverrides overrides;
+    overrides.set = {"output.meshes=[obj, glb, points]"};
+    GenerateOptions options{folder_.cache(), replace, false};
+    options.shard = shard;
+    generate(folder_.config(), overrides, options);
+  }
+  std::int64_t faces_built() const {
+    return testing::read_json(folder_.out() / "timings.json").at("faces").get<std::int64_t>();
+  }
+  void expect_whole(const std::string& what) const {
+    EXPECT_THAT(differing_files(whole_, crowd_files(folder_.out())), IsEmpty()) << what;
+  }
+
+  SmallCrowdFolder folder_;
+  std::map<std::string, std::string> whole_;
+};
+
+TEST_F(Resume, AFinishedCrowdIsNotTouched) {
+  EXPECT_EQ(faces_built(), 7);
+  for (const auto& [name, bytes] : whole_) {
+    if (name != "config.yaml") fs::last_write_time(folder_.out() / name, fs::file_time_type());
+  }
+  run();
+  EXPECT_EQ(faces_built(), 0);
+  expect_whole("again");
+  for (const auto& [name, bytes] : whole_) {
+    if (name == "config.yaml") continue;
+    EXPECT_EQ(fs::last_write_time(folder_.out() / name), fs::file_time_type()) << name;
+  }
+}
+
+TEST_F(Resume, EveryFileThatIsLostOrAlteredIsMadeAgain) {
+  for (const auto& [name, bytes] : whole_) {
+    if (name == "config.yaml") continue;  // without it, it is no crowd's folder
+    const bool of_a_face = name.find("mob_") != name.npos;
+    fs::remove(folder_.out() / name);
+    run();
+    expect_whole(name + " lost");
+    EXPECT_EQ(faces_built(), name == "ledger.jsonl" ? 7 : of_a_face ? 1 : 0) << name;
+    if (bytes.empty()) continue;
+    std::string altered = bytes;
+    altered[altered.size() / 2] = static_cast<char>(altered[altered.size() / 2] ^ 1);
+    folder_.folder().write("out/" + name, altered);
+    run();
+    expect_whole(name + " altered");
+    EXPECT_LE(faces_built(), 1) << name;
+    folder_.folder().write("out/" + name, bytes.substr(0, bytes.size() / 2));
+    run();
+    expect_whole(name + " cut");
+  }
+}
+
+TEST_F(Resume, VerifyNamesWhatIsMissingAndAltered) {
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_EQ(verify_crowd(folder_.out()).files, whole_.size() - 1) << "all but the ledger itself";
+  fs::remove(folder_.out() / "meshes/mob_0002.glb");
+  folder_.folder().write("out/renders/mob_0003.png", "no picture");
+  folder_.folder().write("out/sheets/sheet_001.png", "no sheet");
+  const auto before = crowd_files(folder_.out());
+  const CrowdCheck check = verify_crowd(folder_.out());
+  EXPECT_THAT(check.missing, ElementsAre("meshes/mob_0002.glb"));
+  EXPECT_THAT(check.altered, ElementsAre("renders/mob_0003.png", "sheets/sheet_001.png"));
+  EXPECT_THAT(check.unfinished, IsEmpty());
+  EXPECT_THAT(differing_files(before, crowd_files(folder_.out())), IsEmpty());
+  run();
+  expect_whole("repaired");
+  folder_.folder().write("out/ledger.jsonl", "");
+  const CrowdCheck without = verify_crowd(folder_.out());
+  EXPECT_EQ(without.unfinished.size(), 9U) << "seven faces, plan and report";
+  testing::expect_error(ExitCode::kMissingInput, {"config.yaml"},
+                        [&] { verify_crowd(folder_ / "heads"); });
+}
+
+TEST_F(Resume, ShardsAndGatherGiveWhatOneRunGives) {
+  for (const std::uint64_t shards : {2U, 7U, 9U}) {
+    fs::remove_all(folder_.out());
+    for (std::uint64_t shard = shards; shard >= 1; --shard) {
+      testing::expect_error(ExitCode::kMissingInput, {shard == shards ? "config.yaml" : "mob_0001"},
+                            [&] { gather(folder_.out(), folder_.cache()); });
+      run({shard, shards});
+      EXPECT_FALSE(fs::exists(folder_.out() / "report.json"));
+    }
+    EXPECT_EQ(verify_crowd(folder_.out()).unfinished, std::vector<std::string>{"report.json"});
+    gather(folder_.out(), folder_.cache());
+    expect_whole(concat(shards, " shards"));
+    EXPECT_FALSE(fs::exists(folder_.out() / concat("crowdface-1of", shards, ".log")));
+    EXPECT_THAT(testing::read_text(folder_.out() / "crowdface.log"),
+                ::testing::HasSubstr(concat("shard 1of", shards)));
+  }
+  testing::expect_error(ExitCode::kUsage, {"--force"}, [&] { run({1, 2}, Replace::kForce); });
+}
+
+TEST_F(Resume, GatherNamesAnAlteredFaceAndAnyRunMendsIt) {
+  fs::remove_all(folder_.out());
+  run({1, 2});
+  run({2, 2});
+  folder_.folder().write("out/meshes/mob_0004.npy", "altered");
+  testing::expect_error(ExitCode::kMissingInput, {"1 of 7", "mob_0004", "number 4"},
+                        [&] { gather(folder_.out(), folder_.cache()); });
+  run();
+  EXPECT_EQ(faces_built(), 1);
+  expect_whole("shards, then a run over all");
+}
+
+TEST_F(Resume, LeftoversOfAKilledRunAreRemoved) {
+  for (const char* name : {"out/.crowdface-17-0.tmp", "out/meshes/.crowdface-9999999-3.tmp",
+                           "out/renders/.crowdface-1-1.tmp", "out/.crowdface.lock"}) {
+    folder_.folder().write(name, "half");
+  }
+  run();
+  expect_whole("leftovers removed");
+}
+
+TEST_F(Resume, AnotherConfigReplacesLedgerAndAll) {
+  ConfigOverrides other;
+  other.seed = "12";
+  generate(folder_.config(), other, {folder_.cache(), Replace::kForce, false});
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  run({}, Replace::kForce);
+  expect_whole("and back");
+}
+
+}  // namespace
+}  // namespace crowdface
