@@ -116,13 +116,11 @@ std::vector<fs::path> of_all_shards(const fs::path& path) {
 void refuse_folders_elsewhere(const CrowdDirectory& directory) {
   std::error_code error;
   const fs::path root = fs::weakly_canonical(directory.root, error);
+  if (error) return;  // not there, and cannot be made: told elsewhere
   for (const fs::path& folder :
        {directory.meshes(), directory.topology(), directory.renders(), directory.sheets()}) {
     const fs::path real = fs::weakly_canonical(folder, error);
-    if (!error && !real.lexically_relative(root).empty() &&
-        *real.lexically_relative(root).begin() != "..") {
-      continue;
-    }
+    if (!error && !real.lexically_relative(root).native().starts_with("..")) continue;
     throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
                               ", where nothing is written"));
   }
@@ -184,6 +182,10 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
     }
   }
   fs::path existing = fs::absolute(directory.root);
+  std::error_code error;
+  if (!fs::status_known(fs::status(existing, error))) {  // too long, or links in a circle
+    throw CannotCreate(concat(directory.root.string(), ": cannot be made: ", error.message()));
+  }
   while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
     existing = existing.parent_path();
   }

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "crowdface/cast/face_judge.h"
@@ -84,9 +85,11 @@ void tell_casting(const Cast& cast) {
 /// \throws UsageError if a head lies where this run writes meshes and removes those of an old
 /// crowd.
 void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory) {
-  const fs::path meshes = fs::weakly_canonical(directory.meshes());
+  std::error_code error;
+  const fs::path meshes = fs::weakly_canonical(directory.meshes(), error);
+  if (error) return;  // there is no such folder, nor can one be made: the next check says so
   for (const fs::path& head : job.config.faces.files) {
-    if (fs::weakly_canonical(head).parent_path() == meshes) {
+    if (fs::weakly_canonical(head, error).parent_path() == meshes) {
       throw UsageError(concat(directory.root.string(), ": the head ", head.string(),
                               " lies among the meshes of this crowd; choose another folder with "
                               "--out"));
