@@ -48,7 +48,7 @@ SmallCrowd families_of_a_spread_crowd() {
   crowd.heads = 5;
   crowd.more =
       "plane: {layout: similarity}\ndiversity: {mode: spread, min_distance: 0.1 mm}\n"
-      "families: [{name: smith, members: 3, target: bob}]\n";
+      "families: [{name: smith, members: 3, target: bob, max_distance: 8 mm}]\n";
   return crowd;
 }
 
