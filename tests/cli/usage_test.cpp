@@ -16,20 +16,23 @@ TEST(Usage, VersionAndHelpAreNoErrors) {
              "cache", "75"});
   for (const auto& [command, phrases] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{
-           {"generate", {"CONFIG", "--seed", "--count", "--out", "--set", "--force", "--dry-run"}},
+           {"generate",
+            {"CONFIG", "--seed", "--count", "--out", "--set", "--force", "--dry-run", "--shard"}},
            {"prepare", {"CONFIG", "--cache"}},
            {"plan", {"CONFIG", "--dry-run"}},
            {"blend", {"--recipe", "PLAN.jsonl#ID", "--output"}},
            {"smooth", {"--iterations", "--boundary", "--operator", "--plain"}},
            {"sheet", {"CROWD_DIR"}},
+           {"gather", {"CROWD_DIR", "--cache"}},
+           {"verify", {"CROWD_DIR"}},
            {"synth", {"--vertices", "--seed", "--count"}},
            {"check", {"--masks"}},
            {"init", {"HEADS_DIR"}},
            {"cache", {"--clear", "--cache"}}}) {
     const Outcome help = crowdface(0, {command, "--help"}, phrases);
-    EXPECT_THAT(help.out,
-                ::testing::AllOf(::testing::HasSubstr("--threads"), ::testing::HasSubstr("--quiet"),
-                                 ::testing::HasSubstr("--log-file")));
+    EXPECT_THAT(help.out, ::testing::AllOf(
+                              ::testing::HasSubstr("--threads"), ::testing::HasSubstr("--quiet"),
+                              ::testing::HasSubstr("--log-file"), ::testing::HasSubstr("--limit")));
   }
 }
 
@@ -51,7 +54,13 @@ TEST(Usage, WrongNumbersAre64AndChangeNothing) {
                                                         {"--count", "2147483648"},
                                                         {"--count", "18446744073709551616"},
                                                         {"--seed", "-1"},
-                                                        {"--set", "crowd.cuont=3"}}) {
+                                                        {"--set", "crowd.cuont=3"},
+                                                        {"--shard", "0/2"},
+                                                        {"--shard", "3/2"},
+                                                        {"--shard", "2"},
+                                                        {"--shard", "1/10000"},
+                                                        {"--limit", "vertices=0"},
+                                                        {"--limit", "noses=3"}}) {
     crowdface(64, {"generate", config, option + "=" + value}, {option});
   }
   crowdface(64,

@@ -184,7 +184,7 @@ TEST(Generate, LeavesNoTemporaryFiles) {
   std::vector<std::string> names;
   for (const auto& [name, bytes] : crowd_files(folder.out())) names.push_back(name);
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("casting.json", "config.yaml", "crowd.csv",
-                                                     "plan.jsonl", "report.json",
+                                                     "ledger.jsonl", "plan.jsonl", "report.json",
                                                      "meshes/mob_0001.obj", "meshes/mob_0002.obj",
                                                      "meshes/mob_0003.obj", "meshes/mob_0004.obj"));
 }
