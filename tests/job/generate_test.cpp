@@ -102,6 +102,7 @@ TEST(Generate, MemoryChangesNothingButTheSpeedAndTooLittleIsRefused) {
     const auto first = testing::crowd_files(folder.out());
     std::uint64_t tight = 20'000;  // the least that will do: one face at a time
     for (;; tight += 10'000) {
+      std::filesystem::remove_all(folder.out());
       try {
         run(tight);
         break;
@@ -222,6 +223,8 @@ TEST(Generate, EffectiveConfigGivesTheSameCrowd) {
   const SmallCrowdFolder folder(crowd);
   run(folder, "out");
   const auto first = crowd_files(folder.out());
+  fs::remove_all(folder.out() / "meshes");
+  fs::remove(folder.out() / "ledger.jsonl");
   ConfigOverrides none;
   generate(folder.out() / "config.yaml", none, {folder.cache(), Replace::kRefuse, false});
   EXPECT_THAT(differing_files(first, crowd_files(folder.out())), ::testing::IsEmpty());

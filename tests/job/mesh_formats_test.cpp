@@ -155,6 +155,7 @@ TEST(MeshFormats, HaveTheSameBytesForAnyNumberOfThreads) {
     run(folder, "out", {kAll});
   }
   const auto first = testing::crowd_files(folder.out());
+  fs::remove_all(folder.out());
   const ThreadLimit limit(5);
   run(folder, "out", {kAll});
   EXPECT_THAT(testing::differing_files(first, testing::crowd_files(folder.out())),
