@@ -164,7 +164,7 @@ std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>&
   }
   std::set<Index> targets;
   for (const Recipe& recipe : crowd) targets.insert(recipe.target);
-  return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.components,
+  return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.skin,
                                      job.inputs.faces.heads, targets);
 }
 
