@@ -31,6 +31,7 @@ region 3
 render 3
 synth 3
 morph 3
+parts 3
 blend 4
 cast 5
 job 6

@@ -6,6 +6,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/named_parts.h"
 #include "crowdface/job/pipeline.h"
 #include "crowdface/smooth/level_size.h"
 
@@ -27,9 +28,10 @@ void describe(const Job& job) {
       "smoothing   up to ", inputs.max_level, " iterations, a size of ",
       format_fixed(
           size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm), 1),
-      " mm\n", "regions     ", join(job.names.regions), "\n", "faces       ",
-      job.config.crowd.count, " sampled, ", job.config.recipes.size(), " by hand\n", "output      ",
-      job.config.output.directory.string(), "\n");
+      " mm\n", "parts       ", describe_parts(job.config, inputs), "\nregions     ",
+      join(job.names.regions), "\n", "faces       ", job.config.crowd.count, " sampled, ",
+      job.config.recipes.size(), " by hand\n", "output      ", job.config.output.directory.string(),
+      "\n");
 }
 
 /// One picture a region, its mask on the mean head.

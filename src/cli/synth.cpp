@@ -25,7 +25,7 @@ constexpr int kMaskSize = 1024;
 struct Options {
   CommonOptions common;
   std::string out, count = "8", vertices = "20000", seed = "1", mask;
-  bool tags = false;
+  bool tags = false, skin_only = false;
 };
 
 void synth(const Options& options) {
@@ -35,14 +35,20 @@ void synth(const Options& options) {
   const std::uint64_t seed = whole_number("--seed", options.seed, 0, UINT64_MAX);
   const std::filesystem::path directory = options.out;
   make_directories(directory);
-  const SyntheticHeads heads(static_cast<Index>(vertices));
+  using Parts = SyntheticHeads::Parts;
+  const SyntheticHeads heads(static_cast<Index>(vertices),
+                             options.skin_only ? Parts::kSkin : Parts::kEyesAndTeeth);
+  std::vector<MaterialRange> materials;
+  if (!options.skin_only) {
+    for (const auto& piece : heads.pieces()) materials.push_back({piece.name, piece.first_face});
+  }
   {
     Progress progress("synthetic heads", count);
     for (std::uint64_t i = 1; i <= count; ++i) {
       throw_if_interrupted();
       write_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},
                 concat("synthetic head ", i, " of seed ", seed, ", made by crowdface synth; cm"),
-                directory / concat(head_name("synth", i), ".obj"));
+                directory / concat(head_name("synth", i), ".obj"), materials);
       progress.step();
     }
   }
@@ -83,6 +89,8 @@ Run add_synth(CLI::App& program) {
   command
       ->add_option("--mask", options->mask, "Where the region mask goes (default: DIR/regions.png)")
       ->type_name("FILE");
+  command->add_flag("--skin-only", options->skin_only,
+                    "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
   command->add_flag("--tags", options->tags,
                     "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
   options->common.add_to(*command);

@@ -277,7 +277,7 @@ TEST_F(ReadConfig, SetAndOptionsOverrideTheFile) {
 TEST_F(ReadConfig, OverridesPassTheSameChecks) {
   ConfigOverrides overrides;
   overrides.set = {"crowd.cuont=5", "sampling.smoothness=[0.5, 0.1]", "plane.layout=circel",
-                   "parts=auto", "crowd.name="};
+                   "parts=automatic", "crowd.name="};
   overrides.count = "1e3";
   overrides.seed = "-1";
   overrides.out = "";
@@ -287,7 +287,7 @@ TEST_F(ReadConfig, OverridesPassTheSameChecks) {
   EXPECT_THAT(told(), HasSubstr("--set sampling.smoothness=[0.5, 0.1]: sampling.smoothness: "
                                 "expected [low, high]"));
   EXPECT_THAT(told(), HasSubstr("did you mean \"circle\"?"));
-  EXPECT_THAT(told(), HasSubstr("parts: \"auto\" is not available in this version"));
+  EXPECT_THAT(told(), HasSubstr("parts: expected auto or none, found \"automatic\""));
   EXPECT_THAT(told(), HasSubstr("--set crowd.name=: crowd.name: no value"));
   EXPECT_THAT(told(), HasSubstr("--count 1e3: crowd.count: expected a whole number"));
   EXPECT_THAT(told(), HasSubstr("--seed -1: crowd.seed: expected a whole number"));
@@ -373,8 +373,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Basics, WrongConfig,
-    testing::Values(Wrong{"parts: auto", "5:8", "not available in this version"},
-                    Wrong{"parts: eyes", "5:8", "expected none, found \"eyes\""},
+    testing::Values(Wrong{"parts: eyes", "5:8", "expected auto or none, found \"eyes\""},
+                    Wrong{"parts: {shape: targte}", "5:16", "did you mean \"target\"?"},
+                    Wrong{"parts: {rigid: Teeth}", "5:16", "expected a list of materials"},
+                    Wrong{"parts: {rigid: [[Teeth]]}", "5:17", "expected a material, a group"},
+                    Wrong{"parts: {together: [Teeth]}", "5:20", "expected a list of materials"},
+                    Wrong{"parts: {soft: []}", "5:9", "expected one of shape, skin, rigid"},
                     Wrong{"blending: {normalization: print}", "5:27", "did you mean \"printed\"?"},
                     Wrong{"blending: {normalisation: printed}", "5:12",
                           "did you mean \"normalization\"?"},

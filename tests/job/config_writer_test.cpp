@@ -59,6 +59,12 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.smoothing.levels, b.smoothing.levels);
   EXPECT_EQ(a.smoothing.tolerance_mm, b.smoothing.tolerance_mm);
   EXPECT_EQ(a.blending.normalization, b.blending.normalization);
+  EXPECT_EQ(a.parts.follow, b.parts.follow);
+  EXPECT_EQ(a.parts.shape, b.parts.shape);
+  EXPECT_EQ(a.parts.skin, b.parts.skin);
+  EXPECT_EQ(a.parts.rigid, b.parts.rigid);
+  EXPECT_EQ(a.parts.bound, b.parts.bound);
+  EXPECT_EQ(a.parts.together, b.parts.together);
   EXPECT_EQ(a.plane.layout, b.plane.layout);
   EXPECT_EQ(a.plane.anchors, b.plane.anchors);
   EXPECT_TRUE(same(a.sampling.targets, b.sampling.targets));
@@ -138,6 +144,13 @@ class EffectiveConfig : public ConfigTest {
   }
 };
 
+TEST_F(EffectiveConfig, KeepsWhatIsSaidOfParts) {
+  EXPECT_THAT(round_trip(kPlain + "parts: none\n"), ::testing::HasSubstr("\nparts: none\n"));
+  round_trip(kPlain +
+             "parts: {shape: blend, skin: [M_Gums], rigid: [\"component 3\", 'a: b'],\n"
+             "  bound: [Lashes], together: [[M_Teeth, M_Gums], [eye]]}\n");
+}
+
 TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
   EXPECT_EQ(round_trip(kPlain),
             "schema: 1\n"
@@ -164,7 +177,12 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  tolerance: 0.05 mm\n"
             "blending:\n"
             "  normalization: partition\n"
-            "parts: none\n"
+            "parts:\n"
+            "  shape: target\n"
+            "  skin: []\n"
+            "  rigid: []\n"
+            "  bound: []\n"
+            "  together: []\n"
             "plane:\n"
             "  layout: circle\n"
             "  anchors: {}\n"

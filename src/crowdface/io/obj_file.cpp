@@ -107,6 +107,7 @@ ObjFile read_obj(const std::filesystem::path& path) {
   result.normal_spans = std::move(scan.normal_spans);
   result.material_libraries = std::move(scan.material_libraries);
   result.materials = std::move(scan.materials);
+  result.groups = std::move(scan.groups);
   return result;
 }
 

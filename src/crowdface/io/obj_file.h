@@ -25,6 +25,7 @@ struct ObjFile {
   std::vector<TextSpan> normal_spans;         ///< #N
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
+  std::vector<MaterialRange> groups;
 };
 
 /// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj).

@@ -134,6 +134,8 @@ class Scanner {
     if (statement == "vn") return normal();
     if (statement == "usemtl") {
       scan_.materials.push_back({std::string(rest_after(line, statement)), scan_.face_count});
+    } else if (statement == "g" || statement == "o") {
+      scan_.groups.push_back({std::string(rest_after(line, statement)), scan_.face_count});
     } else if (statement == "mtllib") {
       scan_.material_libraries.emplace_back(rest_after(line, statement));
     } else if (std::ranges::find(kOtherStatements, statement) == kOtherStatements.end()) {

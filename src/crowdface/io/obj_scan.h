@@ -33,6 +33,7 @@ struct ObjScan {
   Index corner_count = 0;
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;  ///< ascending first_face; empty if none is used
+  std::vector<MaterialRange> groups;     ///< the same of groups and objects (`g`, `o`)
 };
 
 /// Checks an OBJ text line by line, because the loader accepts what it should not: words where

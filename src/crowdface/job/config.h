@@ -17,6 +17,7 @@
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/job/mesh_format.h"
+#include "crowdface/parts/follower.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/render/view.h"
 #include "crowdface/smooth/smoothing_operator.h"
@@ -75,6 +76,14 @@ struct Config {
   struct Blending {
     Normalization normalization = Normalization::kPartition;
   } blending;
+
+  /// How eyes, teeth and lashes go along. Names are of materials, groups or "component N".
+  struct Parts {
+    bool follow = true;  ///< false: `parts: none`, all is blended as skin
+    PartShape shape = PartShape::kTarget;
+    std::vector<std::string> skin, rigid, bound;
+    std::vector<std::vector<std::string>> together;  ///< each a rigid part
+  } parts;
 
   struct Plane {
     Layout layout = Layout::kCircle;

@@ -31,11 +31,6 @@ void read_schema(const MapReader& root, Complaints& complaints) {
   }
 }
 
-/// Eyes, teeth and lashes do not follow the skin yet: `none` is all there is.
-void read_parts(const YamlNode* node, Complaints& complaints) {
-  if (node != nullptr) read_word(*node, {"none"}, complaints);
-}
-
 void read_root(const YamlNode& node, const ConfigOverrides& overrides, ConfigDraft& draft) {
   const MapReader root(
       &node,
@@ -49,7 +44,7 @@ void read_root(const YamlNode& node, const ConfigOverrides& overrides, ConfigDra
   read_regions(root.find("regions"), draft);
   read_smoothing(root.find("smoothing"), draft);
   read_blending(root.find("blending"), draft);
-  read_parts(root.find("parts"), draft.complaints);
+  read_parts(root.find("parts"), draft);
   read_plane(root.find("plane"), draft);
   read_sampling(root.find("sampling"), draft);
   read_distance(root.find("distance"), draft);

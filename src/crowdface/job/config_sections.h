@@ -37,6 +37,7 @@ void read_faces(const YamlNode* node, ConfigDraft& draft);
 void read_regions(const YamlNode* node, ConfigDraft& draft);
 void read_smoothing(const YamlNode* node, ConfigDraft& draft);
 void read_blending(const YamlNode* node, ConfigDraft& draft);
+void read_parts(const YamlNode* node, ConfigDraft& draft);
 void read_plane(const YamlNode* node, ConfigDraft& draft);
 void read_sampling(const YamlNode* node, ConfigDraft& draft);
 void read_distance(const YamlNode* node, ConfigDraft& draft);

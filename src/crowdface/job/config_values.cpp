@@ -2,29 +2,12 @@
 #include "crowdface/job/config_values.h"
 
 #include <algorithm>
-#include <array>
 
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 
 namespace crowdface {
 namespace {
-
-/// Keys, and words of keys, that configs may hold one day but that this version has not got. They
-/// are refused, because a crowd cast without them would not be the one asked for.
-struct NotBuilt {
-  std::string_view path;
-  std::string_view word;  ///< empty: the key itself
-};
-constexpr std::array kNotBuilt = {
-    NotBuilt{"parts", "auto"},
-};
-
-bool is_not_built(std::string_view path, std::string_view word) {
-  path = path.substr(0, path.find(" #"));  // an item of a list stands for the list
-  return std::any_of(kNotBuilt.begin(), kNotBuilt.end(),
-                     [&](const NotBuilt& key) { return key.path == path && key.word == word; });
-}
 
 std::string child_path(const YamlNode& map, std::string_view key) {
   return map.path.empty() ? std::string(key) : concat(map.path, '.', key);
@@ -88,10 +71,7 @@ MapReader::MapReader(const YamlNode* node, std::vector<std::string> keys, Compla
   }
   for (const YamlEntry& entry : node_->entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
-    const std::string path = child_path(*node_, entry.key);
-    complaints_.add(entry.key_place, is_not_built(path, "")
-                                         ? concat(path, ": not available in this version")
-                                         : unknown_key(*node_, entry.key, keys));
+    complaints_.add(entry.key_place, unknown_key(*node_, entry.key, keys));
   }
 }
 
@@ -210,11 +190,6 @@ std::optional<std::size_t> read_word(const YamlNode& node, const std::vector<std
   if (node.kind == YamlNode::Kind::kScalar) {
     const auto found = std::find(words.begin(), words.end(), node.text);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    if (is_not_built(node.path, node.text)) {
-      out.about(node, concat(quoted(node.text), " is not available in this version; expected ",
-                             join(words, " or ")));
-      return std::nullopt;
-    }
   }
   const std::string hint =
       node.kind == YamlNode::Kind::kScalar ? suggestion(node.text, words) : std::string();

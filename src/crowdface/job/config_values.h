@@ -14,8 +14,7 @@
 
 namespace crowdface {
 
-/// The entries of one mapping. Unknown keys, and those that this version does not have yet, are
-/// complained of when it is made.
+/// The entries of one mapping. Unknown keys are complained of when it is made.
 class MapReader {
  public:
   /// \param node  null: the mapping is not there, and neither is any key.
@@ -48,7 +47,7 @@ std::optional<PlanePoint> read_point(const YamlNode& node, Complaints& out);
 std::optional<Range> read_range(const YamlNode& node, Complaints& out,
                                 const std::function<std::optional<double>(const YamlNode&)>& read);
 
-/// Which of the words it is. A word of a later version is told apart from a wrong one.
+/// Which of the words it is.
 std::optional<std::size_t> read_word(const YamlNode& node, const std::vector<std::string>& words,
                                      Complaints& out);
 

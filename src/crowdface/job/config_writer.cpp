@@ -144,13 +144,26 @@ class Writer {
     line("blending:");
     line("  normalization: ",
          config_.blending.normalization == Normalization::kPartition ? "partition" : "printed");
-    line("parts: none");
+    write_parts();
     line("plane:");
     line("  layout: ", layout_name(config_.plane.layout));
     line(config_.plane.anchors.empty() ? "  anchors: {}" : "  anchors:");
     for (const auto& [index, anchor] : config_.plane.anchors) {
       line("    ", head_key(index), ": ", flow_point(anchor));
     }
+  }
+
+  void write_parts() {
+    const Config::Parts& parts = config_.parts;
+    if (!parts.follow) return line("parts: none");
+    line("parts:");
+    line("  shape: ", parts.shape == PartShape::kBlend ? "blend" : "target");
+    line("  skin: ", flow_names(parts.skin));
+    line("  rigid: ", flow_names(parts.rigid));
+    line("  bound: ", flow_names(parts.bound));
+    std::vector<std::string> together;
+    for (const auto& names : parts.together) together.push_back(flow_names(names));
+    line("  together: ", flow_list(together));
   }
 
   static std::string_view levels_name(Levels levels) {

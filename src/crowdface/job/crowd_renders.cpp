@@ -26,9 +26,20 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
                      {.cut_below = kCutBelow});
 }
 
-std::vector<SurfaceKind> surface_kinds(const std::vector<std::string>& materials) {
+/// By the names of materials; what is called nothing but has an eyeball's shape is an eye too.
+std::vector<SurfaceKind> surface_kinds(const Inputs& inputs) {
+  std::vector<bool> eyeball(static_cast<std::size_t>(inputs.components.count()), false);
+  for (const Part& part : inputs.parts.parts) {
+    for (const std::uint32_t c : part.components) eyeball[c] = part.eyeball;
+  }
   std::vector<SurfaceKind> kinds;
-  for (const std::string& material : materials) kinds.push_back(surface_kind_of_material(material));
+  for (Index f = 0; f < inputs.faces.topology.face_count(); ++f) {
+    kinds.push_back(surface_kind_of_material(inputs.materials[static_cast<std::size_t>(f)]));
+    const std::uint32_t first = inputs.faces.topology.face(f)[0];
+    if (kinds.back() == SurfaceKind::kSkin && eyeball[inputs.components.of_vertex[first]]) {
+      kinds.back() = SurfaceKind::kEye;
+    }
+  }
   return kinds;
 }
 
@@ -48,7 +59,7 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
     : cameras_(fit_to_heads(config, sheet, inputs)),
       renderer_(inputs.faces.topology,
                 RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
-                surface_kinds(inputs.materials), &inputs.faces.heads.front().positions) {}
+                surface_kinds(inputs), &inputs.faces.heads.front().positions) {}
 
 Rgb8Image CrowdRenders::render(const Positions& positions, const VertexColours* colours) const {
   std::vector<Rgb8Image> views;

@@ -2,6 +2,7 @@
 #include "crowdface/job/face_builder.h"
 
 #include "crowdface/blend/blend.h"
+#include "crowdface/core/parallel.h"
 
 namespace crowdface {
 
@@ -10,12 +11,26 @@ FaceBuilder::FaceBuilder(const Job& job, const Prepared& prepared)
   if (job.config.smoothing.levels != Levels::kExact) {
     blender_.emplace(job.inputs.faces, head_levels(job.config, prepared), job.inputs.regions);
   }
+  if (!job.inputs.parts.parts.empty()) {
+    HeadAxes axes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    axes.front(job.config.faces.front.index) = job.config.faces.front.sign;
+    axes.up(job.config.faces.up.index) = job.config.faces.up.sign;
+    follower_.emplace(job.inputs.faces, job.inputs.parts, axes, job.config.parts.shape);
+  }
 }
 
 void FaceBuilder::build(std::span<const Recipe* const> recipes,
                         std::span<Positions> results) const {
-  if (blender_) return blender_->blend(recipes, results);
-  blend_exact(job_.inputs.faces, *prepared_.filter, job_.inputs.regions, recipes, results);
+  if (blender_) {
+    blender_->blend(recipes, results);
+  } else {
+    blend_exact(job_.inputs.faces, *prepared_.filter, job_.inputs.regions, recipes, results);
+  }
+  if (!follower_) return;
+  parallel_for_each(static_cast<Index>(recipes.size()), [&](Index f) {
+    const auto i = static_cast<std::size_t>(f);
+    follower_->follow(recipes[i]->target, results[i]);
+  });
 }
 
 std::uint64_t FaceBuilder::bytes(std::size_t faces) const {

@@ -6,6 +6,7 @@
 
 #include "crowdface/blend/crowd_blender.h"
 #include "crowdface/job/pipeline.h"
+#include "crowdface/parts/follower.h"
 
 namespace crowdface {
 
@@ -25,7 +26,8 @@ class FaceBuilder {
  private:
   const Job& job_;
   const Prepared& prepared_;
-  std::optional<CrowdBlender> blender_;  ///< of fitted levels
+  std::optional<CrowdBlender> blender_;   ///< of fitted levels
+  std::optional<PartFollower> follower_;  ///< if there are parts beside the skin
 };
 
 }  // namespace crowdface

@@ -178,7 +178,7 @@ std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>&
   if (!skin_is_judged(job)) return nullptr;
   std::set<Index> targets;
   for (const Recipe& recipe : crowd) targets.insert(recipe.target);
-  return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.components,
+  return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.skin,
                                      job.inputs.faces.heads, targets);
 }
 

@@ -11,6 +11,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/alignment_check.h"
+#include "crowdface/job/named_parts.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -186,6 +187,9 @@ std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
                         config.region_names().back()));
   }
   compute_digests(inputs);
+  const std::size_t before = problems.size();
+  find_named_parts(config, inputs, problems);
+  if (problems.size() > before) return std::nullopt;
   return inputs;
 }
 
@@ -205,6 +209,7 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   // Only fitted levels depend on L_max; exact ones do not.
   if (config.smoothing.levels != Levels::kExact) hasher.add(inputs.max_level);
   if (config.smoothing.levels == Levels::kBasis) hasher.add(config.smoothing.tolerance_mm);
+  add_parts(config, inputs.parts, hasher);
   return hasher.digest();
 }
 

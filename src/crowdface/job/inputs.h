@@ -10,6 +10,7 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/job/config_reader.h"
 #include "crowdface/mesh/adjacency.h"
+#include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
@@ -22,6 +23,8 @@ struct Inputs {
   std::vector<std::string> materials;  ///< #F, the first head's material of each face
   Adjacency adjacency;
   Components components;
+  PartList parts;   ///< `parts: none`: empty
+  Components skin;  ///< the components with all skin joined into the largest
   RegionWeights regions;
   std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without
   double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads

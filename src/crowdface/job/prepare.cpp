@@ -126,7 +126,7 @@ bool into_cache(const std::filesystem::path& cache, const Digest& key, const Hea
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                  const std::filesystem::path& cache) {
   Prepared prepared;
-  prepared.samples = choose_face_samples(inputs.faces.topology, inputs.components,
+  prepared.samples = choose_face_samples(inputs.faces.topology, inputs.skin,
                                          mean_head(inputs.faces), config.faces.front, kSamples);
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
                                                       inputs.max_level, missed_by_nodes(config));

@@ -70,6 +70,17 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);
 }
 
+/// From the lid's edge over the lid's thickness, then back between lid and ball.
+Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
+  const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
+  if (b <= 1.2) return eye_centre() + foot;
+  const double t = (b - 1.2) / 0.8, radius = foot.norm();
+  // Outward along the ball: across the spoke, away from the gaze.
+  const Vector3d spoke = foot / radius, gaze(0, 0, 1);
+  const Vector3d back = (spoke * spoke.z() - gaze).normalized();
+  return eye_centre() + (radius + 0.02 * t) * (spoke + 0.35 * t * back).normalized();
+}
+
 Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, double b) {
   const double t = b - 1;
   if (sheet == Sheet::kEye) return into_eye(edge, c, b);
@@ -124,13 +135,28 @@ SkinPoint right_side(const Address& address) {
 
 }  // namespace
 
-SkinPoint mean_skin(const Address& address) {
-  SkinPoint point = right_side(address);
+namespace {
+
+SkinPoint on_its_side(SkinPoint point, const Address& address) {
   if (address.side < 0) {
     point.position.x() = -point.position.x();
     point.normal.x() = -point.normal.x();
   }
   return point;
+}
+
+}  // namespace
+
+SkinPoint mean_skin(const Address& address) {
+  return on_its_side(right_side(address), address);
+}
+
+SkinPoint mean_skin_with_sockets(const Address& address) {
+  if (address.sheet != Sheet::kEye || address.b <= 1) return mean_skin(address);
+  const Vector2d start = on_square(address.a);
+  const Vector2d circle = start / start.norm();
+  const SkinPoint edge = on_skin(eye_edge(circle));
+  return on_its_side({into_socket(edge.position, circle, address.b), edge.normal, 0}, address);
 }
 
 }  // namespace crowdface::synth

@@ -16,4 +16,8 @@ struct SkinPoint {
 
 SkinPoint mean_skin(const Address& address);
 
+/// The same where the eyeballs are pieces of their own: behind the lids' edges the skin does not run
+/// over the ball to a pupil but turns back around it, as a pocket.
+SkinPoint mean_skin_with_sockets(const Address& address);
+
 }  // namespace crowdface::synth

@@ -2,12 +2,14 @@
 #include "crowdface/synth/synthetic_head.h"
 
 #include <cmath>
+#include <optional>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/synth/identity.h"
 #include "crowdface/synth/layout.h"
+#include "crowdface/synth/loose_parts.h"
 #include "crowdface/synth/mean_head.h"
 #include "crowdface/synth/relief.h"
 
@@ -24,14 +26,25 @@ struct SyntheticHeads::State {
   TextureCoordinates uvs;
   std::vector<synth::Address> addresses;
   std::vector<synth::SkinPoint> mean;
+  double edge_cm = 0;
+  std::optional<synth::LooseParts> loose;
 };
 
-SyntheticHeads::SyntheticHeads(Index vertices) : state_(std::make_unique<State>()) {
+SyntheticHeads::SyntheticHeads(Index vertices, Parts parts) : state_(std::make_unique<State>()) {
   if (vertices < kFewest || vertices > kMost) {
     throw InvalidInput(concat("expected ", kFewest, " to ", kMost,
                               " vertices for synthetic heads, found ", vertices));
   }
-  synth::Layout layout = synth::make_layout(vertices);
+  // The smallest layout, 5,000 vertices, has edges of 5 mm.
+  const auto edge_of = [](Index count) {
+    return 0.5 * std::sqrt(5000.0 / static_cast<double>(count));
+  };
+  Index skin = vertices;
+  if (parts == Parts::kEyesAndTeeth) {
+    state_->loose.emplace(edge_of(vertices));
+    skin -= state_->loose->vertex_count();
+  }
+  synth::Layout layout = synth::make_layout(skin);
   state_->topology = std::move(layout.topology);
   state_->uvs = std::move(layout.uvs);
   state_->addresses = std::move(layout.addresses);
@@ -39,14 +52,32 @@ SyntheticHeads::SyntheticHeads(Index vertices) : state_(std::make_unique<State>(
   state_->mean.resize(n);
   parallel_blocks(static_cast<std::ptrdiff_t>(n), kBlock, [&](auto begin, auto end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      state_->mean[i] = synth::mean_skin(state_->addresses[i]);
+      state_->mean[i] = state_->loose ? synth::mean_skin_with_sockets(state_->addresses[i])
+                                      : synth::mean_skin(state_->addresses[i]);
     }
   });
+  state_->edge_cm = edge_of(static_cast<Index>(n));
+  if (state_->loose) state_->loose->append_to(state_->topology, state_->uvs);
 }
 
 SyntheticHeads::~SyntheticHeads() = default;
 SyntheticHeads::SyntheticHeads(SyntheticHeads&&) noexcept = default;
 SyntheticHeads& SyntheticHeads::operator=(SyntheticHeads&&) noexcept = default;
+
+std::vector<SyntheticHeads::Piece> SyntheticHeads::pieces() const {
+  std::vector<Piece> pieces = {{"skin", 0}};
+  if (!state_->loose) return pieces;
+  using synth::LoosePiece;
+  const Index first = topology().face_count() - state_->loose->face_count();
+  const auto add = [&](const char* name, LoosePiece piece) {
+    pieces.push_back({name, first + state_->loose->first_face(piece)});
+  };
+  add("eyeball_left", LoosePiece::kLeftEye);
+  add("eyeball_right", LoosePiece::kRightEye);
+  add("teeth_upper", LoosePiece::kUpperTeeth);
+  add("teeth_lower", LoosePiece::kLowerTeeth);
+  return pieces;
+}
 
 const Topology& SyntheticHeads::topology() const {
   return state_->topology;
@@ -57,11 +88,10 @@ const TextureCoordinates& SyntheticHeads::uvs() const {
 
 Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) const {
   const synth::Identity identity(seed, index);
-  // The smallest layout, 5,000 vertices, has edges of 5 mm.
-  const double edge_cm = 0.5 * std::sqrt(5000.0 / static_cast<double>(topology().vertex_count));
-  const synth::Relief relief(identity, edge_cm);
+  const synth::Relief relief(identity, state_->edge_cm);
   Positions out(state_->topology.vertex_count, 3);
-  parallel_blocks(out.rows(), kBlock, [&](auto begin, auto end) {
+  const auto skin = static_cast<std::ptrdiff_t>(state_->mean.size());
+  parallel_blocks(skin, kBlock, [&](auto begin, auto end) {
     for (auto i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const synth::SkinPoint& mean = state_->mean[k];
@@ -69,6 +99,7 @@ Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) con
       out.row(i) = identity.deform(fine).transpose();
     }
   });
+  if (state_->loose) out.bottomRows(out.rows() - skin) = state_->loose->positions(identity);
   return out;
 }
 

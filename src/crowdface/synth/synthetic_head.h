@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
@@ -10,16 +11,27 @@
 namespace crowdface {
 
 /// Synthetic human heads in one quad-only topology: skull, brows, lids, nose, lips, ears, jaw and
-/// neck, of both sexes and several ages. One component; six open boundaries (pupils, mouth,
-/// nostrils, neck). The layout is hand-made here, no scan is part of it.
+/// neck, of both sexes and several ages. The skin is one component with six open boundaries (pupils
+/// or the lids' linings, mouth, nostrils, neck). The layout is hand-made here, no scan is part of it.
 class SyntheticHeads {
  public:
+  enum class Parts {
+    kSkin,          ///< eyes are cut into the skin, as sculptors do
+    kEyesAndTeeth,  ///< two eyeballs and two rows of teeth are components of their own
+  };
   /// \param vertices  wanted number, 5,000 … 1,200,000; nearest the layout can give, within 10 %.
   /// \throws InvalidInput outside that range.
-  explicit SyntheticHeads(Index vertices);
+  explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin);
   ~SyntheticHeads();
   SyntheticHeads(SyntheticHeads&&) noexcept;
   SyntheticHeads& operator=(SyntheticHeads&&) noexcept;
+
+  /// A component's name and the first of its faces, ascending.
+  struct Piece {
+    std::string name;
+    Index first_face = 0;
+  };
+  std::vector<Piece> pieces() const;
 
   /// The same for every seed. Each corner has a texture coordinate.
   const Topology& topology() const;

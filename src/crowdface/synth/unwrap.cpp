@@ -84,6 +84,23 @@ double strip_v(double unit) {
   return scaled(0, down(unit)).y();
 }
 
+namespace {
+
+/// A place in a window's square, −1 … 1 each way.
+Eigen::RowVector2d unwrap_window(Sheet sheet, double side, const Eigen::Vector2d& q) {
+  const Window& w = window_of(sheet);
+  const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
+  const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
+  return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
+                (y0 + y1) / 2 - (y1 - y0) / 2 * q.y());
+}
+
+}  // namespace
+
+Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place) {
+  return unwrap_window(sheet, side, place.cwiseProduct(opening_of(sheet).hole));
+}
+
 Eigen::RowVector2d unwrap(const Address& address) {
   if (address.sheet == Sheet::kStrip) return scaled(across(address.a), down(address.b));
   if (address.sheet == Sheet::kCap) {
@@ -91,12 +108,7 @@ Eigen::RowVector2d unwrap(const Address& address) {
     return scaled(across(address.a), -kCapHeight * address.b / deep);
   }
   const Sheet sheet = address.sheet == Sheet::kEarCore ? Sheet::kEar : address.sheet;
-  const Window& w = window_of(sheet);
-  const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
-  const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
-  const Eigen::Vector2d q = in_window(address);
-  return scaled(address.side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
-                (y0 + y1) / 2 - (y1 - y0) / 2 * q.y());
+  return unwrap_window(sheet, address.side, in_window(address));
 }
 
 }  // namespace crowdface::synth

@@ -11,6 +11,9 @@ namespace crowdface::synth {
 /// open down the back of the head, the cap hangs on to the forehead.
 Eigen::RowVector2d unwrap(const Address& address);
 
+/// A place in the hole that an opening leaves in the texture: −1 … 1 each way, within the circle.
+Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place);
+
 /// v of the strip `unit` row units below the cap; v falls from forehead to neck.
 double strip_v(double unit);
 

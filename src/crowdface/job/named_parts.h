@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/job/config.h"
+#include "crowdface/job/inputs.h"
+
+namespace crowdface {
+
+/// Sorts the components of the heads into parts as the config asks, into `inputs.parts` and
+/// `inputs.skin`. A name that no component bears is a problem.
+void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
+
+/// Adds what a mesh depends on; nothing if all is skin.
+void add_parts(const Config& config, const PartList& parts, Hasher& hasher);
+
+/// What was found, a line for the skin and one for each group of like parts, for people to read.
+std::string describe_parts(const Config& config, const Inputs& inputs);
+
+}  // namespace crowdface

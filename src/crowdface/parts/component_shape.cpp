@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/component_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "crowdface/mesh/normals.h"
+#include "crowdface/parts/point_grid.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/// Vertices of a component whose distance to the skin is looked at.
+constexpr std::size_t kMostProbes = 512;
+
+/// Solves the symmetric system A x = b, 4 by 4, by elimination with pivots; zero where A is singular.
+std::array<double, 4> solve(std::array<std::array<double, 5>, 4> rows) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < 4; ++i) {
+      if (std::abs(rows[i][k]) > std::abs(rows[pivot][k])) pivot = i;
+    }
+    if (rows[pivot][k] == 0) return {};
+    std::swap(rows[k], rows[pivot]);
+    for (std::size_t i = k + 1; i < 4; ++i) {
+      const double factor = rows[i][k] / rows[k][k];
+      for (std::size_t j = k; j < 5; ++j) rows[i][j] -= factor * rows[k][j];
+    }
+  }
+  std::array<double, 4> x{};
+  for (std::size_t k = 4; k-- > 0;) {
+    x[k] = rows[k][4];
+    for (std::size_t j = k + 1; j < 4; ++j) x[k] -= rows[k][j] * x[j];
+    x[k] /= rows[k][k];
+  }
+  return x;
+}
+
+/// |p|² = 2 p·c + (r² − |c|²) in the least-squares sense, about the middle of the vertices.
+void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& vertices,
+                ComponentShape& shape) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const std::uint32_t v : vertices) middle += positions.row(v).transpose();
+  middle /= static_cast<double>(vertices.size());
+  std::array<std::array<double, 5>, 4> rows{};
+  for (const std::uint32_t v : vertices) {
+    const std::array<double, 4> term = {2 * (positions(v, 0) - middle.x()),
+                                        2 * (positions(v, 1) - middle.y()),
+                                        2 * (positions(v, 2) - middle.z()), 1};
+    const double square = (term[0] * term[0] + term[1] * term[1] + term[2] * term[2]) / 4;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) rows[i][j] += term[i] * term[j];
+      rows[i][4] += term[i] * square;
+    }
+  }
+  const std::array<double, 4> x = solve(rows);
+  const Eigen::Vector3d centre(x[0], x[1], x[2]);
+  shape.centre = middle + centre;
+  shape.radius = std::sqrt(std::max(0.0, x[3] + centre.squaredNorm()));
+  double sum = 0;
+  for (const std::uint32_t v : vertices) {
+    const double off = (positions.row(v).transpose() - shape.centre).norm() - shape.radius;
+    sum += off * off;
+  }
+  shape.roughness = std::sqrt(sum / static_cast<double>(vertices.size()));
+}
+
+/// The farthest that nine in ten of some evenly chosen vertices are from the skin.
+double distance_to(const PointGrid& skin, const Positions& positions,
+                   const std::vector<std::uint32_t>& vertices) {
+  const std::size_t probes = std::min(vertices.size(), kMostProbes);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < probes; ++i) {
+    const std::uint32_t vertex = vertices[i * vertices.size() / probes];
+    distances.push_back(skin.nearest(positions.row(vertex).transpose()).distance);
+  }
+  const auto at = distances.begin() + static_cast<std::ptrdiff_t>((distances.size() - 1) * 9 / 10);
+  std::nth_element(distances.begin(), at, distances.end());
+  return *at;
+}
+
+}  // namespace
+
+std::vector<ComponentShape> component_shapes(const Topology& topology, const Adjacency& adjacency,
+                                             const Components& components,
+                                             const Positions& positions) {
+  const auto count = static_cast<std::size_t>(components.count());
+  std::vector<std::vector<std::uint32_t>> members(count);
+  for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {
+    members[components.of_vertex[v]].push_back(v);
+  }
+  std::vector<ComponentShape> shapes(count);
+  std::vector<double> area(count, 0.0), perimeter(count, 0.0);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto face = topology.face(f);
+    const std::size_t c = components.of_vertex[face[0]];
+    ++shapes[c].faces;
+    area[c] += face_area_vector(topology, f, positions).norm() / 2;
+  }
+  // An edge between two vertices of the rim is an open edge, but for a few across narrow strips,
+  // which are open enough as it is.
+  for (Index i = 0; i < topology.vertex_count; ++i) {
+    if (!adjacency.boundary[static_cast<std::size_t>(i)]) continue;
+    for (const std::uint32_t n : adjacency.of(i)) {
+      if (static_cast<Index>(n) < i || !adjacency.boundary[n]) continue;
+      perimeter[components.of_vertex[n]] += (positions.row(i) - positions.row(n)).norm();
+    }
+  }
+  const std::uint32_t skin = components.largest();
+  const PointGrid skin_grid(positions, members[skin]);
+  for (std::size_t c = 0; c < count; ++c) {
+    ComponentShape& shape = shapes[c];
+    shape.vertices = static_cast<Index>(members[c].size());
+    if (area[c] > 0) shape.openness = perimeter[c] * perimeter[c] / (4 * kPi * area[c]);
+    Eigen::Vector3d low = positions.row(members[c][0]).transpose(), high = low;
+    for (const std::uint32_t v : members[c]) {
+      low = low.cwiseMin(positions.row(v).transpose());
+      high = high.cwiseMax(positions.row(v).transpose());
+    }
+    shape.extent = (high - low).norm();
+    if (c == skin || shape.faces == 0) continue;
+    fit_sphere(positions, members[c], shape);
+    shape.skin_distance = distance_to(skin_grid, positions, members[c]);
+  }
+  return shapes;
+}
+
+}  // namespace crowdface

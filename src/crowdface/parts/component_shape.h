@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// What a connected component looks like by itself, as far as it tells skin, eyes and lashes apart.
+struct ComponentShape {
+  Index vertices = 0;
+  Index faces = 0;
+  double extent = 0;  ///< diagonal of its bounding box
+  /// Perimeter² / (4π · area) of its open edges: 0 of a closed surface, ½ of a hemisphere, 1 of a
+  /// disc, more of a strip; of any number of vertices.
+  double openness = 0;
+  double skin_distance = 0;  ///< the farthest that nine in ten of its vertices are from the skin
+  /// The sphere nearest to its vertices, and how far they are from it (root mean square).
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0;
+  double roughness = 0;
+};
+
+/// The shapes of all components; that of the skin, the largest, has a skin_distance of 0.
+/// \param positions  #V by 3, any unit.
+std::vector<ComponentShape> component_shapes(const Topology& topology, const Adjacency& adjacency,
+                                             const Components& components,
+                                             const Positions& positions);
+
+}  // namespace crowdface

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/follower.h"
+
+#include <optional>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/parts/anchors.h"
+#include "crowdface/parts/contact.h"
+#include "crowdface/parts/rigid_motion.h"
+#include "crowdface/parts/socket.h"
+
+namespace crowdface {
+namespace {
+
+/// How far a rigid part's socket reaches: a share of an eyeball's radius (some 12 mm), and of the
+/// skin's extent (some 43 cm) for all else.
+constexpr double kEyeReach = 1, kReach = 0.03;
+/// How near to the skin a part may come to pass through it, and how much of a clearance is kept at
+/// least: shares of the skin's extent.
+constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
+
+Positions mean_of(const std::vector<Head>& heads) {
+  Positions mean = Positions::Zero(heads.front().positions.rows(), 3);
+  for (const Head& head : heads) mean += head.positions;
+  return mean / static_cast<double>(heads.size());
+}
+
+/// A share of the area of the faces around each vertex, #V.
+std::vector<double> vertex_areas(const Topology& topology, const Positions& positions) {
+  const Positions vectors = face_area_vectors(topology, positions);
+  std::vector<double> areas(static_cast<std::size_t>(topology.vertex_count), 0.0);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto face = topology.face(f);
+    const double x = vectors(f, 0), y = vectors(f, 1), z = vectors(f, 2);
+    const double area = std::sqrt(x * x + y * y + z * z) / 2;
+    for (const std::uint32_t v : face) areas[v] += area / static_cast<double>(face.size());
+  }
+  return areas;
+}
+
+struct RigidPart {
+  std::vector<std::uint32_t> vertices;
+  std::vector<double> ones;  ///< #vertices, for fits of its shape
+  Socket socket;
+  Lids lids;                                    ///< of an eyeball
+  std::vector<Eyeball> eyeballs;                ///< #heads, of an eyeball
+  Contact contact;                              ///< of all but eyeballs
+  std::vector<std::vector<double>> clearances;  ///< #heads
+};
+
+/// The ball that an eyeball of several layers is: that of its largest component.
+const ComponentShape& ball_of(const Part& part, const PartList& list) {
+  const ComponentShape* ball = &list.shapes[part.components.front()];
+  for (const std::uint32_t c : part.components) {
+    if (list.shapes[c].radius > ball->radius) ball = &list.shapes[c];
+  }
+  return *ball;
+}
+
+}  // namespace
+
+struct PartFollower::State {
+  const FaceSet& faces;
+  FacesAround around;
+  PartShape shape;
+  double extent;  ///< of the skin
+  std::vector<RigidPart> rigid;
+  Anchors anchors;
+  std::vector<std::vector<Eigen::Vector3d>> places;  ///< #heads, of the bound vertices
+
+  void follow_rigid(const RigidPart& part, std::size_t target, Positions& result) const;
+};
+
+PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const HeadAxes& axes,
+                           PartShape shape) {
+  auto state =
+      std::make_unique<State>(State{faces, FacesAround(faces.topology), shape, 0, {}, {}, {}});
+  const Positions mean = mean_of(faces.heads);
+  const FacesAround& around = state->around;
+  const std::vector<double> areas = vertex_areas(faces.topology, mean);
+  std::vector<bool> is_skin(static_cast<std::size_t>(faces.topology.vertex_count), true);
+  for (const Part& part : parts.parts) {
+    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
+  }
+  std::vector<std::uint32_t> skin, bound;
+  double extent = 0;
+  for (const ComponentShape& component : parts.shapes) extent = std::max(extent, component.extent);
+  state->extent = extent;
+  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
+    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
+  }
+  const PointGrid skin_grid(mean, skin);
+  const auto heads = static_cast<std::ptrdiff_t>(faces.heads.size());
+
+  for (const Part& part : parts.parts) {
+    if (part.part_class == PartClass::kBound) {
+      bound.insert(bound.end(), part.vertices.begin(), part.vertices.end());
+      continue;
+    }
+    RigidPart rigid{part.vertices, std::vector<double>(part.vertices.size(), 1.0), {}, {}, {}};
+    const PointGrid grid(mean, part.vertices);
+    const ComponentShape& ball = ball_of(part, parts);
+    // A part that floats far from the skin follows what is nearest to it.
+    double reach = part.eyeball ? kEyeReach * ball.radius : kReach * extent;
+    for (int tries = 0; tries < 8 && rigid.socket.vertices.size() < 12; ++tries, reach *= 2) {
+      rigid.socket = find_socket(mean, grid, skin, areas, reach);
+    }
+    if (part.eyeball) {
+      rigid.lids = find_lids(mean, grid, ball.centre, ball.radius, axes, skin);
+      for (const Head& head : faces.heads) {
+        const RigidMotion motion =
+            fit_rigid_motion(mean, head.positions, rigid.vertices, rigid.ones);
+        rigid.eyeballs.emplace_back(faces.topology, state->around, head.positions, part.vertices,
+                                    motion.apply(ball.centre), motion.scale * ball.radius,
+                                    rigid.lids);
+      }
+    }
+    if (!part.eyeball) {
+      rigid.contact =
+          Contact(faces.topology, around, mean, skin_grid, part.vertices, kContactReach * extent);
+      for (const Head& head : faces.heads) {
+        rigid.clearances.push_back(rigid.contact.heights(head.positions));
+      }
+    }
+    state->rigid.push_back(std::move(rigid));
+  }
+  std::sort(bound.begin(), bound.end());
+  state->anchors = Anchors(faces.topology, around, mean, skin_grid, std::move(bound));
+  state->places.resize(faces.heads.size());
+  parallel_for_each(heads, [&](std::ptrdiff_t h) {
+    const auto i = static_cast<std::size_t>(h);
+    state->places[i] = state->anchors.places(faces.heads[i].positions);
+  });
+  state_ = std::move(state);
+}
+
+PartFollower::~PartFollower() = default;
+PartFollower::PartFollower(PartFollower&&) noexcept = default;
+PartFollower& PartFollower::operator=(PartFollower&&) noexcept = default;
+
+void PartFollower::State::follow_rigid(const RigidPart& part, std::size_t target,
+                                       Positions& result) const {
+  const Positions& before = faces.heads[target].positions;
+  const bool still =
+      unmoved(before, result, part.socket.vertices) && unmoved(before, result, part.lids.vertices);
+  if (still && shape == PartShape::kTarget) {
+    for (const std::uint32_t v : part.vertices) result.row(v) = before.row(v);
+    return;
+  }
+  RigidMotion motion;
+  if (!still && part.socket.vertices.size() >= 3) {
+    motion = fit_rigid_motion(before, result, part.socket.vertices, part.socket.weights);
+    if (!part.eyeballs.empty()) {
+      motion.to += part.eyeballs[target].shift_into(part.lids, motion, result);
+    } else {
+      motion.to += part.contact.clearing_shift(before, part.clearances[target], motion, result,
+                                               kContactMargin * extent);
+    }
+  }
+  if (shape == PartShape::kTarget) {
+    for (const std::uint32_t v : part.vertices) {
+      result.row(v) = motion.apply(before.row(v).transpose()).transpose();
+    }
+    return;
+  }
+  // The blended shape, brought to where the target's is.
+  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.ones);
+  for (const std::uint32_t v : part.vertices) {
+    result.row(v) = motion.apply(home.apply(result.row(v).transpose())).transpose();
+  }
+}
+
+void PartFollower::follow(Index target, Positions& result) const {
+  const auto t = static_cast<std::size_t>(target);
+  for (const RigidPart& part : state_->rigid) state_->follow_rigid(part, t, result);
+  state_->anchors.put(state_->faces.heads[t].positions, state_->places[t], result);
+}
+
+std::uint64_t PartFollower::memory_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const RigidPart& part : state_->rigid) {
+    bytes += part.vertices.size() * 12 + part.socket.vertices.size() * 12;
+    bytes += part.eyeballs.size() * part.vertices.size() * 12;
+  }
+  for (const auto& places : state_->places) bytes += places.size() * sizeof(Eigen::Vector3d);
+  return bytes;
+}
+
+}  // namespace crowdface

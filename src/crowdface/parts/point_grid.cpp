@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/point_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crowdface {
+namespace {
+
+constexpr double kMostCells = 4e6;
+
+}  // namespace
+
+PointGrid::PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices)
+    : positions_(positions) {
+  low_ = positions.row(vertices.front()).transpose();
+  Eigen::Vector3d high = low_;
+  for (const std::uint32_t vertex : vertices) {
+    low_ = low_.cwiseMin(positions.row(vertex).transpose());
+    high = high.cwiseMax(positions.row(vertex).transpose());
+  }
+  // Points of a surface: about two to a cell that has any.
+  const Eigen::Vector3d size = high - low_;
+  const double longest = std::max({size.x(), size.y(), size.z(), 1e-12});
+  width_ = longest / std::max(1.0, std::sqrt(static_cast<double>(vertices.size()) / 8));
+  const auto count = [&](Index axis) { return std::floor(size(axis) / width_) + 1; };
+  while (count(0) * count(1) * count(2) > kMostCells) width_ *= 1.25;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cells_[axis] = static_cast<Index>(count(static_cast<Index>(axis)));
+  }
+  offsets_.assign(static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]) + 1, 0);
+  const auto cell_number = [&](std::uint32_t vertex) {
+    return number_of(cell_of(positions.row(vertex).transpose()));
+  };
+  for (const std::uint32_t vertex : vertices) ++offsets_[cell_number(vertex) + 1];
+  for (std::size_t c = 1; c < offsets_.size(); ++c) offsets_[c] += offsets_[c - 1];
+  std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
+  vertices_.resize(vertices.size());
+  for (const std::uint32_t vertex : vertices) vertices_[next[cell_number(vertex)]++] = vertex;
+}
+
+PointGrid::Cell PointGrid::cell_of(const Eigen::Vector3d& point) const {
+  Cell cell;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<Index>(axis);
+    const double at = std::floor((point(a) - low_(a)) / width_);
+    cell[axis] = static_cast<Index>(std::clamp(at, 0.0, static_cast<double>(cells_[axis] - 1)));
+  }
+  return cell;
+}
+
+std::size_t PointGrid::number_of(const Cell& cell) const {
+  return static_cast<std::size_t>((cell[2] * cells_[1] + cell[1]) * cells_[0] + cell[0]);
+}
+
+PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach) const {
+  const Cell middle = cell_of(point);
+  Nearest best;
+  best.distance = reach;
+  const Index farthest = std::max({cells_[0], cells_[1], cells_[2]});
+  // Shells of cells around the point's own; a cell of shell s is at least (s − 1) cells away from a
+  // point inside the grid, and no nearer to one outside.
+  for (Index shell = 0; shell <= farthest; ++shell) {
+    if (static_cast<double>(shell - 1) * width_ > best.distance) break;
+    for (Index z = middle[2] - shell; z <= middle[2] + shell; ++z) {
+      if (z < 0 || z >= cells_[2]) continue;
+      for (Index y = middle[1] - shell; y <= middle[1] + shell; ++y) {
+        if (y < 0 || y >= cells_[1]) continue;
+        const bool face = std::abs(z - middle[2]) == shell || std::abs(y - middle[1]) == shell;
+        const Index step = face || shell == 0 ? 1 : 2 * shell;
+        for (Index x = middle[0] - shell; x <= middle[0] + shell; x += step) {
+          if (x < 0 || x >= cells_[0]) continue;
+          const std::size_t cell = number_of({x, y, z});
+          for (std::uint32_t i = offsets_[cell]; i < offsets_[cell + 1]; ++i) {
+            const double dx = positions_(vertices_[i], 0) - point.x();
+            const double dy = positions_(vertices_[i], 1) - point.y();
+            const double dz = positions_(vertices_[i], 2) - point.z();
+            const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+            if (distance < best.distance ||
+                (distance == best.distance && vertices_[i] < best.vertex)) {
+              best = {vertices_[i], distance};
+            }
+          }
+        }
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace crowdface

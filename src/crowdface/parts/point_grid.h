@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// Some vertices of a mesh in a grid of cells, to be asked for the one nearest to a place.
+class PointGrid {
+ public:
+  /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
+  PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
+
+  struct Nearest {
+    std::uint32_t vertex = kNoIndex;  ///< kNoIndex: none within the reach
+    double distance = 0;
+  };
+  /// The nearest vertex within `reach` of a point; of equals the first.
+  Nearest nearest(const Eigen::Vector3d& point, double reach) const;
+  Nearest nearest(const Eigen::Vector3d& point) const { return nearest(point, HUGE_REACH); }
+
+ private:
+  static constexpr double HUGE_REACH = 1e300;
+  using Cell = std::array<Index, 3>;
+
+  Cell cell_of(const Eigen::Vector3d& point) const;
+  std::size_t number_of(const Cell& cell) const;
+
+  const Positions& positions_;
+  Eigen::Vector3d low_;
+  double width_ = 1;                     ///< of a cell
+  Cell cells_ = {1, 1, 1};               ///< along x, y, z
+  std::vector<std::uint32_t> offsets_;   ///< #cells + 1
+  std::vector<std::uint32_t> vertices_;  ///< by cell, ascending in each
+};
+
+}  // namespace crowdface

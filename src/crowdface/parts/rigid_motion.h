@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// x ↦ scale · R (x − from) + to, in plain arithmetic: what a rigid part makes when its face is
+/// blended. (The Similarity of mesh/alignment.h rests on a factorisation whose bits are a library's.)
+struct RigidMotion {
+  std::array<std::array<double, 3>, 3> rotation = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  double scale = 1;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d apply(const Eigen::Vector3d& point) const;
+  /// What apply carries to a point.
+  Eigen::Vector3d undo(const Eigen::Vector3d& point) const;
+  /// Of a direction: without the translations.
+  Eigen::Vector3d turn(const Eigen::Vector3d& direction) const;
+};
+
+/// The motion that carries rows of `from` nearest to the same rows of `to`, in the least-squares
+/// sense (Umeyama 1991), the rotation as the quaternion of Horn 1987.
+/// \param vertices  rows, at least three that are not on a line
+/// \param weights   #vertices, not negative, of positive sum
+RigidMotion fit_rigid_motion(const Positions& from, const Positions& to,
+                             std::span<const std::uint32_t> vertices,
+                             std::span<const double> weights);
+
+}  // namespace crowdface

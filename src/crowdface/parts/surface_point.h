@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+#include "crowdface/parts/point_grid.h"
+
+namespace crowdface {
+
+/// The faces that meet at each vertex, ascending.
+class FacesAround {
+ public:
+  explicit FacesAround(const Topology& topology);
+  std::span<const std::uint32_t> of(std::uint32_t vertex) const {
+    return {faces_.data() + offsets_[vertex], faces_.data() + offsets_[vertex + 1]};
+  }
+
+ private:
+  std::vector<std::uint32_t> offsets_;  ///< #V + 1
+  std::vector<std::uint32_t> faces_;
+};
+
+/// A place on a triangle of a mesh; larger polygons are cut into fans from their first corner.
+struct SurfacePoint {
+  std::array<std::uint32_t, 3> corners = {};
+  std::array<double, 3> shares = {};  ///< barycentric, not negative, of sum one
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double distance = 0;  ///< from the point that was asked about
+};
+
+/// The place nearest to a point among the triangles around one vertex and its neighbours.
+SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
+                            const Positions& positions, std::uint32_t vertex,
+                            const Eigen::Vector3d& point);
+
+/// Unit normal of the triangle of a place; zero if it has no area.
+Eigen::Vector3d normal_at(const Positions& positions, const SurfacePoint& place);
+
+}  // namespace crowdface

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/follower.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/parallel.h"
+
+#include "parts/scene.h"
+
+namespace crowdface {
+namespace {
+
+struct Scene {
+  FaceSet faces;
+  PartList parts;
+
+  Scene() {
+    const Mesh mesh = testing::simple_head();
+    faces.topology = mesh.topology;
+    faces.heads.push_back({"ann", mesh.positions});
+    Positions other = mesh.positions;
+    other.col(0) *= 1.1;
+    faces.heads.push_back({"bob", other});
+    const Adjacency adjacency = build_adjacency(mesh.topology);
+    const Components components = find_components(adjacency);
+    parts = find_parts(mesh.topology, adjacency, components, mesh.positions);
+    for (const Part& part : parts.parts) {
+      moving.insert(moving.end(), part.vertices.begin(), part.vertices.end());
+    }
+  }
+  PartFollower follower(PartShape shape = PartShape::kTarget) const {
+    return {faces, parts, {}, shape};
+  }
+  std::vector<std::uint32_t> moving;  ///< all but skin
+};
+
+TEST(PartFollower, CarriesPartsWithTheWholeHead) {
+  const Scene scene;
+  const PartFollower follower = scene.follower();
+  for (Index target = 0; target < 2; ++target) {
+    const Positions& head = scene.faces.heads[static_cast<std::size_t>(target)].positions;
+    const Positions expected = testing::moved(head, 0.5, 1, {1, -2, 3});
+    Positions result = expected;
+    for (const std::uint32_t v : scene.moving) result.row(v).setConstant(-9);
+    follower.follow(target, result);
+    EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-10);
+  }
+}
+
+TEST(PartFollower, KeepsTheTargetsPartsToTheBitWhereNothingMoved) {
+  const Scene scene;
+  const Positions& head = scene.faces.heads[1].positions;
+  Positions result = head;
+  for (const std::uint32_t v : scene.moving) result.row(v).setConstant(-9);
+  scene.follower().follow(1, result);
+  EXPECT_TRUE(result == head);
+}
+
+/// The skin pushed in and out.
+Positions bent(const Positions& head) {
+  Positions result = head;
+  for (Index v = 0; v < head.rows(); ++v) {
+    result.row(v) *= 1 + 0.03 * std::sin(0.7 * head(v, 0)) * std::cos(0.5 * head(v, 1));
+  }
+  return result;
+}
+
+TEST(PartFollower, MovesRigidPartsAsAWholeAndLeavesTheSkin) {
+  const Scene scene;
+  const Positions& head = scene.faces.heads[0].positions;
+  const Positions blended = bent(head);
+  Positions result = blended;
+  scene.follower().follow(0, result);
+  for (Index v = 0; v < scene.parts.shapes[0].vertices; ++v) {
+    ASSERT_TRUE(result.row(v) == blended.row(v)) << "skin";
+  }
+  for (const Part& part : scene.parts.parts) {
+    if (part.part_class != PartClass::kRigid) continue;
+    const auto distance = [&](const Positions& mesh, std::size_t a, std::size_t b) {
+      return (mesh.row(part.vertices[a]) - mesh.row(part.vertices[b])).norm();
+    };
+    const double scale = distance(result, 0, 5) / distance(head, 0, 5);
+    EXPECT_NEAR(scale, 1, 0.1);
+    for (std::size_t i = 1; i < part.vertices.size(); ++i) {
+      EXPECT_NEAR(distance(result, 0, i), scale * distance(head, 0, i), 1e-10);
+    }
+  }
+}
+
+TEST(PartFollower, BlendsShapesIfAsked) {
+  const Scene scene;
+  const Positions& head = scene.faces.heads[0].positions;
+  Positions result = head;
+  const Part& eye = scene.parts.parts[1];
+  for (const std::uint32_t v : eye.vertices) {  // flatter, and elsewhere
+    result(v, 2) = 0.8 * result(v, 2) + 5;
+  }
+  const Positions blended = result;
+  scene.follower(PartShape::kBlend).follow(0, result);
+  // As flat as blended up to its size, but in its place.
+  const auto size = [&](const Positions& mesh, Index axis) {
+    double low = 1e300, high = -1e300;
+    for (const std::uint32_t v : eye.vertices) {
+      low = std::min(low, mesh(v, axis));
+      high = std::max(high, mesh(v, axis));
+    }
+    return std::pair((low + high) / 2, high - low);
+  };
+  EXPECT_NEAR(size(result, 2).second / size(result, 0).second, 0.8, 1e-9);
+  EXPECT_NEAR(size(result, 2).first, size(head, 2).first, 1e-9);
+}
+
+TEST(PartFollower, HasTheSameBitsOnOneThreadAsOnMany) {
+  const Scene scene;
+  const Positions blended = bent(scene.faces.heads[0].positions);
+  Positions many = blended, one = blended;
+  scene.follower().follow(0, many);
+  const ThreadLimit limit(1);
+  scene.follower().follow(0, one);
+  EXPECT_TRUE(many == one);
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/part_list.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "parts/scene.h"
+
+namespace crowdface {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::HeadComponent;
+
+PartList parts_of(const Mesh& mesh, const PartOverrides& overrides = {}) {
+  const Adjacency adjacency = build_adjacency(mesh.topology);
+  return find_parts(mesh.topology, adjacency, find_components(adjacency), mesh.positions,
+                    overrides);
+}
+
+TEST(Parts, AreToldApartByTheirShapes) {
+  const PartList list = parts_of(testing::simple_head());
+  EXPECT_THAT(list.classes, ElementsAre(PartClass::kSkin, PartClass::kRigid, PartClass::kRigid,
+                                        PartClass::kRigid, PartClass::kRigid, PartClass::kRigid,
+                                        PartClass::kBound, PartClass::kSkin));
+  ASSERT_EQ(list.parts.size(), 4U);
+  EXPECT_THAT(list.parts[0].components,
+              ElementsAre(HeadComponent::kLeftEye, HeadComponent::kLeftIris))
+      << "what lies inside an eyeball is part of it";
+  EXPECT_TRUE(list.parts[0].eyeball);
+  EXPECT_THAT(list.parts[1].components, ElementsAre(HeadComponent::kRightEye));
+  EXPECT_TRUE(list.parts[1].eyeball);
+  EXPECT_THAT(list.parts[2].components,
+              ElementsAre(HeadComponent::kFirstTooth, HeadComponent::kSecondTooth))
+      << "teeth side by side";
+  EXPECT_FALSE(list.parts[2].eyeball);
+  EXPECT_EQ(list.parts[3].part_class, PartClass::kBound);
+}
+
+TEST(Parts, DoNotDependOnUnitsOrPlace) {
+  Mesh mesh = testing::simple_head();
+  const PartList cm = parts_of(mesh);
+  mesh.positions = testing::moved(mesh.positions, 0.7, 10, {100, -50, 3});
+  const PartList mm = parts_of(mesh);
+  EXPECT_EQ(cm.classes, mm.classes);
+  ASSERT_EQ(cm.parts.size(), mm.parts.size());
+  for (std::size_t p = 0; p < cm.parts.size(); ++p) {
+    EXPECT_EQ(cm.parts[p].components, mm.parts[p].components);
+  }
+}
+
+TEST(Parts, OfOneComponentAreNone) {
+  const Mesh mesh = testing::Shapes().ball({0, 0, 0}, 10).mesh();
+  EXPECT_TRUE(parts_of(mesh).parts.empty());
+}
+
+TEST(Parts, FollowWhatIsSaidByHand) {
+  PartOverrides overrides;
+  overrides.classes.resize(8);
+  overrides.classes[HeadComponent::kRightEye] = PartClass::kSkin;
+  overrides.classes[HeadComponent::kLash] = PartClass::kRigid;
+  overrides.together = {{HeadComponent::kLeftIris, HeadComponent::kLash}};
+  const PartList list = parts_of(testing::simple_head(), overrides);
+  EXPECT_EQ(list.classes[HeadComponent::kRightEye], PartClass::kSkin);
+  ASSERT_EQ(list.parts.size(), 3U);
+  EXPECT_THAT(list.parts[0].components, ElementsAre(HeadComponent::kLeftEye));
+  EXPECT_THAT(list.parts[1].components,
+              ElementsAre(HeadComponent::kLeftIris, HeadComponent::kLash));
+  EXPECT_EQ(list.parts[1].part_class, PartClass::kRigid);
+}
+
+TEST(Parts, HaveClosednessOfAnyResolution) {
+  for (const int n : {4, 40}) {
+    const Mesh mesh =
+        testing::Shapes().ball({0, 0, 0}, 10, 32).strip({0, 0, 10}, {4, 0, 0}, {0, 1, 0}, n).mesh();
+    const PartList list = parts_of(mesh);
+    EXPECT_EQ(list.shapes[0].openness, 0);
+    EXPECT_NEAR(list.shapes[1].openness, 10.0 * 10 / (4 * 3.14159265 * 4), 0.4) << n;
+  }
+}
+
+TEST(JoinSkin, MakesOneOfAllSkin) {
+  const Mesh mesh = testing::simple_head();
+  const Components components = find_components(build_adjacency(mesh.topology));
+  PartOverrides overrides;
+  overrides.classes.resize(8);
+  overrides.classes[HeadComponent::kRightEye] = PartClass::kSkin;
+  const Components joined = join_skin(components, parts_of(mesh, overrides));
+  EXPECT_EQ(joined.largest(), HeadComponent::kSkinBall);
+  EXPECT_EQ(joined.sizes[0], components.sizes[0] + components.sizes[HeadComponent::kRightEye]);
+  for (std::size_t v = 0; v < joined.of_vertex.size(); ++v) {
+    const std::uint32_t c = components.of_vertex[v];
+    EXPECT_EQ(joined.of_vertex[v], c == HeadComponent::kRightEye ? 0U : c);
+  }
+}
+
+}  // namespace
+}  // namespace crowdface
