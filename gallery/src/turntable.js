@@ -136,7 +136,7 @@ export class Turntable {
     const degrees = { front: 0, three_quarter: 35, profile: 90 }[name] ?? 0;
     const angle = (degrees * Math.PI) / 180;
     this.controls.target.set(0, 0, 0);
-    this.camera.position.set(7 * Math.sin(angle), 0, 7 * Math.cos(angle));
+    this.camera.position.set(6.4 * Math.sin(angle), 0, 6.4 * Math.cos(angle));
     this.controls.update();
     this.draw();
   }
