@@ -37,6 +37,7 @@ TEST(ScaleTicks, AreRoundFewAndWithinTheScale) {
     EXPECT_LE(ticks.back(), most * (1 + 1e-9));
     EXPECT_GT(ticks.back() + ticks[1], most) << most;
   }
+  EXPECT_EQ(scale_ticks(1), (std::vector<double>{0, 0.2, 0.4, 0.6, 0.8, 1}));
   EXPECT_EQ(scale_ticks(6), (std::vector<double>{0, 2, 4, 6}));
 }
 

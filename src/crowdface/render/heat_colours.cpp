@@ -60,7 +60,10 @@ std::vector<double> scale_ticks(double most) {
     if (most / step < 5 + 1e-9) break;
   }
   std::vector<double> ticks;
-  for (int i = 0; i * step <= most * (1 + 1e-9); ++i) ticks.push_back(i * step);
+  // Rounded to a millionth, so that three times 0.2 is 0.6 to the last digit.
+  for (int i = 0; i * step <= most * (1 + 1e-9); ++i) {
+    ticks.push_back(std::round(i * step * 1e6) / 1e6);
+  }
   return ticks;
 }
 
