@@ -170,7 +170,9 @@ export class FacePage {
   recipe() {
     const { face } = this;
     const regions = Object.entries(face.regions).map(([name, region]) => {
-      const weights = Object.entries(region.weights).sort((a, b) => b[1] - a[1]);
+      const all = Object.entries(region.weights).sort((a, b) => b[1] - a[1]);
+      const weights = all.filter(([, weight]) => weight >= 0.005);
+      const rest = all.length - weights.length;
       const inherited = face.inherits?.[name];
       return el('div', { class: 'region' },
         el('h3', {}, name === 'all' ? 'Whole head' : name,
@@ -181,7 +183,9 @@ export class FacePage {
         weights.map(([head, weight]) => el('div', { class: 'weight', title: `${head}: ${short(weight, 3)}` },
           el('span', {}, head), el('div', { class: 'bar' },
             el('i', { style: `width:${Math.max(0, Math.min(100, 100 * weight))}%` })),
-          el('span', { class: 'number' }, `${short(100 * weight, 0)} %`))));
+          el('span', { class: 'number' }, `${short(100 * weight, 0)} %`))),
+        rest > 0 ? el('small', { class: 'muted' },
+          `and ${rest} more with less than half a percent each`) : null);
     });
     return el('section', {}, el('h2', {}, 'Recipe'), regions);
   }

@@ -68,7 +68,7 @@ export class Plane {
     }
     const heads = el('g', {}, this.crowd.heads.map((head) => this.anchor(head, at(head.anchor))));
     return el('figure', {}, el('figcaption', {}, name,
-      missing > 0 ? el('small', {}, ` · ${missing} with weights by hand, not shown`) : null),
+      missing > 0 ? el('small', {}, ` · ${missing} ${missing === 1 ? 'has' : 'have'} no place on the plane`) : null),
     el('svg', { viewBox: `0 0 ${side} ${side}` }, heads, dots));
   }
 
