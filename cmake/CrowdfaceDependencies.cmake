@@ -12,6 +12,7 @@ find_package(OpenImageIO REQUIRED)
 set_property(TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTORIES
   ${OpenImageIO_INCLUDE_DIRS})
 find_package(embree 3 REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)

@@ -20,6 +20,9 @@ install(FILES
   ${PROJECT_BINARY_DIR}/crowdfaceConfig.cmake ${PROJECT_BINARY_DIR}/crowdfaceConfigVersion.cmake
   DESTINATION ${package_dir})
 
+# The gallery's page, if scripts/build_gallery.sh has built it.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/share/crowdface/gallery
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/crowdface OPTIONAL PATTERN ".state" EXCLUDE)
 install(DIRECTORY configs masks DESTINATION ${CMAKE_INSTALL_DATADIR}/crowdface)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})

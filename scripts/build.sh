@@ -32,4 +32,6 @@ if [ -t 1 ]; then
 else
   quietly cmake --build --preset "$preset" --parallel "$(nproc)" "${targets[@]}"
 fi
+# The gallery is a comfort: without npm, or without its registry, everything else works.
+scripts/build_gallery.sh "$preset" || echo "no gallery's page (crowds get none until it is built)"
 echo "built in $((SECONDS - start)) s"

@@ -16,6 +16,7 @@ crowdface=build/release/bin/crowdface
 
 echo
 echo "24 new faces from 8 heads in $((SECONDS - start)) s"
+[ ! -f out/demo/gallery/index.html ] || echo "  gallery        $PWD/out/demo/gallery/index.html"
 echo "  contact sheet  $PWD/out/demo/sheets/sheet_001.png"
 echo "  meshes         $PWD/out/demo/meshes/"
 echo "  recipes        $PWD/out/demo/plan.jsonl"

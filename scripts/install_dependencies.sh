@@ -4,7 +4,8 @@
 # when none is missing. Works as root and with sudo; where it may not install, it says what is
 # missing and exits with 69.
 #
-#   scripts/install_dependencies.sh          what building and testing needs
+#   scripts/install_dependencies.sh          what building needs, and most tests
+#   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in
 #   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
 set -euo pipefail
 
@@ -14,6 +15,7 @@ packages=(
   # libraries, see cmake/CrowdfaceDependencies.cmake
   libeigen3-dev libtbb-dev libtinyobjloader-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libspdlog-dev libxxhash-dev librandom123-dev libembree-dev libhwy-dev
+  libmeshoptimizer-dev
   # OpenImageIO's CMake package insists on its command-line tools
   libopenimageio-dev openimageio-tools
   # the labels of contact sheets
@@ -21,10 +23,13 @@ packages=(
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev libtinygltf-dev
 )
+# The gallery's page; node may have come from elsewhere, with npm in it.
+command -v npm >/dev/null || packages+=(nodejs npm)
 case "${1-}" in
   "") ;;
+  --test) packages+=(chromium) ;;
   --check) packages+=(clang-format clang-tidy) ;;
-  *) echo "usage: scripts/install_dependencies.sh [--check]" >&2; exit 64 ;;
+  *) echo "usage: scripts/install_dependencies.sh [--test | --check]" >&2; exit 64 ;;
 esac
 
 cannot() {

@@ -27,6 +27,7 @@ plane 1
 io 2
 smooth 2
 validity 2
+preview 2
 region 3
 render 3
 synth 3

@@ -8,6 +8,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${PRESET:-release}
 
-scripts/install_dependencies.sh
+scripts/install_dependencies.sh --test
 scripts/build.sh "$preset"
 exec ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error "$@" </dev/null

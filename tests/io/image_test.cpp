@@ -223,5 +223,17 @@ TEST_F(ImageFiles, PartOfAnExrIsRefused) {
   EXPECT_THAT(message_of(file), HasSubstr("display window"));
 }
 
+TEST_F(ImageFiles, ExrReadsBackWithinHalfPrecisionAndHoldsNoTime) {
+  const std::vector<float> pixels = {0, 0.25F, 1, 0.1F, 0.333F, 0.9F};
+  const std::string bytes = encode_exr(2, 1, pixels);
+  EXPECT_EQ(bytes, encode_exr(2, 1, pixels));
+  const Image image = read_image(write_bytes("picture.exr", bytes));
+  ASSERT_EQ(image.channels, 3);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    EXPECT_NEAR(image.pixels[i], pixels[i], 6e-4F * pixels[i]);
+  }
+  EXPECT_THROW(encode_exr(2, 2, pixels), InvalidInput);
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -36,6 +36,24 @@ TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
   EXPECT_GE(examples, 6);
 }
 
+TEST_F(ExampleConfigs, ThoseOfThePapersFiguresAreRead) {
+  for (int i = 1; i <= 8; ++i) {
+    touch(concat("out/paper/synth/heads/head_", i, ".obj"));
+    touch(concat("out/paper/table/heads/synth_0", i, ".obj"));
+  }
+  touch("masks/synth_bands.png");
+  int figures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(CROWDFACE_SOURCE_DIR) / "configs/paper")) {
+    const auto copy =
+        touch("configs/paper/" + entry.path().filename().string(), read_file(entry.path()));
+    problems_ = Problems();
+    ASSERT_TRUE(read_config(copy, {}, problems_)) << entry.path() << told();
+    ++figures;
+  }
+  EXPECT_EQ(figures, 12);
+}
+
 /// The YAML blocks of a page.
 std::vector<std::string> yaml_blocks(const std::string& page) {
   const std::string open = "```yaml\n";

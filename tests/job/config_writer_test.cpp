@@ -115,12 +115,24 @@ void expect_equal(const Config& a, const Config& b) {
   }
   EXPECT_EQ(a.output.directory, b.output.directory);
   EXPECT_EQ(a.output.meshes, b.output.meshes);
+  EXPECT_EQ(a.output.gallery, b.output.gallery);
+  ASSERT_EQ(a.output.surfaces.size(), b.output.surfaces.size());
+  for (const auto& [name, surface] : a.output.surfaces) {
+    EXPECT_EQ(surface.kind, b.output.surfaces.at(name).kind) << name;
+    EXPECT_EQ(surface.colour, b.output.surfaces.at(name).colour) << name;
+  }
   ASSERT_EQ(a.output.contact_sheet.has_value(), b.output.contact_sheet.has_value());
   if (a.output.contact_sheet) {
     EXPECT_EQ(a.output.contact_sheet->columns, b.output.contact_sheet->columns);
     EXPECT_EQ(a.output.contact_sheet->rows, b.output.contact_sheet->rows);
     EXPECT_EQ(a.output.contact_sheet->cell, b.output.contact_sheet->cell);
     EXPECT_EQ(a.output.contact_sheet->views, b.output.contact_sheet->views);
+    EXPECT_EQ(a.output.contact_sheet->labels, b.output.contact_sheet->labels);
+    EXPECT_EQ(a.output.contact_sheet->order, b.output.contact_sheet->order);
+    EXPECT_EQ(a.output.contact_sheet->compare.with, b.output.contact_sheet->compare.with);
+    EXPECT_EQ(a.output.contact_sheet->compare.file, b.output.contact_sheet->compare.file);
+    EXPECT_EQ(a.output.contact_sheet->compare.scale_mm, b.output.contact_sheet->compare.scale_mm);
+    EXPECT_EQ(a.output.contact_sheet->formats, b.output.contact_sheet->formats);
   }
 }
 
@@ -219,11 +231,18 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "output:\n"
             "  directory: .\n"
             "  meshes: [obj]\n"
+            "  gallery: auto\n"
+            "  surfaces: {}\n"
             "  contact_sheet:\n"
             "    columns: 6\n"
             "    rows: 4\n"
             "    cell: 256\n"
-            "    views: [front]\n");
+            "    views: [front]\n"
+            "    labels: [id]\n"
+            "    order: plan\n"
+            "    compare: none\n"
+            "    compare_scale: 6 mm\n"
+            "    formats: [png]\n");
 }
 
 TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
@@ -264,7 +283,10 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "  - {id: 'on', regions: {face: {position: [1, 2], iterations: [3, 10000000]}, low:\n"
       "      {smoothness: [0.1 mm, 8 mm], extrapolation: [1, 1.5]}}}\n"
       "output: {directory: 'x y/ü#1', meshes: [], contact_sheet: {columns: 32, rows: 1, cell: 64,\n"
-      "         views: [profile, front, three_quarter]}}\n");
+      "         views: [profile, front, three_quarter], labels: [nearest, id, family], order: "
+      "family,\n"
+      "         compare_scale: 0.5 mm, formats: [pdf, png]}, gallery: none,\n"
+      "         surfaces: {M Lash: '#A0b1ff', 'no': hidden, M_Gum: gums}}\n");
   EXPECT_THAT(written, HasSubstr("name: \"2024\""));
   EXPECT_THAT(written, HasSubstr("iterations: [0, 10000000]"));
   EXPECT_THAT(written, Not(HasSubstr(folder_.string()))) << "paths are relative";

@@ -164,5 +164,56 @@ TEST(SideBySide, PutsViewsInARow) {
   EXPECT_THROW(side_by_side({}), InvalidInput);
 }
 
+TEST(ContactSheet, LabelsOfSeveralLinesStandBelowEachOther) {
+  auto cells = red_cells(2, 120, 100);
+  cells[0].label = "face_1\non head_3\nnear face_2, 1.50 mm";
+  const SheetOptions options = {.columns = 2};
+  const SheetLayout layout = layout_sheet(cells, options);
+  EXPECT_EQ(layout.label_lines, 3);
+  const Rgb8Image sheet = contact_sheet(cells, options);
+  const int line = layout.label_height / 3;
+  for (int k = 0; k < 3; ++k) {
+    const int top = layout.top(0) + layout.cell_height + k * line;
+    bool written = false;
+    for (int y = top; y < top + line; ++y) {
+      for (int x = layout.left(0); x < layout.left(0) + layout.cell_width; ++x) {
+        written |= sheet.at(x, y)[0] > 100;
+      }
+    }
+    EXPECT_TRUE(written) << "line " << k;
+  }
+}
+
+TEST(ContactSheet, LegendStandsBelowAllCells) {
+  const auto cells = red_cells(4, 120, 100);
+  SheetOptions options = {.columns = 2};
+  const SheetLayout plain = layout_sheet(cells, options);
+  options.legend = HeatLegend{6, "distance from its target"};
+  const SheetLayout layout = layout_sheet(cells, options);
+  EXPECT_EQ(layout.height(), plain.height() + layout.legend_height);
+  EXPECT_EQ(layout.top(3), plain.top(3));
+  EXPECT_EQ(contact_sheet(cells, options).height, layout.height());
+}
+
+TEST(Shrunk, KeepsOneColourAndMixesTwoInLinearLight) {
+  EXPECT_EQ(shrunk(Rgb8Image(90, 60, kRed), 30), Rgb8Image(30, 20, kRed));
+  Rgb8Image stripes(40, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; x += 2) {
+      for (int c = 0; c < 3; ++c) stripes.at(x, y)[c] = 255;
+    }
+  }
+  EXPECT_NEAR(shrunk(stripes, 20).at(7, 7)[1], 188, 1);  // half the light of white
+  EXPECT_THROW(shrunk(stripes, 41), InvalidInput);
+}
+
+TEST(Padded, KeepsThePictureInItsCorner) {
+  const Rgb8Image sheet = padded(Rgb8Image(5, 4, kRed), 9, 7);
+  EXPECT_EQ(sheet.width, 9);
+  EXPECT_EQ(sheet.at(4, 3)[0], kRed[0]);
+  EXPECT_NE(sheet.at(5, 3)[0], kRed[0]);
+  EXPECT_THROW(padded(Rgb8Image(5, 4, kRed), 4, 7), InvalidInput);
+}
+
 }  // namespace
 }  // namespace crowdface

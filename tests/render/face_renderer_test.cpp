@@ -182,7 +182,7 @@ TEST(FaceRenderer, HiddenFacesAreNotThere) {
   const Mesh sphere = make_sphere(1);
   const std::vector<SurfaceKind> kinds(static_cast<std::size_t>(sphere.topology.face_count()),
                                        SurfaceKind::kHidden);
-  const Rgb8Image image = FaceRenderer(sphere.topology, {.size_px = 32}, kinds)
+  const Rgb8Image image = FaceRenderer(sphere.topology, {.size_px = 32}, {kinds})
                               .render(sphere.positions, camera_for(sphere.positions));
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) EXPECT_TRUE(is_backdrop(image, x, y));
@@ -195,7 +195,7 @@ TEST(FaceRenderer, AnEyeballLooksWithADarkPupil) {
                                        SurfaceKind::kEye);
   const Camera camera = camera_for(ball.positions);
   const Rgb8Image ahead =
-      FaceRenderer(ball.topology, {.size_px = 64}, kinds).render(ball.positions, camera);
+      FaceRenderer(ball.topology, {.size_px = 64}, {kinds}).render(ball.positions, camera);
   EXPECT_LT(ahead.at(33, 33)[0], 90);
   EXPECT_GT(ahead.at(12, 33)[0], 110);
   // Eyes that look away show no pupil.
@@ -238,7 +238,7 @@ TEST(FaceRenderer, RefusesWhatDoesNotFit) {
   EXPECT_THROW(FaceRenderer(sphere.topology, {.size_px = 0}), InvalidInput);
   EXPECT_THROW(FaceRenderer(sphere.topology, {.samples_per_side = 0}), InvalidInput);
   EXPECT_THROW(FaceRenderer(sphere.topology, {.occlusion_rays = -1}), InvalidInput);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {SurfaceKind::kSkin}), InvalidInput);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {{SurfaceKind::kSkin}}), InvalidInput);
   const FaceRenderer renderer(sphere.topology, {.size_px = 16});
   EXPECT_THROW(renderer.render(sphere.positions.topRows(5), camera), InvalidInput);
   const Positions five = sphere.positions.topRows(5);

@@ -30,6 +30,7 @@ door 'hwy/' 'crowdface/core/fused_lanes-inl\.h' 'crowdface/core/[a-z_]*\.cpp' \
 door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/[a-z_]*\.cpp' 'crowdface/render/[a-z_]*\.cpp'
 door 'embree' 'crowdface/render/[a-z_]*\.cpp' 'crowdface/validity/[a-z_]*\.cpp'
+door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'
 door 'yaml-cpp/' 'crowdface/job/[a-z_]*\.cpp'
 door 'nlohmann/' 'crowdface/job/[a-z_]*\.cpp' 'crowdface/io/[a-z_]*\.cpp' \
   'crowdface/morph/[a-z_]*\.cpp'

@@ -197,4 +197,26 @@ std::string encode_png(int width, int height, int channels, std::span<const std:
   return {bytes.begin(), bytes.end()};
 }
 
+std::string encode_exr(int width, int height, std::span<const float> pixels) {
+  if (width <= 0 || height <= 0 ||
+      pixels.size() != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    throw InvalidInput(concat("an EXR of ", width, " x ", height, " pixels cannot hold ",
+                              pixels.size(), " values"));
+  }
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::HALF);
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "linear");
+  spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the time of writing
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  auto output = OIIO::ImageOutput::create("openexr");
+  if (!output) throw Error(ExitCode::kBug, concat("no EXR writer: ", OIIO::geterror()));
+  output->set_ioproxy(&memory);
+  if (!output->open("memory.exr", spec) ||
+      !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
+    throw Error(ExitCode::kBug, concat("EXR encoding failed: ", output->geterror()));
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
 }  // namespace crowdface

@@ -45,4 +45,9 @@ Image read_image(const std::filesystem::path& path, const ImageLimits& limits = 
 /// \throws InvalidInput if sizes do not fit.
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
+/// An OpenEXR file in memory: three channels of 16-bit floats, linear, no time stamp.
+/// \param pixels  height · width · 3.
+/// \throws InvalidInput if sizes do not fit.
+std::string encode_exr(int width, int height, std::span<const float> pixels);
+
 }  // namespace crowdface

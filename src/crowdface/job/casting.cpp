@@ -251,6 +251,10 @@ Cast cast(const Job& job, const Prepared& prepared) {
   result.families = report_families(crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
+  for (FamilyCast& family : crowd.families) {
+    result.founders.push_back({family.name, std::move(family.founder)});
+  }
+  result.places = std::move(crowd.places);
   result.quotas = std::move(crowd.quotas);
   result.rejections = crowd.rejections;
   return result;

@@ -39,6 +39,12 @@ struct FamilyReport {
   double silhouette = 0;
 };
 
+/// The hidden head of a family, who is not in the crowd.
+struct FamilyFounder {
+  std::string family;
+  Recipe recipe;
+};
+
 /// A crowd cast: where the heads stand on the plane, and one recipe a face.
 struct Cast {
   std::vector<PlanePoint> anchors;  ///< #heads
@@ -47,6 +53,8 @@ struct Cast {
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
+  std::vector<FamilyFounder> founders;
+  std::vector<FaceSpace::Place> places;  ///< of each face of the crowd
 };
 
 /// Casts the crowd. \throws Unsatisfiable if the constraints cannot be met: which one binds, how far

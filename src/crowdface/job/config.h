@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -19,6 +20,7 @@
 #include "crowdface/job/mesh_format.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/plane/layout.h"
+#include "crowdface/render/surface_kind.h"
 #include "crowdface/render/view.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
@@ -31,12 +33,30 @@ enum class Align {
   kNone,   ///< neither
 };
 
+/// Whether a crowd gets a page to choose from.
+enum class Gallery {
+  kAuto,  ///< where there are pictures and the page was built
+  kNone,
+};
+
 /// How the levels of smoothing are represented.
 enum class Levels {
   kBasis,  ///< fields fitted to each head, as many as a tolerance needs
   kExact,  ///< every level by the filter itself
   kCubic,  ///< the paper's cubic in L per vertex (§5.1)
 };
+
+/// How pictures show a material, in place of what its name speaks of.
+struct SurfaceChoice {
+  SurfaceKind kind = SurfaceKind::kSkin;
+  std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: that of its kind
+};
+
+/// What stands under a picture, a line each.
+enum class SheetLabel { kId, kFamily, kTarget, kNearest, kNearestHead };
+/// How the faces follow each other on contact sheets.
+enum class SheetOrder { kPlan, kFamily, kLikeness };
+enum class SheetFormat { kPng, kExr, kPdf };
 
 /// A config file, read, checked and with every name resolved. Fields bear the names of their YAML
 /// keys; docs/config.md explains each. Paths are absolute or relative to the working directory.
@@ -107,16 +127,28 @@ struct Config {
     std::vector<Review> reviews;  ///< what stands in each
   } review;
 
+  /// What a face is compared with, point by point.
+  struct Comparison {
+    enum class With { kNothing, kTarget, kNearest, kFile } with = With::kNothing;
+    std::filesystem::path file;  ///< a mesh, or the folder of a crowd whose faces have the same ids
+    double scale_mm = 6;         ///< where the colour scale ends
+  };
   struct ContactSheet {
     int columns = 6;
     int rows = 4;
     int cell = 256;  ///< pixels, one view
     std::vector<View> views = {View::kFront};
+    std::vector<SheetLabel> labels = {SheetLabel::kId};
+    SheetOrder order = SheetOrder::kPlan;
+    Comparison compare;
+    std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< png is always among them
   };
   struct Output {
     std::filesystem::path directory;
     std::vector<MeshFormat> meshes = {MeshFormat::kObj};         ///< each once; may be empty
     std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
+    Gallery gallery = Gallery::kAuto;
+    std::map<std::string, SurfaceChoice> surfaces;  ///< by the material's name
   } output;
 
   /// Region names as they stand in a plan: `regions.names`, or "all".

@@ -60,49 +60,6 @@ void read_meshes(const YamlNode* node, ConfigDraft& draft) {
   }
 }
 
-void read_views(const YamlNode* node, std::vector<View>& views, Complaints& out) {
-  if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kList || node->items.empty()) {
-    out.expected(*node, "a list of views, [front, three_quarter, profile]");
-    return;
-  }
-  const Choices<View> choices = {
-      {"front", View::kFront}, {"three_quarter", View::kThreeQuarter}, {"profile", View::kProfile}};
-  views.clear();
-  for (const YamlNode& item : node->items) {
-    const auto view = read_choice(item, choices, out);
-    if (!view) continue;
-    if (std::find(views.begin(), views.end(), *view) != views.end()) {
-      out.about(item, concat("the view ", quoted(item.text), " is named twice"));
-    }
-    views.push_back(*view);
-  }
-}
-
-void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
-  auto& sheet = draft.config.output.contact_sheet;
-  if (node == nullptr) return;
-  if (node->kind == YamlNode::Kind::kScalar && node->text == "none") {
-    sheet.reset();
-    return;
-  }
-  if (node->kind != YamlNode::Kind::kMap) {
-    draft.complaints.expected(*node, "none or a mapping with the keys columns, rows, cell, views");
-    return;
-  }
-  const MapReader map(node, {"columns", "rows", "cell", "views"}, draft.complaints);
-  const auto read = [&](const char* key, std::uint64_t low, std::uint64_t high, int& value) {
-    const YamlNode* found = map.find(key);
-    if (found == nullptr) return;
-    const auto number = read_whole(*found, low, high, draft.complaints);
-    if (number) value = static_cast<int>(*number);
-  };
-  read("columns", 1, 32, sheet->columns);
-  read("rows", 1, 64, sheet->rows);
-  read("cell", 32, 2048, sheet->cell);
-  read_views(map.find("views"), sheet->views, draft.complaints);
-}
-
 }  // namespace
 
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path) {
@@ -228,7 +185,8 @@ void read_plane(const YamlNode* node, ConfigDraft& draft) {
 }
 
 void read_output(const YamlNode* node, ConfigDraft& draft) {
-  const MapReader map(node, {"directory", "meshes", "contact_sheet"}, draft.complaints);
+  const MapReader map(node, {"directory", "meshes", "contact_sheet", "gallery", "surfaces"},
+                      draft.complaints);
   draft.config.output.directory = resolve(draft.folder, concat("out/", draft.config.crowd.name));
   if (const YamlNode* directory = map.find("directory")) {
     const auto text = read_text(*directory, "a folder", draft.complaints);
@@ -236,6 +194,12 @@ void read_output(const YamlNode* node, ConfigDraft& draft) {
   }
   read_meshes(map.find("meshes"), draft);
   read_contact_sheet(map.find("contact_sheet"), draft);
+  read_surfaces(map.find("surfaces"), draft);
+  if (const YamlNode* gallery = map.find("gallery")) {
+    const Choices<Gallery> choices = {{"auto", Gallery::kAuto}, {"none", Gallery::kNone}};
+    draft.config.output.gallery =
+        read_choice(*gallery, choices, draft.complaints).value_or(Gallery::kAuto);
+  }
 }
 
 }  // namespace crowdface

@@ -48,6 +48,9 @@ void read_families(const YamlNode* node, ConfigDraft& draft);
 void read_review(const YamlNode* node, ConfigDraft& draft);
 void read_output(const YamlNode* node, ConfigDraft& draft);
 
+void read_contact_sheet(const YamlNode* node, ConfigDraft& draft);
+void read_surfaces(const YamlNode* node, ConfigDraft& draft);
+
 /// A path relative to the folder, with "a/../" taken out by its text.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 

@@ -2,6 +2,7 @@
 #include "crowdface/job/config_writer.h"
 
 #include <algorithm>
+#include <array>
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/yaml.h"
@@ -370,12 +371,52 @@ class Writer {
     return "front";
   }
 
+  static std::string surface_word(const SurfaceChoice& surface) {
+    constexpr std::array kKinds = {"skin", "eye", "iris", "teeth", "gums", "hidden"};
+    if (!surface.colour) return kKinds[static_cast<std::size_t>(surface.kind)];
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string text = "\"#";
+    for (const std::uint8_t value : *surface.colour) {
+      text += kDigits[value >> 4U];
+      text += kDigits[value & 15U];
+    }
+    return text + '"';
+  }
+
+  void write_sheet_details(const Config::ContactSheet& sheet) {
+    using With = Config::Comparison::With;
+    constexpr std::array kLabels = {"id", "family", "target", "nearest", "nearest_head"};
+    constexpr std::array kOrders = {"plan", "family", "likeness"};
+    constexpr std::array kFormats = {"png", "exr", "pdf"};
+    constexpr std::array kWith = {"none", "target", "nearest"};
+    std::vector<std::string> labels, formats;
+    for (const SheetLabel label : sheet.labels) {
+      labels.emplace_back(kLabels[static_cast<std::size_t>(label)]);
+    }
+    for (const SheetFormat format : sheet.formats) {
+      formats.emplace_back(kFormats[static_cast<std::size_t>(format)]);
+    }
+    line("    labels: ", flow_list(labels));
+    line("    order: ", kOrders[static_cast<std::size_t>(sheet.order)]);
+    line("    compare: ", sheet.compare.with == With::kFile
+                              ? path(sheet.compare.file)
+                              : kWith[static_cast<std::size_t>(sheet.compare.with)]);
+    line("    compare_scale: ", sheet.compare.scale_mm, " mm");
+    line("    formats: ", flow_list(formats));
+  }
+
   void write_output() {
     line("output:");
     line("  directory: ", path(config_.output.directory));
     std::vector<std::string> meshes;
     for (const MeshFormat format : config_.output.meshes) meshes.emplace_back(name_of(format));
     line("  meshes: ", flow_list(meshes));
+    line("  gallery: ", config_.output.gallery == Gallery::kAuto ? "auto" : "none");
+    std::vector<std::string> surfaces;
+    for (const auto& [name, surface] : config_.output.surfaces) {
+      surfaces.push_back(concat(write_scalar(name), ": ", surface_word(surface)));
+    }
+    line("  surfaces: ", flow_map(surfaces));
     const auto& sheet = config_.output.contact_sheet;
     if (!sheet) return line("  contact_sheet: none");
     line("  contact_sheet:");
@@ -385,6 +426,7 @@ class Writer {
     std::vector<std::string> views;
     for (const View view : sheet->views) views.push_back(view_name(view));
     line("    views: ", flow_list(views));
+    write_sheet_details(*sheet);
   }
 
   const Config& config_;

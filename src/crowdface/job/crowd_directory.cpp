@@ -24,9 +24,33 @@ void remove_file(const fs::path& path) {
   }
 }
 
-bool is_sheet(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name.starts_with("sheet_") && name.ends_with(".png");
+void remove_all_with(const fs::path& folder, const char* extension) {
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  for (const fs::path& file : files) remove_file(file);
+}
+
+/// Pictures of heads and the gallery: folders that hold nothing but what we write.
+void remove_pictures(const CrowdDirectory& directory) {
+  for (const fs::path& folder :
+       {directory.head_render("").parent_path(), directory.founder_render("").parent_path()}) {
+    remove_all_with(folder, ".png");
+    remove_file(folder);
+  }
+  for (const fs::path& folder :
+       {directory.gallery_face("").parent_path(), directory.gallery_head("").parent_path(),
+        directory.gallery() / "data"}) {
+    remove_all_with(folder, ".js");
+    remove_file(folder);
+  }
+  for (const char* file : {"index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"}) {
+    remove_file(directory.gallery() / file);
+  }
+  remove_file(directory.gallery());
+  remove_file(directory.likeness());
 }
 
 /// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
@@ -41,7 +65,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   }
   std::vector<fs::path> sheets;
   for (const auto& entry : fs::directory_iterator(directory.sheets(), ignored)) {
-    if (is_sheet(entry.path())) sheets.push_back(entry.path());
+    if (is_sheet_file(entry.path())) sheets.push_back(entry.path());
   }
   for (const fs::path& sheet : sheets) remove_file(sheet);
   for (const char* array : {"corners.npy", "offsets.npy", "uvs.npy", "corner_uvs.npy"}) {
@@ -49,6 +73,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   }
   for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
   for (const fs::path& path : directory.shard_logs()) remove_file(path);
+  remove_pictures(directory);
   for (const fs::path& path :
        {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
         directory.report(), directory.casting(), directory.timings(), directory.table(),
@@ -117,8 +142,8 @@ void refuse_folders_elsewhere(const CrowdDirectory& directory) {
   std::error_code error;
   const fs::path root = fs::weakly_canonical(directory.root, error);
   if (error) return;  // not there, and cannot be made: told elsewhere
-  for (const fs::path& folder :
-       {directory.meshes(), directory.topology(), directory.renders(), directory.sheets()}) {
+  for (const fs::path& folder : {directory.meshes(), directory.topology(), directory.renders(),
+                                 directory.sheets(), directory.gallery()}) {
     const fs::path real = fs::weakly_canonical(folder, error);
     if (!error && !real.lexically_relative(root).native().starts_with("..")) continue;
     throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
@@ -156,6 +181,14 @@ std::vector<std::string> ids_in_plan(const std::string& plan) {
     begin = end + 1;
   }
   return ids;
+}
+
+bool is_sheet_file(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const std::string ending = path.extension().string();
+  const bool ours = stem.starts_with("sheet_") || stem.starts_with("heads_") ||
+                    stem.starts_with("family_") || stem == "index" || stem == "sheets";
+  return ours && (ending == ".png" || ending == ".exr" || ending == ".pdf");
 }
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {

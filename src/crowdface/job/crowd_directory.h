@@ -37,12 +37,29 @@ struct CrowdDirectory {
   /// Arrays that say how positions alone (MeshFormat::kPoints) form faces.
   std::filesystem::path topology() const { return meshes() / "topology"; }
   std::filesystem::path render(const std::string& id) const { return renders() / (id + ".png"); }
+  std::filesystem::path head_render(const std::string& name) const {
+    return renders() / "heads" / (name + ".png");
+  }
+  std::filesystem::path founder_render(const std::string& family) const {
+    return renders() / "founders" / (family + ".png");
+  }
+  std::filesystem::path likeness() const { return root / "likeness.json"; }
+  std::filesystem::path gallery() const { return root / "gallery"; }
+  std::filesystem::path gallery_face(const std::string& id) const {
+    return gallery() / "data/faces" / (id + ".js");
+  }
+  std::filesystem::path gallery_head(const std::string& name) const {
+    return gallery() / "data/heads" / (name + ".js");
+  }
   /// Sheet number `page`, from 1.
   std::filesystem::path sheet(std::size_t page) const;
 };
 
 /// The ids a plan names; lines that cannot be read, or whose id is no file's name, name none.
 std::vector<std::string> ids_in_plan(const std::string& plan);
+
+/// Whether a file in a folder of contact sheets is one that we write, by its name.
+bool is_sheet_file(const std::filesystem::path& path);
 
 enum class Replace { kRefuse, kForce };
 

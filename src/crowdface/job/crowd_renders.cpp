@@ -5,10 +5,6 @@
 #include <system_error>
 
 #include "crowdface/core/file.h"
-#include "crowdface/core/interrupt.h"
-#include "crowdface/core/parallel.h"
-#include "crowdface/core/progress.h"
-#include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/render/contact_sheet.h"
 
@@ -26,40 +22,68 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
                      {.cut_below = kCutBelow});
 }
 
-/// By the names of materials; what is called nothing but has an eyeball's shape is an eye too.
-std::vector<SurfaceKind> surface_kinds(const Inputs& inputs) {
-  std::vector<bool> eyeball(static_cast<std::size_t>(inputs.components.count()), false);
-  for (const Part& part : inputs.parts.parts) {
-    for (const std::uint32_t c : part.components) eyeball[c] = part.eyeball;
-  }
-  std::vector<SurfaceKind> kinds;
-  for (Index f = 0; f < inputs.faces.topology.face_count(); ++f) {
-    kinds.push_back(surface_kind_of_material(inputs.materials[static_cast<std::size_t>(f)]));
-    const std::uint32_t first = inputs.faces.topology.face(f)[0];
-    if (kinds.back() == SurfaceKind::kSkin && eyeball[inputs.components.of_vertex[first]]) {
-      kinds.back() = SurfaceKind::kEye;
-    }
-  }
-  return kinds;
-}
-
 std::string to_png(const Rgb8Image& image) {
   return encode_png(image.width, image.height, 3, image.pixels);
 }
 
-void remove_pages_from(const CrowdDirectory& directory, std::size_t page) {
-  std::error_code error;
-  while (std::filesystem::remove(directory.sheet(page), error)) ++page;
-}
-
 }  // namespace
+
+Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
+  const std::vector<std::string>& materials = inputs.materials;
+  Surfaces surfaces;
+  for (const std::string& material : materials) {
+    const auto chosen = config.output.surfaces.find(material);
+    const bool by_name = chosen == config.output.surfaces.end();
+    surfaces.kinds.push_back(by_name ? surface_kind_of_material(material) : chosen->second.kind);
+    if (by_name || !chosen->second.colour) continue;
+    surfaces.paints.resize(materials.size());
+    const auto& rgb = *chosen->second.colour;
+    surfaces.paints[surfaces.kinds.size() - 1] = Eigen::Array3f(rgb[0], rgb[1], rgb[2]) / 255.0F;
+  }
+  // What no material names but has an eyeball's shape is an eye too.
+  std::vector<bool> eyeball(static_cast<std::size_t>(inputs.components.count()), false);
+  for (const Part& part : inputs.parts.parts) {
+    for (const std::uint32_t c : part.components) eyeball[c] = part.eyeball;
+  }
+  for (std::size_t f = 0; f < surfaces.kinds.size(); ++f) {
+    const std::uint32_t first = inputs.faces.topology.face(static_cast<Index>(f))[0];
+    if (surfaces.kinds[f] == SurfaceKind::kSkin && eyeball[inputs.components.of_vertex[first]] &&
+        !config.output.surfaces.contains(materials[f])) {
+      surfaces.kinds[f] = SurfaceKind::kEye;
+    }
+  }
+  return surfaces;
+}
 
 CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& sheet,
                            const Inputs& inputs)
     : cameras_(fit_to_heads(config, sheet, inputs)),
       renderer_(inputs.faces.topology,
                 RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
-                surface_kinds(inputs), &inputs.faces.heads.front().positions) {}
+                surfaces_of(config, inputs), &inputs.faces.heads.front().positions) {}
+
+void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
+  make_directories(directory.renders());
+  if (gallery_ != nullptr) make_directories(directory.gallery_face("").parent_path());
+}
+
+FileDigest CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
+                               const Positions& positions) const {
+  const std::string png = render_png(positions);
+  write_file(directory.render(id), png);
+  if (gallery_ != nullptr) {
+    write_file(directory.gallery_face(id), gallery_->face_script(id, positions));
+  } else {  // another face may have stood there, when there was a page
+    std::error_code ignored;
+    std::filesystem::remove(directory.gallery_face(id), ignored);
+  }
+  return {png.size(), hash_bytes(png)};
+}
+
+Rgb8Image CrowdRenders::render_front(const Positions& positions,
+                                     const VertexColours* colours) const {
+  return renderer_.render(positions, cameras_.front(), colours);
+}
 
 Rgb8Image CrowdRenders::render(const Positions& positions, const VertexColours* colours) const {
   std::vector<Rgb8Image> views;
@@ -72,32 +96,6 @@ Rgb8Image CrowdRenders::render(const Positions& positions, const VertexColours* 
 std::string CrowdRenders::render_png(const Positions& positions,
                                      const VertexColours* colours) const {
   return to_png(render(positions, colours));
-}
-
-std::size_t write_sheets(const CrowdDirectory& directory, const Config::ContactSheet& sheet,
-                         const std::string& title, const std::vector<std::string>& ids,
-                         const std::function<Rgb8Image(std::size_t)>& picture) {
-  make_directories(directory.sheets());
-  const std::size_t per_page =
-      static_cast<std::size_t>(sheet.columns) * static_cast<std::size_t>(sheet.rows);
-  const std::size_t pages = (ids.size() + per_page - 1) / per_page;
-  Progress progress("contact sheets", pages);
-  for (std::size_t page = 0; page < pages; ++page) {
-    throw_if_interrupted();
-    const std::size_t first = page * per_page;
-    std::vector<SheetCell> cells(std::min(per_page, ids.size() - first));
-    parallel_for_each(static_cast<Index>(cells.size()), [&](Index c) {
-      const auto i = static_cast<std::size_t>(c);
-      cells[i] = {picture(first + i), ids[first + i]};
-    });
-    const std::string note = pages > 1 ? concat("sheet ", page + 1, " of ", pages) : std::string();
-    write_file(directory.sheet(page + 1),
-               to_png(contact_sheet(
-                   cells, {.columns = sheet.columns, .rows = 0, .title = title, .note = note})));
-    progress.step();
-  }
-  remove_pages_from(directory, pages + 1);
-  return pages;
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {

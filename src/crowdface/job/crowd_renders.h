@@ -1,40 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "crowdface/core/file.h"
 #include "crowdface/job/config.h"
 #include "crowdface/job/crowd_directory.h"
+#include "crowdface/job/gallery.h"
 #include "crowdface/job/inputs.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/face_renderer.h"
 
 namespace crowdface {
 
+/// What the faces of a crowd's mesh are made of: by the config, by the names of their materials, by shape.
+Surfaces surfaces_of(const Config& config, const Inputs& inputs);
+
 /// Pictures of one crowd: one camera a view, fitted once to the input heads, so that sizes compare.
 class CrowdRenders {
  public:
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs);
 
+  /// From now on `write` leaves a face's mesh for the gallery, too. Must outlive this object.
+  void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
+
+  /// The folders that `write` needs.
+  void make_folders(const CrowdDirectory& directory) const;
+  /// Writes a face's picture, and what the gallery shows of it.
+  /// \return the picture's.
+  FileDigest write(const CrowdDirectory& directory, const std::string& id,
+                   const Positions& positions) const;
+
   /// All views of a face side by side.
   Rgb8Image render(const Positions& positions, const VertexColours* colours = nullptr) const;
   /// The same as a PNG file's bytes.
   std::string render_png(const Positions& positions, const VertexColours* colours = nullptr) const;
+  /// The first of the views alone.
+  Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
  private:
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;
+  const GalleryMeshes* gallery_ = nullptr;
 };
-
-/// Writes the contact sheets of a crowd, page by page, and removes pages of an earlier run that are
-/// left over.
-/// \param picture  the picture of the i-th id.
-/// \return         how many pages.
-std::size_t write_sheets(const CrowdDirectory& directory, const Config::ContactSheet& sheet,
-                         const std::string& title, const std::vector<std::string>& ids,
-                         const std::function<Rgb8Image(std::size_t)>& picture);
 
 /// A picture written earlier, read back. \throws MissingInput, InvalidInput.
 Rgb8Image read_render(const std::filesystem::path& path);

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 /// Raised whenever a change of the code alters a picture, what is found about a skin, or a mesh file
 /// of the same positions. (What alters positions raises kBlendVersion, which is in `settings`.)
-constexpr int kFaceFilesVersion = 1;
+constexpr int kFaceFilesVersion = 2;
 
 /// What determines a face's files beside its recipe and `settings`: formats, frame, pictures.
 Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras) {
@@ -29,6 +29,12 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
     const Config::ContactSheet& sheet = *config.output.contact_sheet;
     hasher.add(sheet.cell).add(sheet.views.size());
     for (const View view : sheet.views) hasher.add(static_cast<int>(view));
+    for (const auto& [material, surface] : config.output.surfaces) {
+      hasher.add(material).add(static_cast<int>(surface.kind)).add(surface.colour.has_value());
+      for (const std::uint8_t value : surface.colour.value_or(std::array<std::uint8_t, 3>{})) {
+        hasher.add(static_cast<int>(value));
+      }
+    }
   }
   return hasher.digest();
 }

@@ -95,9 +95,7 @@ class FaceOutput {
     }
     if (renders_ != nullptr) {
       const Busy busy(render_);
-      const std::string png = renders_->render_png(positions);
-      write_file(directory_.render(recipe.id), png);
-      files.picture = {png.size(), hash_bytes(png)};
+      files.picture = renders_->write(directory_, recipe.id, positions);
     }
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);
@@ -142,7 +140,7 @@ BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDire
   built.files.resize(crowd.size());
   built.at_once = faces_at_once(job, prepared, builder, writers, renders != nullptr, memory);
   if (!formats.empty()) make_directories(directory.meshes());
-  if (renders != nullptr) make_directories(directory.renders());
+  if (renders != nullptr) renders->make_folders(directory);
 
   FaceOutput output(writers, directory, renders, check, ledger);
   std::atomic<double> blend_seconds = 0;

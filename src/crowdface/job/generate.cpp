@@ -24,11 +24,11 @@
 #include "crowdface/job/casting.h"
 #include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_lock.h"
-#include "crowdface/job/crowd_renders.h"
 #include "crowdface/job/face_ledger.h"
 #include "crowdface/job/face_stages.h"
 #include "crowdface/job/ledger.h"
 #include "crowdface/job/mesh_writers.h"
+#include "crowdface/job/pictures.h"
 #include "crowdface/job/report.h"
 #include "crowdface/job/resume.h"
 
@@ -208,17 +208,6 @@ std::vector<std::string> judge_meshes(const Job& job, const std::vector<Recipe>&
   return {warning};
 }
 
-std::vector<std::string> ids_of(const std::vector<Recipe>& crowd) {
-  std::vector<std::string> ids;
-  for (const Recipe& recipe : crowd) ids.push_back(recipe.id);
-  return ids;
-}
-
-std::string sheet_title(const Config& config, std::size_t faces) {
-  return concat(config.crowd.name, " · ", faces, faces == 1 ? " face" : " faces", " · seed ",
-                config.crowd.seed);
-}
-
 void tell_dry_run(const Job& job) {
   const Config& config = job.config;
   std::uint64_t faces = config.crowd.count + config.recipes.size();
@@ -238,50 +227,73 @@ enum class Purpose {
   kGather,    ///< refuse if a face is missing
 };
 
+/// The crowd's pictures, if it has any. Made ready when they are first asked for, as that takes a
+/// while, and a run that finds all done needs none.
+class LazyPictures {
+ public:
+  LazyPictures(const Job& job, const CrowdDirectory& directory)
+      : job_(job), directory_(directory) {}
+  bool wanted() const { return job_.config.output.contact_sheet.has_value(); }
+  const CrowdPictures& get() {
+    if (!pictures_) {
+      pictures_ =
+          std::make_unique<CrowdPictures>(job_, *job_.config.output.contact_sheet, directory_);
+    }
+    return *pictures_;
+  }
+
+ private:
+  const Job& job_;
+  const CrowdDirectory& directory_;
+  std::unique_ptr<CrowdPictures> pictures_;
+};
+
 /// Builds the faces that are not done; their files take their places in `so_far`.
 /// \return how long threads were busy.
 StageBusy build_missing(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
                         const FaceLedger& ledger, const GenerateOptions& options,
-                        FacesSoFar& so_far) {
+                        LazyPictures& pictures, FacesSoFar& so_far) {
   const std::vector<Recipe>& crowd = cast_job.cast.crowd;
   if (so_far.todo.empty()) return {};
   std::vector<Recipe> recipes;
   for (const std::size_t i : so_far.todo) recipes.push_back(crowd[i]);
-  const auto& sheet = job.config.output.contact_sheet;
-  std::unique_ptr<CrowdRenders> renders;
-  if (sheet) renders = std::make_unique<CrowdRenders>(job.config, *sheet, job.inputs);
+  const CrowdRenders* renders = pictures.wanted() ? &pictures.get().renders() : nullptr;
   const std::unique_ptr<SkinCheck> check = skin_check(job, recipes);
   const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
-  BuiltFaces built = build_faces(job, cast_job.prepared, directory, renders.get(), check.get(),
-                                 ledger, recipes, memory);
+  BuiltFaces built =
+      build_faces(job, cast_job.prepared, directory, renders, check.get(), ledger, recipes, memory);
   for (std::size_t f = 0; f < recipes.size(); ++f) {
     so_far.files[so_far.todo[f]] = std::move(built.files[f]);
   }
   return built.busy;
 }
 
-/// The contact sheets, unless they are there: they follow from their pictures and the config.
-std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
-                        const std::vector<Recipe>& crowd, const std::vector<FaceFiles>& files,
+/// Contact sheets, gallery and what they need, unless they are there: they follow from the faces'
+/// pictures and meshes, the config and the page.
+/// \return how many pages the faces take.
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
+                        const std::vector<FaceFiles>& files, LazyPictures& pictures,
                         Ledger& ledger) {
   constexpr const char* kItem = "sheets";
-  constexpr int kSheetVersion = 1;  // raised whenever a change of the code alters a sheet
+  constexpr int kSheetVersion = 2;  // raised whenever a change of the code alters what is made here
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
-  const std::string title = sheet_title(job.config, crowd.size());
+  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
   Hasher hasher;
-  hasher.add(kSheetVersion).add(title).add(sheet.columns).add(sheet.rows).add(sheet.cell);
+  hasher.add(kSheetVersion).add(job.settings);
+  hasher.add(effective_config(job.config, directory.root)).add(gallery_page_digest(job.config));
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     hasher.add(crowd[i].id).add(files[i].picture->digest);
+    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
   }
   const Digest key = hasher.digest();
-  if (const auto entry = ledger.proven(kItem, key)) return entry->files.size();
-  const std::size_t pages =
-      write_sheets(directory, sheet, title, ids_of(crowd),
-                   [&](std::size_t i) { return read_render(directory.render(crowd[i].id)); });
+  // What faces are compared with may have changed since.
+  const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
+  if (!may_change && ledger.proven(kItem, key)) return sheet_pages(sheet, crowd.size());
+  pictures.get().write_heads();
+  pictures.get().write_founders(cast_job.cast.founders, FaceBuilder(job, cast_job.prepared));
+  const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast_job.cast));
   std::vector<std::string> names;
-  for (std::size_t page = 1; page <= pages; ++page) {
-    names.push_back(name_in(directory, directory.sheet(page)));
-  }
+  for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
   ledger.record(kItem, key, names);
   return pages;
 }
@@ -313,8 +325,9 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
     }
   }
   write_shared_arrays(job, directory, ledger);
+  LazyPictures pictures(job, directory);
   const StageBusy busy = timed(stages, "build", [&] {
-    return build_missing(job, directory, cast_job, face_ledger, options, so_far);
+    return build_missing(job, directory, cast_job, face_ledger, options, pictures, so_far);
   });
   if (!options.shard.whole()) {
     log_info(concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
@@ -327,8 +340,9 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   }
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
-    pages = timed(stages, "sheets",
-                  [&] { return make_sheets(job, directory, crowd, so_far.files, ledger); });
+    pages = timed(stages, "sheets", [&] {
+      return make_sheets(job, directory, cast_job, so_far.files, pictures, ledger);
+    });
   }
   write(directory.report(),
         format_report(job, prepared, cast_job.cast, so_far.files, pages, warnings));
@@ -409,15 +423,17 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             ": this crowd has no contact sheet; ask for one with --set "
                             "output.contact_sheet='{columns: 6}'"));
   }
+  std::vector<Recipe> crowd;
   std::vector<std::string> ids;
-  for (const PlanLine& line : read_plan(directory.plan(), job.names)) ids.push_back(line.recipe.id);
-  const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
-  const CrowdRenders renders(job.config, sheet, job.inputs);
-  const std::size_t pages =
-      write_sheets(directory, sheet, sheet_title(job.config, ids.size()), ids, [&](std::size_t i) {
-        return renders.render(read_face(directory, ids[i], job.config.output.meshes,
-                                        job.inputs.faces.topology.vertex_count));
-      });
+  for (PlanLine& line : read_plan(directory.plan(), job.names)) {
+    ids.push_back(line.recipe.id);
+    crowd.push_back(std::move(line.recipe));
+  }
+  const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
+  const CrowdPictures pictures(job, *job.config.output.contact_sheet, directory);
+  pictures.write_heads();
+  pictures.write_faces(ids);
+  const std::size_t pages = pictures.finish(crowd, likeness);
   log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
 }
 

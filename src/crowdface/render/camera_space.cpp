@@ -22,27 +22,6 @@ void check_finite(const Positions& positions) {
   throw InvalidInput(concat("a render needs finite positions, vertex ", i + 1, " is not"));
 }
 
-/// +1, or −1 if the surface as a whole is wound inside out: faces look away from its middle.
-/// \param areas  #F by 3, the faces' area vectors.
-float winding(const Topology& topology, const Positions& positions, const Positions& areas) {
-  const Eigen::RowVector3d middle = positions.colwise().mean();
-  const auto sum = [&](auto&& term) {
-    return parallel_sum(topology.face_count(), kVertexBlock, [&](Index begin, Index end) {
-      double total = 0;
-      for (Index f = begin; f < end; ++f) {
-        if (topology.face(f).size() < 3) continue;
-        const Eigen::RowVector3d reach = positions.row(topology.face(f)[0]) - middle;
-        total += term(areas.row(f), reach);
-      }
-      return total;
-    });
-  };
-  const double outward = sum([](const auto& area, auto& reach) { return area.dot(reach); });
-  const double total =
-      sum([](const auto& area, auto& reach) { return area.norm() * reach.norm(); });
-  return outward < -0.05 * total ? -1.0F : 1.0F;
-}
-
 }  // namespace
 
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis) {
@@ -67,11 +46,30 @@ std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
   return points;
 }
 
-std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
-                                            const Positions& positions, const Camera& camera) {
+float winding(const Topology& topology, const Positions& positions) {
   const Positions areas = face_area_vectors(topology, positions);
-  const float sign = winding(topology, positions, areas);
-  const Positions normals = fans.normals(areas, {0, 0, 1});
+  const Eigen::RowVector3d middle = positions.colwise().mean();
+  const auto sum = [&](auto&& term) {
+    return parallel_sum(topology.face_count(), kVertexBlock, [&](Index begin, Index end) {
+      double total = 0;
+      for (Index f = begin; f < end; ++f) {
+        if (topology.face(f).size() < 3) continue;
+        const Eigen::RowVector3d reach = positions.row(topology.face(f)[0]) - middle;
+        total += term(areas.row(f), reach);
+      }
+      return total;
+    });
+  };
+  const double outward = sum([](const auto& area, auto& reach) { return area.dot(reach); });
+  const double total =
+      sum([](const auto& area, auto& reach) { return area.norm() * reach.norm(); });
+  return outward < -0.05 * total ? -1.0F : 1.0F;
+}
+
+std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
+                                            const Positions& positions, const Camera& camera,
+                                            float sign) {
+  const Positions normals = fans.normals(face_area_vectors(topology, positions), {0, 0, 1});
   std::vector<Eigen::Vector3f> out(static_cast<std::size_t>(normals.rows()));
   parallel_blocks(normals.rows(), kVertexBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {

@@ -22,9 +22,14 @@ std::vector<float> to_camera(const Positions& positions, const Camera& camera);
 /// An axis of the file as a unit vector.
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
 
-/// #V unit normals. If the surface as a whole is wound inside out, they are turned round.
+/// +1, or −1 if the surface as a whole is wound inside out, as a mirrored one is: its faces look
+/// towards its middle.
+float winding(const Topology& topology, const Positions& positions);
+
+/// #V unit normals times `sign`.
 /// \param fans  of the topology's vertices.
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
-                                            const Positions& positions, const Camera& camera);
+                                            const Positions& positions, const Camera& camera,
+                                            float sign);
 
 }  // namespace crowdface

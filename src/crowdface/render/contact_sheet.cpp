@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/render/heat_colours.h"
+#include "crowdface/render/shading.h"
 #include "crowdface/render/text_label.h"
 
 namespace crowdface {
@@ -18,6 +21,26 @@ constexpr int kLargestSide = 65500;
 void paste(const Rgb8Image& from, Rgb8Image& onto, int left, int top) {
   for (int y = 0; y < from.height; ++y) {
     std::copy_n(from.at(0, y), 3 * from.width, onto.at(left, top + y));
+  }
+}
+
+int lines_of(const std::string& label) {
+  return 1 + static_cast<int>(std::count(label.begin(), label.end(), '\n'));
+}
+
+/// One line of a label below the other, the first brightest.
+void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& layout, int cell) {
+  const int line_height = layout.label_height / layout.label_lines;
+  LabelStyle style;
+  style.paper = kPaper;
+  style.text_px = std::max(9, line_height * 11 / 20);
+  int top = layout.top(cell) + layout.cell_height;
+  for (std::size_t begin = 0; begin <= label.size(); top += line_height) {
+    const std::size_t end = std::min(label.find('\n', begin), label.size());
+    paste(label_strip(label.substr(begin, end - begin), layout.cell_width, line_height, style),
+          sheet, layout.left(cell), top);
+    style.text = {160, 161, 164};
+    begin = end + 1;
   }
 }
 
@@ -61,7 +84,10 @@ SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& o
                               " cells cannot hold ", count, " pictures"));
   }
   const int size = std::min(first.height, first.width);
-  const int label = std::clamp(size / 10, 12, 64);
+  int lines = 1;
+  for (const SheetCell& cell : cells) lines = std::max(lines, lines_of(cell.label));
+  const int line = std::clamp(size / (lines > 1 ? 12 : 10), 12, 64);
+  const int label = lines * line;
   const std::ptrdiff_t widest = std::max<std::ptrdiff_t>(
       std::ptrdiff_t{options.columns} * (first.width + 64), rows * (first.height + label + 64));
   if (widest > kLargestSide) {
@@ -72,25 +98,81 @@ SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& o
   const bool header = !options.title.empty() || !options.note.empty();
   const int margin = std::clamp(size / 16, 6, 32);
   const int header_height = header ? std::clamp(size / 5, 24, 96) : margin;
-  return {options.columns, static_cast<int>(rows), first.width, first.height,
-          label,           header_height,          margin,      std::clamp(size / 32, 3, 16)};
+  const int legend_height = options.legend ? std::clamp(size / 4, 32, 96) : 0;
+  return {options.columns, static_cast<int>(rows),
+          first.width,     first.height,
+          label,           lines,
+          header_height,   legend_height,
+          margin,          std::clamp(size / 32, 3, 16)};
 }
 
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options) {
   const SheetLayout layout = layout_sheet(cells, options);
   Rgb8Image sheet(layout.width(), layout.height(), kPaper);
   if (!options.title.empty() || !options.note.empty()) draw_header(sheet, layout, options);
-  LabelStyle style;
-  style.paper = kPaper;
-  style.text_px = std::max(9, layout.label_height * 11 / 20);
+  if (options.legend) {
+    const int width = std::min(layout.width() - 2 * layout.margin, 900);
+    const int margin = layout.legend_height / 6;
+    paste(heat_scale(options.legend->most_mm, options.legend->title, width,
+                     layout.legend_height - margin, kPaper),
+          sheet, layout.margin, layout.height() - layout.margin - layout.legend_height + margin);
+  }
   // Each cell is written by one task only.
   parallel_for_each(static_cast<std::ptrdiff_t>(cells.size()), [&](std::ptrdiff_t i) {
     const int cell = static_cast<int>(i);
     const SheetCell& content = cells[static_cast<std::size_t>(i)];
     paste(content.image, sheet, layout.left(cell), layout.top(cell));
-    paste(label_strip(content.label, layout.cell_width, layout.label_height, style), sheet,
-          layout.left(cell), layout.top(cell) + layout.cell_height);
+    draw_label(content.label, sheet, layout, cell);
   });
+  return sheet;
+}
+
+Rgb8Image shrunk(const Rgb8Image& image, int width_px) {
+  if (width_px < 1 || width_px > image.width) {
+    throw InvalidInput(concat("a picture of ", image.width, " pixels cannot be made ", width_px,
+                              " pixels wide by making it smaller"));
+  }
+  const int height_px =
+      std::max(1, static_cast<int>(std::int64_t{image.height} * width_px / image.width));
+  std::array<float, 256> linear{};
+  for (std::size_t value = 0; value < linear.size(); ++value) {
+    linear[value] = from_srgb(Eigen::Array3f::Constant(static_cast<float>(value) / 255))[0];
+  }
+  Rgb8Image small(width_px, height_px);
+  const auto from = [](int at, int of, int whole) {
+    return static_cast<int>(std::int64_t{at} * whole / of);
+  };
+  parallel_blocks(height_px, 16, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto y = static_cast<int>(begin); y < end; ++y) {
+      for (int x = 0; x < width_px; ++x) {
+        Light sum = Light::Zero();
+        int count = 0;
+        for (int v = from(y, height_px, image.height); v < from(y + 1, height_px, image.height);
+             ++v) {
+          for (int u = from(x, width_px, image.width); u < from(x + 1, width_px, image.width);
+               ++u) {
+            const std::uint8_t* p = image.at(u, v);
+            sum += Light(linear[p[0]], linear[p[1]], linear[p[2]]);
+            ++count;
+          }
+        }
+        const Eigen::Array3f colour = to_srgb(sum / static_cast<float>(count));
+        for (int c = 0; c < 3; ++c) {
+          small.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
+        }
+      }
+    }
+  });
+  return small;
+}
+
+Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px) {
+  if (image.width > width_px || image.height > height_px) {
+    throw InvalidInput(concat("a picture of ", image.width, " x ", image.height,
+                              " pixels does not fit on ", width_px, " x ", height_px));
+  }
+  Rgb8Image sheet(width_px, height_px, kPaper);
+  paste(image, sheet, 0, 0);
   return sheet;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,26 +12,35 @@ namespace crowdface {
 
 struct SheetCell {
   Rgb8Image image;    ///< all of a sheet's are of one size
-  std::string label;  ///< stands under the image, made to fit
+  std::string label;  ///< stands under the image, line by line, each made to fit
+};
+
+/// What the colours of heat maps mean, shown below all cells.
+struct HeatLegend {
+  double most_mm = 0;
+  std::string title;
 };
 
 struct SheetOptions {
   int columns = 6;
   int rows = 0;            ///< 0: as many as the cells need; more than those leave blanks
   std::string title = {};  ///< on the left above the cells
-  std::string note = {};   ///< on the right above the cells, such as "sheet 2 of 5"
+  std::optional<HeatLegend> legend = std::nullopt;
+  std::string note = {};  ///< on the right above the cells, such as "sheet 2 of 5"
 };
 
 /// Where things lie on a sheet, in pixels.
 struct SheetLayout {
   int columns, rows;
   int cell_width, cell_height;
-  int label_height, header_height;
+  int label_height, label_lines;
+  int header_height, legend_height;
   int margin, gap;
 
   int width() const { return 2 * margin + columns * cell_width + (columns - 1) * gap; }
   int height() const {
-    return header_height + rows * (cell_height + label_height) + (rows - 1) * gap + margin;
+    return header_height + rows * (cell_height + label_height) + (rows - 1) * gap + legend_height +
+           margin;
   }
   int left(int cell) const { return margin + cell % columns * (cell_width + gap); }
   int top(int cell) const {
@@ -45,6 +55,13 @@ SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& o
 /// Pictures in a grid, row by row, a label under each and a header above them all.
 /// \throws InvalidInput as layout_sheet, MissingInput without the font.
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
+
+/// A picture made smaller, each pixel the mean of those it covers (in linear light).
+/// \param width_px  1 … image.width; the height follows.
+Rgb8Image shrunk(const Rgb8Image& image, int width_px);
+
+/// The picture on a larger sheet of the sheets' paper, in its upper left corner.
+Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px);
 
 /// Pictures of one height side by side: several views of one face in one cell.
 /// \throws InvalidInput if there is none or heights differ.

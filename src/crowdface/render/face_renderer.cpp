@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -77,9 +78,11 @@ struct FaceRenderer::Prepared {
   SamplingPattern pattern;
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
+  std::vector<std::optional<Light>> quad_paints;  ///< linear; or empty
   Eyeballs eyeballs;
   RayDevice device;
   ScenePool scenes;
+  std::optional<float> winding;  ///< of the typical face, which all others share
 
   Prepared(const Topology& mesh, const RenderOptions& choice)
       : topology(mesh),
@@ -106,6 +109,7 @@ struct Stage {
   const VertexColours* colours;
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;
+  const std::vector<std::optional<Light>>& paints;
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Vector gaze;
@@ -119,6 +123,7 @@ Eigen::Vector4f shares(const Quad& quad, float u, float v) {
 }
 
 Light own_albedo(const Stage& stage, std::uint32_t primitive, const Vector& point) {
+  if (!stage.paints.empty() && stage.paints[primitive]) return *stage.paints[primitive];
   const SurfaceKind kind = stage.kinds[primitive];
   if (kind != SurfaceKind::kEye) return albedo_of(kind);
   const std::uint32_t eye = stage.eyeballs.of_vertex[stage.quads[primitive][0]];
@@ -209,7 +214,8 @@ Light trace(const Stage& stage, const SamplingPattern& pattern, std::size_t samp
   const std::size_t rays = pattern.sky.size() / pattern.places.size();
   const std::span discs(pattern.sky.data() + sample * rays, rays);
   meeting.surface.sky = sky_share(stage.scene, meeting, discs, turn);
-  const bool lit = key_reaches(stage.scene, meeting, pattern.lamp[sample], turn);
+  const bool lit =
+      faces_key(meeting.surface) && key_reaches(stage.scene, meeting, pattern.lamp[sample], turn);
   meeting.surface.key = lit ? 1.0F : 0.0F;
   return shade(meeting.surface);
 }
@@ -255,8 +261,7 @@ std::vector<float> unscaled(const Positions& positions) {
   return points;
 }
 
-void check(const Topology& topology, const RenderOptions& options,
-           const std::vector<SurfaceKind>& kinds) {
+void check(const Topology& topology, const RenderOptions& options, const Surfaces& surfaces) {
   if (options.size_px < 1 || options.size_px > 16384) {
     throw InvalidInput(concat("a render is 1 to 16384 pixels wide, found ", options.size_px));
   }
@@ -265,25 +270,32 @@ void check(const Topology& topology, const RenderOptions& options,
     throw InvalidInput(concat("a render takes 1 to 16 samples a side and 0 to 256 occlusion rays, ",
                               "found ", options.samples_per_side, " and ", options.occlusion_rays));
   }
-  if (!kinds.empty() && static_cast<Index>(kinds.size()) != topology.face_count()) {
-    throw InvalidInput(concat("expected a surface kind for each of ", topology.face_count(),
-                              " faces, found ", kinds.size()));
+  for (const std::size_t found : {surfaces.kinds.size(), surfaces.paints.size()}) {
+    if (found == 0 || static_cast<Index>(found) == topology.face_count()) continue;
+    throw InvalidInput(
+        concat("expected a surface for each of ", topology.face_count(), " faces, found ", found));
   }
 }
 
 }  // namespace
 
 FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& options,
-                           const std::vector<SurfaceKind>& kinds, const Positions* typical) {
-  check(topology, options, kinds);
+                           const Surfaces& surfaces, const Positions* typical) {
+  check(topology, options, surfaces);
+  const std::vector<SurfaceKind>& kinds = surfaces.kinds;
   if (typical != nullptr) check_size(topology, *typical);
   prepared_ = std::make_unique<Prepared>(topology, options);
+  if (typical != nullptr) prepared_->winding = winding(topology, *typical);
   prepared_->eyeballs = find_eyeballs(topology, kinds);
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto kind = kinds.empty() ? SurfaceKind::kSkin : kinds[static_cast<std::size_t>(f)];
     if (kind == SurfaceKind::kHidden) continue;
     add_fan(topology.face(f), prepared_->quads);
     prepared_->quad_kinds.resize(prepared_->quads.size(), kind);
+    if (surfaces.paints.empty()) continue;
+    const auto& paint = surfaces.paints[static_cast<std::size_t>(f)];
+    prepared_->quad_paints.resize(prepared_->quads.size(),
+                                  paint ? std::optional<Light>(from_srgb(*paint)) : std::nullopt);
   }
   prepared_->scenes.start(prepared_->device, prepared_->quads,
                           typical == nullptr ? std::vector<float>() : unscaled(*typical));
@@ -308,11 +320,14 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   const Vector gaze = to_camera(camera, prepared_->options.front);
   std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, points, gaze);
   std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
+  // A crowd is wound like its heads: there is no need to find that out for every face.
+  const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
   const Stage stage{*scene,
-                    camera_normals(topology, prepared_->fans, positions, camera),
+                    camera_normals(topology, prepared_->fans, positions, camera, sign),
                     colours,
                     prepared_->quads,
                     prepared_->quad_kinds,
+                    prepared_->quad_paints,
                     prepared_->eyeballs,
                     std::move(eyes),
                     gaze,

@@ -15,7 +15,7 @@ namespace crowdface {
 struct RenderOptions {
   int size_px = 256;         ///< side of the square image
   int samples_per_side = 3;  ///< antialiasing: this squared samples a pixel, at fixed places
-  int occlusion_rays = 4;    ///< a sample; 0 leaves ambient occlusion out
+  int occlusion_rays = 3;    ///< a sample; 0 leaves ambient occlusion out
   Axis front = {2, 1};       ///< where the eyes look: irises are painted there
 };
 
@@ -25,14 +25,12 @@ struct RenderOptions {
 /// fewer than three corners not at all.
 class FaceRenderer {
  public:
-  /// \param kinds    one a face, or empty: all skin.
-  /// \param typical  #V by 3, how faces look about. The ray tracer's tree is then built once for it
+  /// \param typical  #V by 3, how faces look about, and how they are wound. The ray tracer's tree is then built once for it
   ///                 and fitted to each face, which saves most of a large mesh's time; without it
   ///                 the tree is built for every face anew.
   /// \throws InvalidInput if sizes or options make no sense.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
-                        const std::vector<SurfaceKind>& kinds = {},
-                        const Positions* typical = nullptr);
+                        const Surfaces& surfaces = {}, const Positions* typical = nullptr);
   ~FaceRenderer();
   FaceRenderer(FaceRenderer&&) noexcept;
   FaceRenderer& operator=(FaceRenderer&&) noexcept;

@@ -116,6 +116,11 @@ Eigen::Vector3f key_direction() {
   return studio().key.direction;
 }
 
+bool faces_key(const ShadePoint& point) {
+  const float cosine = point.normal.dot(studio().key.direction);
+  return cosine > -material_of(point.kind).wrap.maxCoeff();
+}
+
 Light shade(const ShadePoint& point) {
   const Studio& lamps = studio();
   const Material material = material_of(point.kind);
@@ -152,6 +157,10 @@ std::array<std::uint8_t, 3> to_srgb8(const Light& light) {
         static_cast<std::uint8_t>(std::lround(255 * encode_srgb(soft_shoulder(light[c]))));
   }
   return out;
+}
+
+Eigen::Array3f to_srgb(const Light& colour) {
+  return colour.unaryExpr([](float value) { return encode_srgb(value); });
 }
 
 Light from_srgb(const Eigen::Array3f& srgb) {

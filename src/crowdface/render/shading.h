@@ -32,6 +32,9 @@ Light albedo_of(SurfaceKind kind);
 /// furthest (wrapped diffuse); the highlights are microfacet (Walter et al. 2007).
 Light shade(const ShadePoint& point);
 
+/// Whether any light of the key comes off a surface that looks where this one does.
+bool faces_key(const ShadePoint& point);
+
 /// Towards the middle of the key light (unit), and the sine of its angular radius.
 Eigen::Vector3f key_direction();
 inline constexpr float kKeyRadius = 0.16F;
@@ -41,6 +44,8 @@ Light background(float y);
 
 /// As a screen shows it: sRGB's transfer curve, rounded to 8 bits.
 std::array<std::uint8_t, 3> to_srgb8(const Light& light);
+/// The same transfer curve alone: a colour of a surface as it is chosen on a screen.
+Eigen::Array3f to_srgb(const Light& colour);
 /// The inverse, for colours chosen on a screen; each in [0, 1].
 Light from_srgb(const Eigen::Array3f& srgb);
 

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace crowdface {
 
@@ -14,6 +18,13 @@ enum class SurfaceKind : std::uint8_t {
   kTeeth,
   kGums,    ///< and tongue
   kHidden,  ///< not drawn: lashes, tear fluid and shells that need textures to be seen through
+};
+
+/// What each face of a mesh is made of.
+struct Surfaces {
+  std::vector<SurfaceKind> kinds;  ///< #F, or empty: all skin
+  /// #F colours (sRGB) in place of those of the kinds, or empty: none has any.
+  std::vector<std::optional<Eigen::Array3f>> paints = {};
 };
 
 /// The kind that a material's (or group's) name speaks of, in any case and anywhere in the name:

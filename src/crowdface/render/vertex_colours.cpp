@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "crowdface/render/eyeballs.h"
+#include "crowdface/render/shading.h"
+
 namespace crowdface {
 namespace {
 
@@ -26,6 +29,40 @@ VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha) {
   VertexColours colours = VertexColours::Zero(alpha.rows(), 3);
   for (Eigen::Index k = 0; k < alpha.cols(); ++k) {
     colours += alpha.col(k).cast<float>() * palette_colour(k).transpose();
+  }
+  return colours;
+}
+
+VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
+                              const Positions& positions, Axis front) {
+  const auto paint = [](const Light& albedo) {
+    return Eigen::RowVector3f(to_srgb(albedo).matrix().transpose());
+  };
+  VertexColours colours = paint(albedo_of(SurfaceKind::kSkin)).replicate(positions.rows(), 1);
+  const std::vector<SurfaceKind>& kinds = surfaces.kinds;
+  if (kinds.empty()) return colours;
+  const Eigen::Vector3f gaze = static_cast<float>(front.sign) * Eigen::Vector3f::Unit(front.index);
+  std::vector<float> points(static_cast<std::size_t>(positions.size()));
+  std::transform(positions.data(), positions.data() + positions.size(), points.begin(),
+                 [](double value) { return static_cast<float>(value); });
+  const Eyeballs eyeballs = find_eyeballs(topology, kinds);
+  const std::vector<PlacedEye> eyes = place_eyes(eyeballs, points, gaze);
+  for (Eigen::Index f = 0; f < topology.face_count(); ++f) {
+    const SurfaceKind kind = kinds[static_cast<std::size_t>(f)];
+    if (!surfaces.paints.empty() && surfaces.paints[static_cast<std::size_t>(f)]) {
+      const Eigen::RowVector3f paint_of_face =
+          surfaces.paints[static_cast<std::size_t>(f)]->matrix().transpose();
+      for (const std::uint32_t vertex : topology.face(f)) colours.row(vertex) = paint_of_face;
+      continue;
+    }
+    if (kind == SurfaceKind::kSkin || kind == SurfaceKind::kHidden) continue;
+    for (const std::uint32_t vertex : topology.face(f)) {
+      const Light albedo = kind == SurfaceKind::kEye
+                               ? eye_albedo(eyes[eyeballs.of_vertex[vertex]], gaze,
+                                            positions.row(vertex).cast<float>().transpose())
+                               : albedo_of(kind);
+      colours.row(vertex) = paint(albedo);
+    }
   }
   return colours;
 }

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
+
+#include "crowdface/core/units.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/render/surface_kind.h"
 
 namespace crowdface {
 
@@ -14,6 +20,11 @@ Eigen::Vector3f palette_colour(Eigen::Index k);
 /// Each region in its own colour, mixed where regions overlap.
 /// \param alpha  #V by #R shares of the regions, rows summing to one.
 VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha);
+
+/// The colours that a render gives the surfaces themselves, irises painted where the eyes look.
+/// \param front  where the face looks.
+VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
+                              const Positions& positions, Axis front);
 
 /// One region's mask: its colour where it is 1, pale clay where it is 0.
 /// \param mask  #V, in [0, 1].

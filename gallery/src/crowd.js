@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The crowd as the page knows it: faces with what is derived from their recipes, filters and orders.
+
+/// \param data  data/crowd.js: name, seed, regions, heads, faces (the plan's lines), near, likeness.
+export function readCrowd(data) {
+  const heads = new Map(data.heads.map((head) => [head.name, head]));
+  const faces = data.faces.map((recipe, order) => ({
+    ...recipe,
+    order,
+    tags: heads.get(recipe.target)?.tags ?? [],
+    byHand: recipe.index === null && recipe.family === null,
+    near: (data.near[order] ?? []).map(([other, mm]) => ({ id: data.faces[other].id, mm })),
+    likeness: data.likeness[order] ?? order,
+    picture: data.pictures ? `../renders/${encodeURIComponent(recipe.id)}.png` : null,
+  }));
+  const present = (values) => [...new Set(values)].sort();
+  return {
+    ...data,
+    faces,
+    heads: data.heads.map((head) => ({
+      ...head,
+      picture: data.pictures ? `../renders/heads/${encodeURIComponent(head.name)}.png` : null,
+    })),
+    byId: new Map(faces.map((face) => [face.id, face])),
+    families: present(faces.map((face) => face.family).filter((name) => name !== null)),
+    targets: present(faces.map((face) => face.target)),
+    tags: present(faces.flatMap((face) => face.tags)),
+  };
+}
+
+/// How near the nearest other face of the whole crowd is.
+export function nearestMm(face) {
+  return face.near.length > 0 ? face.near[0].mm : face.nearest?.crowd_mm ?? Infinity;
+}
+
+const orders = {
+  plan: (a, b) => a.order - b.order,
+  id: (a, b) => a.id.localeCompare(b.id, 'en', { numeric: true }),
+  distance: (a, b) => nearestMm(a) - nearestMm(b) || a.order - b.order,
+  far: (a, b) => nearestMm(b) - nearestMm(a) || a.order - b.order,
+  head: (a, b) => (a.nearest?.face_mm ?? Infinity) - (b.nearest?.face_mm ?? Infinity),
+  likeness: (a, b) => a.likeness - b.likeness,
+  family: (a, b) =>
+    (a.family ?? '\uffff').localeCompare(b.family ?? '\uffff') || a.order - b.order,
+};
+
+/// What is asked for, word by word: each word must occur in the id, family, target, tags or note.
+function matches(face, words, mark) {
+  const text = [face.id, face.family, face.target, ...face.tags, face.note, mark?.note]
+    .filter(Boolean).join(' ').toLowerCase();
+  return words.every((word) => text.includes(word));
+}
+
+const markFilters = {
+  any: () => true,
+  unmarked: (mark) => !mark?.verdict,
+  keep: (mark) => mark?.verdict === 'keep',
+  reject: (mark) => mark?.verdict === 'reject',
+  locked: (mark) => (mark?.lock?.length ?? 0) > 0,
+  noted: (mark) => Boolean(mark?.note),
+};
+
+/// The faces that pass the filters, in order.
+export function chosenFaces(crowd, filters, markOf) {
+  const words = filters.search.toLowerCase().split(/\s+/).filter(Boolean);
+  return crowd.faces
+    .filter((face) => {
+      const mark = markOf(face);
+      return (
+        (!filters.family ||
+          (filters.family === '·none' ? face.family === null : face.family === filters.family)) &&
+        (!filters.target || face.target === filters.target) &&
+        filters.tags.every((tag) => face.tags.includes(tag)) &&
+        markFilters[filters.mark](mark) &&
+        matches(face, words, mark)
+      );
+    })
+    .sort(orders[filters.sort]);
+}
+
+export const noFilters = { search: '', family: '', target: '', tags: [], mark: 'any', sort: 'plan' };

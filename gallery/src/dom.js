@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/// An element with properties and children: el('button', { class: 'big', onclick: f }, 'Open').
+export function el(tag, properties = {}, ...children) {
+  const svg = ['svg', 'g', 'circle', 'line', 'text', 'image', 'clipPath', 'path', 'rect', 'title'];
+  const node = svg.includes(tag)
+    ? document.createElementNS('http://www.w3.org/2000/svg', tag)
+    : document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
+    else if (name === 'value' || name === 'checked' || name === 'disabled') node[name] = value;
+    else node.setAttribute(name, value === true ? '' : value);
+  }
+  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+/// A short number: at most `digits` behind the point, no zeros at the end.
+export function short(value, digits = 2) {
+  return String(Number(value.toFixed(digits)));
+}
+
+const loading = new Map();
+
+/// Loads a classic script once, which is how a page opened from disk reads data.
+export function loadScript(path) {
+  if (!loading.has(path)) {
+    loading.set(path, new Promise((resolve, reject) => {
+      const script = el('script', { src: path.split('/').map(encodeURIComponent).join('/') });
+      script.onload = () => resolve();
+      script.onerror = () => {
+        loading.delete(path);
+        reject(new Error(`${path} is missing`));
+      };
+      document.head.append(script);
+    }));
+  }
+  return loading.get(path);
+}

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+import { el, short } from './dom.js';
+import { picture } from './grid.js';
+import { Turntable } from './turntable.js';
+
+const viewNames = { front: 'Front', three_quarter: 'Three-quarter', profile: 'Profile' };
+
+/// One face: a view to turn, marks, recipe, neighbours, renders.
+export class FacePage {
+  /// \param go  is called with a face to show, or null to leave.
+  constructor(crowd, review, go) {
+    Object.assign(this, { crowd, review, go });
+    this.stage = el('div', { class: 'stage' });
+    this.status = el('p', { class: 'status', hidden: true });
+    this.choices = el('div', { class: 'choices' });
+    this.side = el('div', { class: 'side' });
+    this.title = el('h1', {});
+    this.place = el('span', { class: 'muted' });
+    this.node = el('main', { class: 'face' },
+      el('header', {},
+        el('button', { onclick: () => go(null), title: 'Back to all faces (Esc)' }, '← All faces'),
+        this.title, this.place, el('span', { class: 'grow' }),
+        el('button', { onclick: () => this.step(-1), title: 'Previous (←)', 'aria-label': 'Previous' }, '‹'),
+        el('button', { onclick: () => this.step(1), title: 'Next (→)', 'aria-label': 'Next' }, '›')),
+      el('div', { class: 'columns' },
+        el('section', { class: 'left' }, el('div', { class: 'box' }, this.stage, this.status),
+          this.choices, this.rendersBox = el('div', { class: 'renders' })),
+        this.side));
+    this.faces = [];
+  }
+
+  step(by) {
+    const at = this.faces.indexOf(this.face);
+    const next = this.faces[at + by];
+    if (next) this.go(next);
+  }
+
+  /// \param faces  that the arrows walk through.
+  show(face, faces) {
+    this.face = face;
+    this.faces = faces;
+    this.title.textContent = face.id;
+    const at = faces.indexOf(face);
+    this.place.textContent = at >= 0 ? `${at + 1} of ${faces.length}` : '';
+    this.rendersBox.replaceChildren(...(face.picture
+      ? [el('img', { src: face.picture, alt: `Renders of ${face.id}` })] : []));
+    this.side.replaceChildren(this.marks(), this.about(), this.recipe(), this.neighbours());
+    this.compare('face');
+  }
+
+  // -- the view to turn --
+
+  table() {
+    if (this.turntable) return this.turntable;
+    try {
+      this.turntable = new Turntable();
+    } catch {
+      this.say('This browser shows no 3D (WebGL is off).');
+      return null;
+    }
+    this.stage.replaceChildren(this.turntable.node);
+    new ResizeObserver(() => this.turntable.fit()).observe(this.stage);
+    return this.turntable;
+  }
+
+  say(text) {
+    this.status.hidden = !text;
+    this.status.textContent = text ?? '';
+  }
+
+  /// Shows the face, its target or its nearest neighbour from the same side.
+  async compare(what) {
+    const { face } = this;
+    const near = face.near[0]?.id;
+    const subjects = {
+      face: ['data/faces/', face.id], target: ['data/heads/', face.target, `head ${face.target}`], near: ['data/faces/', near],
+    };
+    const [folder, file, name = file] = subjects[what];
+    this.compared = what;
+    this.drawChoices();
+    const table = this.table();
+    if (!table) return;
+    table.fit();
+    try {
+      await table.show(`${folder}${file}.js`, name);
+      if (this.face === face) this.say(null);
+    } catch (error) {
+      if (this.face === face) this.say(`No mesh to turn: ${error.message}.`);
+    }
+  }
+
+  drawChoices() {
+    const near = this.face.near[0];
+    const subject = (what, text) => el('button', {
+      class: this.compared === what ? 'on' : '', onclick: () => this.compare(what),
+    }, text);
+    this.choices.replaceChildren(
+      el('div', { class: 'group' }, subject('face', this.face.id),
+        subject('target', `target ${this.face.target}`),
+        near ? subject('near', `nearest ${near.id}`) : null),
+      el('span', { class: 'grow' }),
+      el('div', { class: 'group' }, Object.entries(viewNames).map(([view, text]) =>
+        el('button', { onclick: () => this.turntable?.view(view) }, text))));
+  }
+
+  // -- marks --
+
+  marks() {
+    const { face, review } = this;
+    const box = el('section', { class: 'marks' });
+    const draw = () => {
+      const mark = review.of(face);
+      const button = (verdict, text, key) => el('button', {
+        class: `${verdict} ${mark?.verdict === verdict ? 'on' : ''}`, title: `${text} (${key})`,
+        disabled: verdict === 'reject' && face.byHand,
+        onclick: () => review.verdict(face, verdict),
+      }, text);
+      const locks = this.crowd.regions.length > 1 && !face.byHand
+        ? el('div', { class: 'locks' }, el('span', { class: 'muted' }, 'Draw anew, but lock'),
+          this.crowd.regions.map((region, at) => el('button', {
+            class: `lock ${mark?.lock?.includes(region) ? 'on' : ''}`, title: `Lock ${region} (${at + 1})`,
+            disabled: !mark?.lock?.includes(region) &&
+              (mark?.lock?.length ?? 0) === this.crowd.regions.length - 1,
+            onclick: () => review.lock(face, region),
+          }, region)))
+        : null;
+      verdicts.replaceChildren(
+        el('div', { class: 'verdicts' }, button('keep', 'Keep', 'K'), button('reject', 'Reject', 'R')),
+        ...(locks ? [locks] : []),
+        ...(face.byHand ? [el('small', { class: 'muted' },
+          'Written by hand: change its recipe in the config in place of rejecting it.')] : []));
+    };
+    const verdicts = el('div', {});
+    const note = el('textarea', {
+      class: 'note', rows: '2', maxlength: '500', placeholder: 'Note (N)',
+      value: review.of(face)?.note ?? '',
+      oninput: () => review.change(face, { note: note.value.trim() }),
+      onkeydown: (event) => {
+        event.stopPropagation();
+        if (event.key === 'Escape') note.blur();
+      },
+    });
+    this.redrawMarks = draw;
+    draw();
+    box.append(verdicts, note);
+    return box;
+  }
+
+  showMark(face) {
+    if (face === this.face) this.redrawMarks?.();
+  }
+
+  // -- what is known of it --
+
+  about() {
+    const { face } = this;
+    const rows = [
+      ['Target', face.target],
+      face.tags.length > 0 ? ['Tags', face.tags.join(', ')] : null,
+      face.family ? ['Family', face.family] : null,
+      face.age ? ['Age', short(face.age)] : null,
+      face.nearest ? ['Nearest head', `${face.nearest.face}, ${short(face.nearest.face_mm)} mm`] : null,
+      face.attempt > 0 ? ['Draws before it', String(face.attempt)] : null,
+      face.note ? ['Noted before', face.note] : null,
+    ].filter(Boolean);
+    return el('section', {}, el('dl', {}, rows.map(([name, value]) =>
+      [el('dt', {}, name), el('dd', {}, value)])));
+  }
+
+  recipe() {
+    const { face } = this;
+    const regions = Object.entries(face.regions).map(([name, region]) => {
+      const all = Object.entries(region.weights).sort((a, b) => b[1] - a[1]);
+      const weights = all.filter(([, weight]) => weight >= 0.005);
+      const rest = all.length - weights.length;
+      const inherited = face.inherits?.[name];
+      return el('div', { class: 'region' },
+        el('h3', {}, name === 'all' ? 'Whole head' : name,
+          inherited ? el('small', {}, ` from the ${inherited}`) : null),
+        el('div', { class: 'numbers' },
+          this.meter('Smoothness', region.smoothness, 1, `${region.iterations} iterations`),
+          this.meter('Strength', region.extrapolation, 2, 'extrapolation')),
+        weights.map(([head, weight]) => el('div', { class: 'weight', title: `${head}: ${short(weight, 3)}` },
+          el('span', {}, head), el('div', { class: 'bar' },
+            el('i', { style: `width:${Math.max(0, Math.min(100, 100 * weight))}%` })),
+          el('span', { class: 'number' }, `${short(100 * weight, 0)} %`))),
+        rest > 0 ? el('small', { class: 'muted' },
+          `and ${rest} more with less than half a percent each`) : null);
+    });
+    return el('section', {}, el('h2', {}, 'Recipe'), regions);
+  }
+
+  meter(name, value, most, title) {
+    return el('div', { class: 'meter', title }, el('span', {}, name), el('b', {}, short(value)),
+      el('div', { class: 'bar' }, el('i', { style: `width:${Math.min(100, (100 * value) / most)}%` })));
+  }
+
+  neighbours() {
+    const cells = this.face.near.map(({ id, mm }) => {
+      const other = this.crowd.byId.get(id);
+      return el('button', { class: 'neighbour', onclick: () => this.go(other), title: `Open ${id}` },
+        picture(other, id), el('b', {}, id), el('span', {}, `${short(mm)} mm`));
+    });
+    return el('section', {}, el('h2', {}, 'Nearest faces'),
+      cells.length > 0 ? el('div', { class: 'neighbours' }, cells)
+        : el('p', { class: 'muted' }, 'There is no other face.'));
+  }
+
+  /// \return whether the key meant something here.
+  key(event) {
+    const table = this.turntable;
+    const keys = {
+      ArrowRight: () => this.step(1), ArrowLeft: () => this.step(-1), Escape: () => this.go(null),
+      Backspace: () => this.go(null), n: () => this.side.querySelector('textarea').focus(),
+      f: () => table?.view('front'), q: () => table?.view('three_quarter'),
+      p: () => table?.view('profile'), t: () => this.compare(this.compared === 'target' ? 'face' : 'target'),
+      c: () => this.face.near[0] && this.compare(this.compared === 'near' ? 'face' : 'near'),
+      ',': () => table?.turn(-10), '.': () => table?.turn(10),
+    };
+    const act = keys[event.key];
+    act?.();
+    return Boolean(act);
+  }
+}

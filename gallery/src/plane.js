@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+import { el, short } from './dom.js';
+import { picture } from './grid.js';
+
+// Okabe & Ito's colours (2008), which colour-blind eyes tell apart too, then lighter ones.
+const colours = ['#56b4e9', '#e69f00', '#3fbf96', '#d98cb8', '#f0e442', '#5a8fd6', '#e07b4f',
+  '#a8c686', '#b79be0', '#8fd3d1', '#d6c3a5', '#c7667f'];
+const markColours = { keep: '#86bd92', reject: '#d17a6e' };
+const side = 460;
+
+/// Where every face lies on the weight plane, one picture a region.
+export class Plane {
+  constructor(crowd, review, { open, select }) {
+    Object.assign(this, { crowd, review, open, select });
+    this.colourBy = 'target';
+    this.dots = new Map();
+    this.tip = el('div', { class: 'tip', hidden: true });
+    this.legend = el('div', { class: 'legend' });
+    this.node = el('div', { class: 'plane' });
+    this.build();
+  }
+
+  frame() {
+    const points = this.crowd.heads.map((head) => head.anchor).concat(
+      this.crowd.faces.flatMap((face) => Object.values(face.regions).map((region) => region.position)
+        .filter(Boolean)));
+    const xs = points.map((p) => p[0]);
+    const ys = points.map((p) => p[1]);
+    const low = [Math.min(...xs), Math.min(...ys)];
+    const high = [Math.max(...xs), Math.max(...ys)];
+    const half = Math.max(high[0] - low[0], high[1] - low[1], 1e-9) / 2 * 1.16;
+    const centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
+    return (p) => [side / 2 + ((p[0] - centre[0]) / half) * (side / 2),
+      side / 2 - ((p[1] - centre[1]) / half) * (side / 2)];
+  }
+
+  build() {
+    const at = this.frame();
+    const choose = el('select', { onchange: () => this.recolour(choose.value) },
+      el('option', { value: 'target' }, 'target'), el('option', { value: 'family' }, 'family'),
+      el('option', { value: 'mark' }, 'mark'));
+    const regions = this.crowd.regions.length > 0 ? this.crowd.regions : ['all'];
+    this.node.append(
+      el('div', { class: 'planebar' }, el('label', {}, 'Colour by ', choose), this.legend),
+      el('div', { class: 'panels' }, regions.map((name) => this.panel(name, at))), this.tip);
+    this.recolour('target');
+  }
+
+  panel(name, at) {
+    const dots = el('g', {});
+    let missing = 0;
+    for (const face of this.crowd.faces) {
+      const position = face.regions[name]?.position;
+      if (!position) {
+        missing += 1;
+        continue;
+      }
+      const [x, y] = at(position);
+      const dot = el('circle', {
+        cx: x, cy: y, r: 4, class: 'dot', 'data-id': face.id,
+        onpointerenter: (event) => this.hover(face, event),
+        onpointerleave: () => this.hover(null),
+        onclick: () => this.select(face), ondblclick: () => this.open(face),
+      });
+      if (!this.dots.has(face.id)) this.dots.set(face.id, []);
+      this.dots.get(face.id).push(dot);
+      dots.append(dot);
+    }
+    const heads = el('g', {}, this.crowd.heads.map((head) => this.anchor(head, at(head.anchor))));
+    return el('figure', {}, el('figcaption', {}, name,
+      missing > 0 ? el('small', {}, ` · ${missing} ${missing === 1 ? 'has' : 'have'} no place on the plane`) : null),
+    el('svg', { viewBox: `0 0 ${side} ${side}` }, heads, dots));
+  }
+
+  anchor(head, [x, y]) {
+    const id = `clip ${head.name} ${Math.random()}`.replace(/[^\w]/g, '_');
+    const children = head.picture
+      ? [el('clipPath', { id }, el('circle', { cx: x, cy: y, r: 17 })),
+        el('image', {
+          href: head.picture, x: x - 19, y: y - 19, width: 38, height: 38,
+          preserveAspectRatio: 'xMinYMid slice', 'clip-path': `url(#${id})`,
+        })]
+      : [];
+    return el('g', { class: 'anchor' }, ...children, el('circle', { cx: x, cy: y, r: 17 }),
+      el('text', { x, y: y + 28 }, head.name));
+  }
+
+  recolour(by) {
+    this.colourBy = by;
+    const names = by === 'target' ? this.crowd.targets : by === 'family' ? this.crowd.families : [];
+    const colour = (name) => (names.indexOf(name) < 0 ? '#8d8c88'
+      : colours[names.indexOf(name) % colours.length]);
+    this.colour = (face) => (by === 'mark'
+      ? markColours[this.review.of(face)?.verdict] ?? '#8d8c88'
+      : colour(by === 'target' ? face.target : face.family));
+    const entries = by === 'mark' ? Object.entries(markColours) : names.map((n) => [n, colour(n)]);
+    this.legend.replaceChildren(...entries.map(([name, value]) =>
+      el('span', {}, el('i', { style: `background:${value}` }), name)));
+    for (const face of this.crowd.faces) this.showMark(face);
+  }
+
+  showMark(face) {
+    for (const dot of this.dots.get(face.id) ?? []) dot.style.fill = this.colour(face);
+  }
+
+  show(faces) {
+    const shown = new Set(faces.map((face) => face.id));
+    for (const [id, dots] of this.dots) {
+      for (const dot of dots) dot.classList.toggle('away', !shown.has(id));
+    }
+  }
+
+  mark(face) {
+    for (const dot of this.node.querySelectorAll('.dot.selected')) {
+      dot.classList.remove('selected');
+      dot.setAttribute('r', 4);
+    }
+    for (const dot of (face && this.dots.get(face.id)) ?? []) {
+      dot.classList.add('selected');
+      dot.setAttribute('r', 7);
+      dot.parentNode.append(dot);
+    }
+  }
+
+  hover(face, event) {
+    for (const dot of this.node.querySelectorAll('.dot.near')) dot.classList.remove('near');
+    this.tip.hidden = !face;
+    if (!face) return;
+    for (const dot of this.dots.get(face.id)) dot.classList.add('near');
+    const weights = Object.entries(face.regions).map(([name, region]) =>
+      `${name}: smoothness ${short(region.smoothness)}, strength ${short(region.extrapolation)}`);
+    this.tip.replaceChildren(picture(face, face.id), el('b', {}, face.id),
+      el('span', {}, `on ${face.target}`), ...weights.map((line) => el('small', {}, line)));
+    const box = event.target.getBoundingClientRect();
+    this.tip.style.left = `${Math.min(box.right + 12, innerWidth - 210)}px`;
+    this.tip.style.top = `${Math.min(box.top, innerHeight - 270)}px`;
+  }
+}

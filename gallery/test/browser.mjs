@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens a crowd's gallery from disk in a headless Chromium and uses it as people do.
+//   node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES_FOLDER]
+// Writes the exported review to REVIEW_FILE; the last line says "all right".
+import assert from 'node:assert/strict';
+import { mkdirSync, readFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const [folder, reviewFile, pictures] = process.argv.slice(2);
+if (!reviewFile) throw new Error('usage: node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES]');
+const address = pathToFileURL(join(resolve(folder), 'index.html')).href;
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true });
+const page = await context.newPage();
+const problems = [];
+page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
+page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
+page.on('request', (request) => {
+  if (!/^(file|blob|data):/.test(request.url())) problems.push(`network: ${request.url()}`);
+});
+
+async function take(name) {
+  if (!pictures) return;
+  mkdirSync(pictures, { recursive: true });
+  await page.screenshot({ path: join(pictures, `${name}.png`) });
+}
+const count = (selector) => page.locator(selector).count();
+const ids = () => page.$$eval('.cell', (cells) => cells.map((cell) => cell.dataset.id));
+const marks = () => page.evaluate(() => Object.fromEntries(window.crowdface.page.review.marks));
+
+/// How many different shades the 3D view shows: none is blank.
+const shades = () => page.evaluate(() => {
+  const { turntable } = window.crowdface.page.face;
+  turntable.draw();
+  const canvas = document.createElement('canvas');
+  canvas.width = 64;
+  canvas.height = 64;
+  const context2d = canvas.getContext('2d');
+  context2d.drawImage(turntable.node, 0, 0, 64, 64);
+  const { data } = context2d.getImageData(0, 0, 64, 64);
+  const seen = new Set();
+  let sum = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    seen.add(data[i] + 256 * data[i + 1]);
+    sum += data[i] * ((i / 4) % 64);
+  }
+  return { colours: seen.size, sum };
+});
+
+// Load.
+const began = Date.now();
+await page.goto(address);
+await page.waitForSelector('.cell');
+console.log(`opened in ${Date.now() - began} ms`);
+const all = await ids();
+const crowd = await page.evaluate(() => {
+  const { name, regions, faces, targets } = window.crowdface.page.crowd;
+  return { name, regions, targets, faces: faces.map(({ id, target, byHand, order }) => ({ id, target, byHand, order })) };
+});
+assert.equal(all.length, crowd.faces.length);
+assert.ok(all.length >= 6, 'a crowd of at least six faces is needed');
+await page.locator('.cell img').first().evaluate((image) => image.decode());
+await take('faces');
+
+// Filter, search, sort.
+await page.selectOption('select[name=target]', crowd.targets[0]);
+const wanted = crowd.faces.filter((face) => face.target === crowd.targets[0]).map((face) => face.id);
+assert.deepEqual(await ids(), wanted);
+await page.selectOption('select[name=target]', '');
+await page.keyboard.press('Escape');
+const drawn = crowd.faces.filter((face) => !face.byHand).map((face) => face.id);
+await page.fill('input[type=search]', drawn[2]);
+assert.deepEqual(await ids(), all.filter((id) => id.includes(drawn[2])));
+await page.fill('input[type=search]', 'nobody is called this');
+assert.equal(await count('.cell'), 0);
+await page.fill('input[type=search]', '');
+for (const order of ['distance', 'likeness', 'id']) {
+  await page.selectOption('select[name=sort]', order);
+  assert.deepEqual((await ids()).sort(), [...all].sort(), `order ${order} loses faces`);
+}
+await page.selectOption('select[name=sort]', 'distance');
+const distances = await page.evaluate(() => window.crowdface.page.faces.map((face) => face.near[0].mm));
+assert.deepEqual(distances, [...distances].sort((a, b) => a - b));
+await page.selectOption('select[name=sort]', 'plan');
+
+// Walk and mark with the keys.
+await page.locator('.summary').click();
+await page.keyboard.press('Home');
+await page.keyboard.press('ArrowRight');
+assert.equal(await page.locator('.cell.selected').getAttribute('data-id'), all[1]);
+await page.locator(`.cell[data-id="${drawn[0]}"]`).click();
+await page.keyboard.press('k');
+await page.locator(`.cell[data-id="${drawn[1]}"]`).click();
+await page.keyboard.press('r');
+assert.equal((await marks())[drawn[0]].verdict, 'keep');
+assert.equal((await marks())[drawn[1]].verdict, 'reject');
+await page.keyboard.press('r'); // takes it back
+assert.equal((await marks())[drawn[1]], undefined);
+await page.keyboard.press('r');
+
+// Open one, turn it.
+await page.locator(`.cell[data-id="${drawn[2]}"]`).click();
+await page.keyboard.press('Enter');
+await page.waitForFunction(() => window.crowdface.page.face.turntable?.shown !== undefined);
+await page.waitForTimeout(300);
+const front = await shades();
+assert.ok(front.colours > 50, `the 3D view shows ${front.colours} colours`);
+assert.ok(!(await page.locator('main.face').innerText()).includes('[object'), 'raw objects on the page');
+await take('face');
+const box = await page.locator('.turntable').boundingBox();
+await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+await page.mouse.down();
+await page.mouse.move(box.x + box.width / 2 - 160, box.y + box.height / 2 + 20, { steps: 8 });
+await page.mouse.up();
+const angle = await page.evaluate(() => window.crowdface.page.face.turntable.angle());
+assert.ok(Math.abs(angle) > 15, `dragging turned by ${angle} degrees`);
+assert.notEqual((await shades()).sum, front.sum, 'turning changes the picture');
+await take('turned');
+await page.keyboard.press('t');
+await page.waitForFunction(() => window.crowdface.page.face.turntable.shown.startsWith('head '));
+await page.keyboard.press('t');
+
+// Mark it: lock a region where there are several, and a note that needs care in YAML.
+if (crowd.regions.length > 1) await page.keyboard.press('1');
+else await page.keyboard.press('r');
+const note = 'too like "0007": chin, #2 {nose} \\ é — ok?';
+await page.fill('textarea', note);
+await page.keyboard.press('Escape');
+const mark = (await marks())[drawn[2]];
+assert.equal(mark.note, note);
+assert.deepEqual(mark.lock, crowd.regions.length > 1 ? [crowd.regions[0]] : undefined);
+await take('marked');
+await page.keyboard.press('ArrowRight');
+await page.waitForFunction((id) => document.querySelector('main.face h1').textContent === id, all[all.indexOf(drawn[2]) + 1]);
+await page.locator('.neighbour').first().click();
+await page.goBack();
+await page.keyboard.press('Escape');
+await page.waitForSelector('main.all:not([hidden])');
+
+// The plane.
+await page.keyboard.press('m');
+await page.waitForSelector('.panels');
+assert.equal(await count('.panels figure'), Math.max(1, crowd.regions.length));
+assert.ok(await count('.dot') >= drawn.length);
+await page.locator('.dot').first().hover({ force: true });
+await take('plane');
+await page.keyboard.press('g');
+
+// Reload: marks stay.
+await page.reload();
+await page.waitForSelector('.cell');
+assert.equal((await marks())[drawn[2]].note, note);
+await page.selectOption('select[name=mark]', 'reject');
+assert.deepEqual(await ids(), [drawn[1], drawn[2]]);
+await page.selectOption('select[name=mark]', 'any');
+await take('after_reload');
+
+// Export.
+const download = page.waitForEvent('download');
+await page.click('.export');
+await (await download).saveAs(reviewFile);
+const review = readFileSync(reviewFile, 'utf8');
+assert.match(review, /^schema: 1$/m);
+assert.match(review, new RegExp(`^  ${drawn[0]}: keep$`, 'm'));
+assert.match(review, new RegExp(`^  ${drawn[1]}: reject$`, 'm'));
+await page.keyboard.press('?');
+await page.waitForSelector('dialog[open]');
+await take('keys');
+await page.keyboard.press('Escape');
+
+assert.deepEqual(problems, []);
+await browser.close();
+console.log('all right');

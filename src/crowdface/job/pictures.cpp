@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/job/mesh_writers.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kNeighbours = 6;  // of each face: two rows on its page
+
+/// The page, if this crowd is to have one; says what is missing.
+std::optional<std::filesystem::path> page_for(const Config& config) {
+  if (config.output.gallery == Gallery::kNone) return std::nullopt;
+  auto page = find_gallery_page();
+  if (!page) {
+    log_info(
+        "no gallery: its page was not built (scripts/build_gallery.sh builds it; it needs npm)");
+  }
+  return page;
+}
+
+}  // namespace
+
+CrowdPictures::CrowdPictures(const Job& job, const Config::ContactSheet& sheet,
+                             const CrowdDirectory& directory)
+    : job_(job),
+      sheet_(sheet),
+      directory_(directory),
+      renders_(job.config, sheet, job.inputs),
+      page_(page_for(job.config)) {
+  if (!page_) return;
+  gallery_ = std::make_unique<GalleryMeshes>(job.config, job.inputs);
+  renders_.add_gallery(*gallery_);
+}
+
+void CrowdPictures::write_heads() const {
+  make_directories(directory_.head_render("").parent_path());
+  for (const Head& head : job_.inputs.faces.heads) {
+    throw_if_interrupted();
+    write_file(directory_.head_render(head.name), renders_.render_png(head.positions));
+  }
+}
+
+void CrowdPictures::write_founders(const std::vector<FamilyFounder>& founders,
+                                   const FaceBuilder& builder) const {
+  if (founders.empty()) return;
+  make_directories(directory_.founder_render("").parent_path());
+  std::vector<Positions> built(1);
+  for (const FamilyFounder& founder : founders) {
+    throw_if_interrupted();
+    const Recipe* recipe = &founder.recipe;
+    builder.build({&recipe, 1}, built);
+    write_file(directory_.founder_render(founder.family), renders_.render_png(built[0]));
+  }
+}
+
+void CrowdPictures::write_faces(const std::vector<std::string>& ids) const {
+  renders_.make_folders(directory_);
+  Progress progress("pictures", ids.size());
+  parallel_for_each(static_cast<Index>(ids.size()), [&](Index i) {
+    throw_if_interrupted();
+    const std::string& id = ids[static_cast<std::size_t>(i)];
+    renders_.write(directory_, id,
+                   read_face(directory_, id, job_.config.output.meshes,
+                             job_.inputs.faces.topology.vertex_count));
+    progress.step();
+  });
+}
+
+void CrowdPictures::complete_gallery(const std::vector<std::string>& ids) const {
+  const std::vector<MeshFormat>& formats = job_.config.output.meshes;
+  if (formats.empty()) return;
+  make_directories(directory_.gallery_face("").parent_path());
+  parallel_for_each(static_cast<Index>(ids.size()), [&](Index i) {
+    const std::string& id = ids[static_cast<std::size_t>(i)];
+    if (std::filesystem::exists(directory_.gallery_face(id))) return;
+    throw_if_interrupted();
+    const Index vertices = job_.inputs.faces.topology.vertex_count;
+    write_file(directory_.gallery_face(id),
+               gallery_->face_script(id, read_face(directory_, id, formats, vertices)));
+  });
+}
+
+std::size_t CrowdPictures::finish(const std::vector<Recipe>& crowd,
+                                  const CrowdLikeness& likeness) const {
+  std::vector<std::string> ids;
+  for (const Recipe& recipe : crowd) ids.push_back(recipe.id);
+  write_file(directory_.likeness(), format_likeness(likeness, job_.names, ids));
+  if (page_) {
+    complete_gallery(ids);
+    std::vector<std::string> lines;
+    for (const Recipe& recipe : crowd) {
+      lines.push_back(format_recipe(recipe, job_.names, job_.settings));
+    }
+    write_gallery(directory_, job_, *page_, *gallery_, lines, likeness);
+    log_info(concat("gallery: ", (directory_.gallery() / "index.html").string()));
+  }
+  return write_sheets(job_, sheet_, directory_, renders_, crowd, likeness.likeness);
+}
+
+std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory) {
+  std::vector<std::filesystem::path> files = {directory.likeness()};
+  for (const auto& folder : {directory.sheets(), directory.head_render("").parent_path(),
+                             directory.founder_render("").parent_path(), directory.gallery()}) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
+      const std::filesystem::path& path = entry.path();
+      const bool ours = folder != directory.sheets() || is_sheet_file(path);
+      if (entry.is_regular_file() && ours) files.push_back(path);
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+CrowdLikeness crowd_likeness(const Cast& cast) {
+  CrowdLikeness likeness{cast.anchors, find_likeness(cast.places, kNeighbours)};
+  for (std::vector<Neighbour>& near : likeness.likeness.near) {
+    // As it stands in the file, so that pictures made from that are the same.
+    for (Neighbour& other : near) other.mm = std::round(other.mm * 1e4) / 1e4;
+  }
+  return likeness;
+}
+
+}  // namespace crowdface

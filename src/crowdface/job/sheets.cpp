@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/job/mesh_writers.h"
+#include "crowdface/job/sheet_pages.h"
+#include "crowdface/mesh/alignment.h"
+#include "crowdface/render/heat_colours.h"
+
+namespace crowdface {
+namespace {
+
+using With = Config::Comparison::With;
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return concat(count, ' ', count == 1 ? one : many);
+}
+
+/// A face of whatever format its crowd has.
+Positions read_face_of_any(const CrowdDirectory& directory, const std::string& id, Index vertices) {
+  for (const MeshFormat format : all_mesh_formats()) {
+    if (std::filesystem::exists(directory.mesh(id, format))) {
+      return read_face(directory, id, {format}, vertices);
+    }
+  }
+  throw MissingInput(
+      concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
+}
+
+/// The sheets of one crowd.
+class CrowdSheets {
+ public:
+  CrowdSheets(const Job& job, const Config::ContactSheet& sheet, const CrowdDirectory& directory,
+              const CrowdRenders& renders, const std::vector<Recipe>& crowd,
+              const Likeness& likeness)
+      : job_(job),
+        sheet_(sheet),
+        directory_(directory),
+        renders_(renders),
+        crowd_(crowd),
+        likeness_(likeness),
+        pages_(directory.sheets(), sheet.formats) {
+    if (sheet.compare.with == With::kFile && !std::filesystem::is_directory(sheet.compare.file)) {
+      reference_ = read_obj(sheet.compare.file).positions;
+      check_vertices(reference_);
+    }
+  }
+
+  std::size_t write() {
+    const std::size_t pages = write_faces();
+    write_heads();
+    write_families();
+    pages_.finish(title());
+    return pages;
+  }
+
+ private:
+  std::string title() const {
+    return concat(job_.config.crowd.name, " · ", counted(crowd_.size(), "face", "faces"),
+                  " · seed ", job_.config.crowd.seed);
+  }
+
+  void check_vertices(const Positions& positions) const {
+    const Index expected = job_.inputs.faces.topology.vertex_count;
+    if (positions.rows() == expected) return;
+    throw InvalidInput(concat(sheet_.compare.file.string(), ": expected ", expected,
+                              " vertices to compare with, found ", positions.rows()));
+  }
+
+  Positions mesh_of(std::size_t face) const {
+    return read_face(directory_, crowd_[face].id, job_.config.output.meshes,
+                     job_.inputs.faces.topology.vertex_count);
+  }
+
+  /// What a face is compared with; nothing if it has no neighbour.
+  std::optional<Positions> compared_with(std::size_t face) const {
+    switch (sheet_.compare.with) {
+      case With::kTarget:
+        return job_.inputs.faces.heads[static_cast<std::size_t>(crowd_[face].target)].positions;
+      case With::kNearest:
+        if (likeness_.near[face].empty()) return std::nullopt;
+        return mesh_of(likeness_.near[face].front().face);
+      case With::kFile:
+        if (reference_.rows() > 0) return reference_;
+        return read_face_of_any({sheet_.compare.file}, crowd_[face].id,
+                                job_.inputs.faces.topology.vertex_count);
+      case With::kNothing:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  /// How far each point of a face is from the same point of the other, moved onto it.
+  Eigen::VectorXd differences_mm(const Positions& face, const Positions& other) const {
+    const Similarity move = fit_similarity(other, face, ScaleFit::kRigid);
+    return mm_per(job_.config.faces.units) * (move.apply(other) - face).rowwise().norm();
+  }
+
+  SheetCell cell(std::size_t face) const {
+    SheetCell cell{read_render(directory_.render(crowd_[face].id)),
+                   sheet_label(sheet_.labels, crowd_, face, likeness_, job_.names.heads)};
+    if (sheet_.compare.with == With::kNothing) return cell;
+    const Positions mesh = mesh_of(face);
+    const auto other = compared_with(face);
+    const Eigen::VectorXd mm =
+        other ? differences_mm(mesh, *other) : Eigen::VectorXd::Zero(mesh.rows());
+    const VertexColours colours = heat_colours(mm, sheet_.compare.scale_mm);
+    cell.image = side_by_side(std::vector{cell.image, renders_.render_front(mesh, &colours)});
+    const double rms = mm.size() > 0 ? mm.norm() / std::sqrt(static_cast<double>(mm.size())) : 0;
+    cell.label += concat("\nrms ", format_fixed(rms, digits()), " mm, largest ",
+                         format_fixed(mm.size() > 0 ? mm.maxCoeff() : 0, digits()), " mm");
+    return cell;
+  }
+
+  /// As many behind the point as the scale calls for.
+  int digits() const {
+    return std::clamp(2 - static_cast<int>(std::floor(std::log10(sheet_.compare.scale_mm))), 2, 6);
+  }
+
+  std::optional<HeatLegend> legend() const {
+    switch (sheet_.compare.with) {
+      case With::kTarget:
+        return HeatLegend{sheet_.compare.scale_mm, "distance from its target"};
+      case With::kNearest:
+        return HeatLegend{sheet_.compare.scale_mm, "distance from its nearest face"};
+      case With::kFile:
+        return HeatLegend{sheet_.compare.scale_mm,
+                          concat("distance from ", sheet_.compare.file.filename().string())};
+      case With::kNothing:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  void add_page(const std::string& stem, const std::string& caption, const std::string& title,
+                const std::string& note, const std::vector<SheetCell>& cells,
+                const std::optional<HeatLegend>& legend) {
+    pages_.add(
+        stem, caption,
+        contact_sheet(cells, {.columns = std::min(sheet_.columns,
+                                                  std::max(1, static_cast<int>(cells.size()))),
+                              .rows = 0,
+                              .title = title,
+                              .legend = legend,
+                              .note = note}));
+  }
+
+  std::size_t write_faces() {
+    const std::vector<std::size_t> order = sheet_order(sheet_.order, crowd_, likeness_);
+    const std::size_t per_page =
+        static_cast<std::size_t>(sheet_.columns) * static_cast<std::size_t>(sheet_.rows);
+    const std::size_t pages = sheet_pages(sheet_, order.size());
+    Progress progress("contact sheets", pages);
+    for (std::size_t page = 0; page < pages; ++page) {
+      throw_if_interrupted();
+      const std::size_t first = page * per_page;
+      std::vector<SheetCell> cells(std::min(per_page, order.size() - first));
+      parallel_for_each(static_cast<Index>(cells.size()), [&](Index c) {
+        const auto i = static_cast<std::size_t>(c);
+        cells[i] = cell(order[first + i]);
+      });
+      add_page(directory_.sheet(page + 1).stem().string(),
+               concat(crowd_[order[first]].id, " to ", crowd_[order[first + cells.size() - 1]].id),
+               title(), pages > 1 ? concat("sheet ", page + 1, " of ", pages) : std::string(),
+               cells, legend());
+      progress.step();
+    }
+    return pages;
+  }
+
+  void write_heads() {
+    std::vector<SheetCell> cells;
+    for (std::size_t h = 0; h < job_.names.heads.size(); ++h) {
+      const std::string& name = job_.names.heads[h];
+      std::string label = name;
+      const auto& tags = job_.config.faces.tags[h];
+      if (!tags.empty()) label += concat("\n", join(tags));
+      cells.push_back({read_render(directory_.head_render(name)), label});
+    }
+    add_page("heads_001", "the heads", job_.config.crowd.name,
+             counted(cells.size(), "head", "heads"), cells, std::nullopt);
+  }
+
+  /// Each family on a sheet of its own, its founder first: whom all members take after.
+  void write_families() {
+    std::map<std::string, std::vector<std::size_t>> families;
+    for (std::size_t face = 0; face < crowd_.size(); ++face) {
+      if (crowd_[face].family) families[*crowd_[face].family].push_back(face);
+    }
+    const std::vector<SheetLabel> labels = {SheetLabel::kId, SheetLabel::kNearest};
+    for (const auto& [family, members] : families) {
+      std::vector<SheetCell> cells;
+      for (const std::size_t face : members) {
+        cells.push_back({read_render(directory_.render(crowd_[face].id)),
+                         sheet_label(labels, crowd_, face, likeness_, job_.names.heads)});
+      }
+      add_founder(family, cells);
+      add_page(concat("family_", family), concat("family ", family), concat("family ", family),
+               counted(members.size(), "member", "members"), cells, std::nullopt);
+    }
+  }
+
+  void add_founder(const std::string& family, std::vector<SheetCell>& cells) const {
+    const std::filesystem::path path = directory_.founder_render(family);
+    if (!std::filesystem::exists(path)) return;
+    Rgb8Image picture = read_render(path);
+    if (picture.width != cells.front().image.width ||
+        picture.height != cells.front().image.height) {
+      log_info(concat("the founder of ", family, " is left out of its sheet: there is no mesh to ",
+                      "make a picture of another size from; crowdface generate does it"));
+      return;
+    }
+    cells.insert(cells.begin(), {std::move(picture), "founder\nnot in the crowd"});
+  }
+
+  const Job& job_;
+  const Config::ContactSheet& sheet_;
+  const CrowdDirectory& directory_;
+  const CrowdRenders& renders_;
+  const std::vector<Recipe>& crowd_;
+  const Likeness& likeness_;
+  SheetPages pages_;
+  Positions reference_;  ///< the one mesh that all are compared with, or empty
+};
+
+}  // namespace
+
+std::size_t sheet_pages(const Config::ContactSheet& sheet, std::size_t faces) {
+  const std::size_t per_page =
+      static_cast<std::size_t>(sheet.columns) * static_cast<std::size_t>(sheet.rows);
+  return (faces + per_page - 1) / per_page;
+}
+
+std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<Recipe>& crowd,
+                                     const Likeness& likeness) {
+  if (order == SheetOrder::kLikeness) return likeness.order;
+  std::vector<std::size_t> faces(crowd.size());
+  std::iota(faces.begin(), faces.end(), std::size_t{0});
+  if (order == SheetOrder::kFamily) {  // those of no family last
+    std::stable_sort(faces.begin(), faces.end(), [&](std::size_t a, std::size_t b) {
+      const auto& left = crowd[a].family;
+      const auto& right = crowd[b].family;
+      return left && (!right || *left < *right);
+    });
+  }
+  return faces;
+}
+
+std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<Recipe>& crowd,
+                        std::size_t face, const Likeness& likeness,
+                        const std::vector<std::string>& heads) {
+  const Recipe& recipe = crowd[face];
+  const auto line = [&](SheetLabel label) -> std::string {
+    switch (label) {
+      case SheetLabel::kId:
+        return recipe.id;
+      case SheetLabel::kFamily:
+        return recipe.family ? concat("family ", *recipe.family) : std::string();
+      case SheetLabel::kTarget:
+        return concat("on ", heads[static_cast<std::size_t>(recipe.target)]);
+      case SheetLabel::kNearest: {
+        if (likeness.near[face].empty()) return {};
+        const Neighbour& near = likeness.near[face].front();
+        return concat("near ", crowd[near.face].id, ", ", format_fixed(near.mm, 2), " mm");
+      }
+      case SheetLabel::kNearestHead:
+        if (!recipe.nearest) return {};
+        return concat("near ", heads[static_cast<std::size_t>(recipe.nearest->head)], ", ",
+                      format_fixed(recipe.nearest->head_mm, 2), " mm");
+    }
+    return {};
+  };
+  std::vector<std::string> lines;
+  for (const SheetLabel label : labels) lines.push_back(line(label));
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i) text += concat(i > 0 ? "\n" : "", lines[i]);
+  return text;
+}
+
+std::size_t write_sheets(const Job& job, const Config::ContactSheet& sheet,
+                         const CrowdDirectory& directory, const CrowdRenders& renders,
+                         const std::vector<Recipe>& crowd, const Likeness& likeness) {
+  make_directories(directory.sheets());
+  return CrowdSheets(job, sheet, directory, renders, crowd, likeness).write();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/preview/packed_face.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/normals.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kSteps = 65535;
+
+void append(std::string& bytes, double value) {
+  const auto number = static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, kSteps)));
+  bytes += static_cast<char>(number & 0xFFU);
+  bytes += static_cast<char>(number >> 8U);
+}
+
+/// A unit vector's place on the octahedron unfolded over [−1, 1]².
+Eigen::Vector2d unfolded(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d n = normal / normal.lpNorm<1>();
+  if (n.z() >= 0) return n.head<2>();
+  const auto sign = [](double value) { return value < 0 ? -1.0 : 1.0; };
+  return {(1 - std::abs(n.y())) * sign(n.x()), (1 - std::abs(n.x())) * sign(n.y())};
+}
+
+Eigen::Vector3d normal_at(const Topology& topology, const Positions& positions,
+                          std::span<const std::uint32_t> faces) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::uint32_t face : faces) sum += face_area_vector(topology, face, positions);
+  const double length = sum.norm();
+  return length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d::UnitZ();
+}
+
+}  // namespace
+
+PackingFrame PackingFrame::around(std::span<const Positions* const> heads) {
+  Eigen::AlignedBox3d box;
+  for (const Positions* head : heads) {
+    if (head->rows() == 0) continue;
+    box.extend(Eigen::Vector3d(head->colwise().minCoeff().transpose()));
+    box.extend(Eigen::Vector3d(head->colwise().maxCoeff().transpose()));
+  }
+  if (box.isEmpty()) throw InvalidInput("a frame for packed faces needs at least one vertex");
+  const double half = std::max(0.75 * box.sizes().maxCoeff(), 1e-12);
+  return {box.center() - Eigen::Vector3d::Constant(half), 2 * half / kSteps};
+}
+
+ReducedFans reduced_fans(const Topology& topology, const ReducedMesh& mesh) {
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(topology.vertex_count), kNoIndex);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    number[mesh.vertices[i]] = static_cast<std::uint32_t>(i);
+  }
+  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    for (const std::uint32_t vertex : topology.face(f)) {
+      if (number[vertex] != kNoIndex) {
+        around[number[vertex]].push_back(static_cast<std::uint32_t>(f));
+      }
+    }
+  }
+  ReducedFans fans;
+  fans.offsets.push_back(0);
+  for (const std::vector<std::uint32_t>& faces : around) {
+    fans.faces.insert(fans.faces.end(), faces.begin(), faces.end());
+    fans.offsets.push_back(static_cast<std::uint32_t>(fans.faces.size()));
+  }
+  return fans;
+}
+
+std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const ReducedFans& fans,
+                      const PackingFrame& frame, const Positions& positions) {
+  if (positions.rows() != topology.vertex_count) {
+    throw InvalidInput(
+        concat("expected ", topology.vertex_count, " vertices to pack, found ", positions.rows()));
+  }
+  std::string bytes;
+  bytes.reserve(10 * mesh.vertices.size());
+  for (const std::uint32_t vertex : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      append(bytes, (positions(vertex, axis) - frame.low[axis]) / frame.step);
+    }
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const std::span faces(fans.faces.data() + fans.offsets[i],
+                          fans.offsets[i + 1] - fans.offsets[i]);
+    const Eigen::Vector2d square = unfolded(normal_at(topology, positions, faces));
+    for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);
+  }
+  return bytes;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto byte = i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U;
+      group = group << 8U | byte;
+    }
+    const std::size_t left = bytes.size() - i;
+    text += kDigits[group >> 18U];
+    text += kDigits[group >> 12U & 63U];
+    text += left > 1 ? kDigits[group >> 6U & 63U] : '=';
+    text += left > 2 ? kDigits[group & 63U] : '=';
+  }
+  return text;
+}
+
+std::string little_endian(std::span<const std::uint32_t> numbers) {
+  std::string bytes;
+  bytes.reserve(4 * numbers.size());
+  for (const std::uint32_t number : numbers) {
+    for (unsigned shift = 0; shift < 32; shift += 8)
+      bytes += static_cast<char>(number >> shift & 0xFFU);
+  }
+  return bytes;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crowdface/preview/reduced_mesh.h"
+
+namespace crowdface {
+
+/// A cube of 65,536 steps a side: what positions are rounded to.
+struct PackingFrame {
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();
+  double step = 1;
+
+  /// The cube around all heads and a quarter more on each side, for faces that go beyond them.
+  /// \param heads  at least one vertex in all.
+  static PackingFrame around(std::span<const Positions* const> heads);
+};
+
+/// Which faces of the whole mesh meet at each vertex of the reduced one, so that a preview is shaded
+/// as smoothly as the mesh itself.
+struct ReducedFans {
+  std::vector<std::uint32_t> offsets;  ///< #vertices + 1
+  std::vector<std::uint32_t> faces;
+};
+ReducedFans reduced_fans(const Topology& topology, const ReducedMesh& mesh);
+
+/// A face's reduced mesh as little-endian 16-bit numbers: three a vertex, steps from the frame's low
+/// corner (clamped to it), then two a vertex, its unit normal on the octahedron unfolded over a
+/// square (Meyer et al. 2010, "On floating-point normal vectors"), 0 … 65,535 for −1 … 1.
+std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const ReducedFans& fans,
+                      const PackingFrame& frame, const Positions& positions);
+
+/// Bytes as text (RFC 4648).
+std::string base64(std::string_view bytes);
+
+/// Numbers as little-endian bytes.
+std::string little_endian(std::span<const std::uint32_t> numbers);
+
+}  // namespace crowdface

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/preview/reduced_mesh.h"
+
+#include <algorithm>
+
+#include <meshoptimizer.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// Every polygon as a fan around its first corner.
+std::vector<unsigned int> triangles_of(const Topology& topology, const std::vector<bool>& drawn) {
+  std::vector<unsigned int> triangles;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    if (!drawn.empty() && !drawn[static_cast<std::size_t>(f)]) continue;
+    const std::span<const std::uint32_t> face = topology.face(f);
+    for (std::size_t c = 1; c + 1 < face.size(); ++c) {
+      triangles.insert(triangles.end(), {face[0], face[c], face[c + 1]});
+    }
+  }
+  return triangles;
+}
+
+/// Numbers the vertices anew in the order in which triangles first use them, which suits both the
+/// graphics card and compression.
+ReducedMesh compact(const std::vector<unsigned int>& triangles, std::size_t vertex_count) {
+  constexpr std::uint32_t kUnused = 0xffffffffU;
+  std::vector<std::uint32_t> number(vertex_count, kUnused);
+  ReducedMesh mesh;
+  mesh.triangles.reserve(triangles.size());
+  for (const unsigned int vertex : triangles) {
+    if (number[vertex] == kUnused) {
+      number[vertex] = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(vertex);
+    }
+    mesh.triangles.push_back(number[vertex]);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
+                        const std::vector<bool>& drawn, std::size_t most_triangles) {
+  if (typical.rows() != topology.vertex_count) {
+    throw InvalidInput(
+        concat("expected ", topology.vertex_count, " vertices to reduce, found ", typical.rows()));
+  }
+  if (!drawn.empty() && static_cast<Index>(drawn.size()) != topology.face_count()) {
+    throw InvalidInput(
+        concat("expected ", topology.face_count(), " faces to reduce, found ", drawn.size()));
+  }
+  if (!typical.allFinite()) throw InvalidInput("a mesh to reduce needs finite positions");
+  std::vector<unsigned int> triangles = triangles_of(topology, drawn);
+  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
+  if (triangles.size() > 3 * most_triangles) {
+    std::vector<float> points(3 * vertices);
+    std::transform(typical.data(), typical.data() + typical.size(), points.begin(),
+                   [](double value) { return static_cast<float>(value); });
+    constexpr float kAnyError = 1e30F;  // the count alone decides when to stop
+    const std::size_t kept =
+        meshopt_simplify(triangles.data(), triangles.data(), triangles.size(), points.data(),
+                         vertices, 3 * sizeof(float), 3 * most_triangles, kAnyError, 0, nullptr);
+    triangles.resize(kept);
+  }
+  meshopt_optimizeVertexCache(triangles.data(), triangles.data(), triangles.size(), vertices);
+  return compact(triangles, vertices);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// Fewer triangles over some of a topology's own vertices: one reduced mesh serves every face of a
+/// crowd, whose previews are then no more than the positions of these vertices.
+struct ReducedMesh {
+  std::vector<std::uint32_t> vertices;   ///< rows of the whole mesh, each once
+  std::vector<std::uint32_t> triangles;  ///< three rows of `vertices` each
+};
+
+/// Collapses edges until at most `most_triangles` are left, where least is lost on a typical face
+/// (quadric error metrics, Garland & Heckbert 1997, by meshoptimizer).
+/// \param typical  #V by 3.
+/// \param drawn    one a face, or empty: all. Faces that are not drawn are left out.
+/// \return         no triangles if nothing is drawn.
+/// \throws InvalidInput if sizes do not fit or a position is not finite.
+ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
+                        const std::vector<bool>& drawn, std::size_t most_triangles);
+
+}  // namespace crowdface

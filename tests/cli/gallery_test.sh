@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# A crowd's gallery works in a browser, opened from disk: load, filter, open, turn, mark, export; the
+# program takes the exported review and draws anew what it rejects, and nothing else. Skipped (77)
+# where there is no Chromium or the page was not built; scripts/test.sh sees to both.
+#   gallery_test.sh PROGRAM ROOT
+set -euo pipefail
+program=$1 root=$2
+skip() {
+  echo "SKIPPED: $1"
+  exit 77
+}
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+[ -n "$chromium" ] || skip "no Chromium: scripts/install_dependencies.sh --test installs it"
+command -v node >/dev/null || skip "no node"
+page=$(dirname "$(dirname "$program")")/share/crowdface/gallery
+[ -f "$page/gallery.js" ] || skip "the gallery's page was not built: scripts/build_gallery.sh"
+[ -d "$root/build/gallery/node_modules/playwright-core" ] || skip "playwright-core is not installed"
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$program" synth -o "$folder/heads" --count 5 --vertices 20000 --seed 2 --quiet
+cat >"$folder/config.yaml" <<YAML
+schema: 1
+crowd: {name: mob, count: 7}
+faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
+regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
+recipes: [{id: by_hand, target: synth_01, regions: {all: {weights: {synth_02: 1}}}}]
+families: [{name: smith, members: 2, target: synth_03, max_distance: 4 mm}]
+output: {directory: out, meshes: [points], contact_sheet: {cell: 96, views: [front, profile]}}
+YAML
+"$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
+gallery=$folder/out/gallery
+
+# 300 faces stay under 60 MB, pictures not counted.
+largest=$(stat -c %s "$gallery/data/faces"/*.js | sort -n | tail -n 1)
+echo "$largest bytes a face"
+[ "$largest" -lt 190000 ] || { echo "a face's mesh takes $largest bytes"; exit 1; }
+
+cp "$root/gallery/test/browser.mjs" "$root/build/gallery/browser.mjs"
+CHROMIUM=$chromium node "$root/build/gallery/browser.mjs" "$gallery" "$folder/review.yaml" "${PICTURES-}"
+cat "$folder/review.yaml"
+cp "$folder/out/plan.jsonl" "$folder/before.jsonl"
+"$program" plan "$folder/config.yaml" --cache "$folder/cache" --quiet --review "$folder/review.yaml"
+changed=$(diff "$folder/before.jsonl" "$folder/out/plan.jsonl" | grep -c '^>' || true)
+[ "$changed" -eq 2 ] || { echo "expected 2 faces drawn anew, found $changed"; exit 1; }
+grep -q 'too like \\"0007\\": chin, #2 {nose}' "$folder/out/plan.jsonl" || {
+  echo "the note did not reach the plan"
+  exit 1
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contact sheets of a whole crowd, and what the gallery leaves in its folder.
+#include "crowdface/job/sheets.h"
+
+#include <gmock/gmock.h>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/job/generate.h"
+#include "crowdface/job/likeness_file.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+std::vector<Recipe> three_faces() {
+  std::vector<Recipe> crowd(3);
+  crowd[0].id = "mob_smith_01";
+  crowd[0].family = "smith";
+  crowd[1].id = "mob_jones_01";
+  crowd[1].family = "jones";
+  crowd[2].id = "mob_0001";
+  crowd[2].nearest = Nearest{1, 2.345, std::nullopt, 0};
+  return crowd;
+}
+
+Likeness three_likeness() {
+  return {{2, 0, 1}, {{{2, 1.5}}, {{0, 3.25}}, {{0, 1.5}, {1, 4}}}};
+}
+
+TEST(SheetOrder, FamiliesStandTogetherAndThoseOfNoneLast) {
+  EXPECT_THAT(sheet_order(SheetOrder::kPlan, three_faces(), three_likeness()),
+              ElementsAre(0, 1, 2));
+  EXPECT_THAT(sheet_order(SheetOrder::kFamily, three_faces(), three_likeness()),
+              ElementsAre(1, 0, 2));
+  EXPECT_THAT(sheet_order(SheetOrder::kLikeness, three_faces(), three_likeness()),
+              ElementsAre(2, 0, 1));
+}
+
+TEST(SheetLabel, HasALineForEachThingAskedFor) {
+  using L = SheetLabel;
+  const std::vector<std::string> heads = {"ann", "bob"};
+  EXPECT_EQ(sheet_label({L::kId, L::kTarget, L::kNearest, L::kNearestHead}, three_faces(), 2,
+                        three_likeness(), heads),
+            "mob_0001\non ann\nnear mob_smith_01, 1.50 mm\nnear bob, 2.35 mm");
+  EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 0, three_likeness(), heads),
+            "family smith\nmob_smith_01");
+  // Lines stay where they are where there is nothing to say.
+  EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 2, three_likeness(), heads),
+            "\nmob_0001");
+}
+
+TEST(LikenessFile, ReadsBackWhatWasWritten) {
+  const testing::TemporaryFolder folder;
+  const PlanNames names{{"ann", "bob"}, {"all"}};
+  const std::vector<std::string> ids = {"a", "b", "c"};
+  const CrowdLikeness likeness{{{0, 1}, {-0.25, 0.5}}, three_likeness()};
+  const fs::path path = folder.write("likeness.json", format_likeness(likeness, names, ids));
+  const CrowdLikeness read = read_likeness(path, names, ids);
+  EXPECT_EQ(read.anchors[1], likeness.anchors[1]);
+  EXPECT_EQ(read.likeness.order, likeness.likeness.order);
+  EXPECT_EQ(read.likeness.near[2][1].face, 1U);
+  EXPECT_EQ(read.likeness.near[2][1].mm, 4);
+  testing::expect_error<InvalidInput>(
+      [&] {
+        read_likeness(path, names, {"a", "b", "d"});
+      },
+      {"likeness.json"});
+}
+
+void run(const SmallCrowdFolder& folder) {
+  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+}
+
+int width_of(const fs::path& picture) {
+  return read_image(picture).width;
+}
+
+TEST(Sheets, HeadsFamiliesAndAnIndexStandBesideTheFaces) {
+  SmallCrowd crowd;
+  crowd.count = 5;
+  crowd.contact_sheet =
+      "{columns: 2, rows: 1, cell: 48, labels: [id, nearest], order: likeness, "
+      "formats: [png, exr, pdf]}";
+  crowd.more = "believability: none\nfamilies: [{name: kin, members: 2, max_distance: 30 mm}]\n";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const fs::path sheets = folder.out() / "sheets";
+  for (const char* name : {"sheet_001.png", "sheet_004.png", "heads_001.png", "family_kin.png",
+                           "index.png", "sheet_001.exr", "family_kin.exr", "sheets.pdf"}) {
+    EXPECT_TRUE(fs::exists(sheets / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(sheets / "sheet_005.png"));
+  for (const std::string& head : folder.names()) {
+    EXPECT_TRUE(fs::exists(folder.out() / "renders/heads" / (head + ".png"))) << head;
+  }
+  EXPECT_TRUE(fs::exists(folder.out() / "renders/founders/kin.png"));
+  // Founder and two members.
+  EXPECT_GT(width_of(sheets / "family_kin.png"),
+            width_of(folder.out() / "renders/founders/kin.png"));
+  EXPECT_THAT(read_file(sheets / "sheets.pdf"), HasSubstr("/Count 7"));
+}
+
+TEST(Sheets, AnotherFormLeavesNothingOfTheOldOne) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 1, rows: 1, cell: 48, formats: [png, pdf]}";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  EXPECT_TRUE(fs::exists(folder.out() / "sheets/sheet_004.png"));
+  remake_sheets(folder.out(), {"output.contact_sheet.columns=2", "output.contact_sheet.rows=2",
+                               "output.contact_sheet.formats=[png]"});
+  EXPECT_TRUE(fs::exists(folder.out() / "sheets/sheet_001.png"));
+  EXPECT_FALSE(fs::exists(folder.out() / "sheets/sheet_002.png"));
+  EXPECT_FALSE(fs::exists(folder.out() / "sheets/sheets.pdf"));
+}
+
+TEST(Sheets, CompareShowsADistanceMapBesideEachFace) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, rows: 2, cell: 48, compare: target}";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const fs::path sheet = folder.out() / "sheets/sheet_001.png";
+  const int with = width_of(sheet);
+  for (const char* other : {"nearest", "none"}) {
+    remake_sheets(folder.out(), {concat("output.contact_sheet.compare=", other)});
+    EXPECT_EQ(width_of(sheet) == with, std::string(other) == "nearest") << other;
+  }
+  // Against itself, a crowd is blue all over: largest distance 0.
+  remake_sheets(folder.out(), {concat("output.contact_sheet.compare=", folder.out().string())});
+  EXPECT_EQ(width_of(sheet), with);
+  testing::expect_error<MissingInput>(
+      [&] { remake_sheets(folder.out(), {"output.contact_sheet.compare=nowhere"}); }, {"nowhere"});
+}
+
+TEST(Sheets, ReplacingACrowdRemovesItsPictures) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 1, rows: 1, cell: 48, formats: [png, exr, pdf]}";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const ConfigOverrides overrides{{"output.contact_sheet=none"}, {}, {}, {}};
+  generate(folder.config(), overrides, {folder.cache(), Replace::kForce, false});
+  for (const char* left : {"sheets", "renders", "gallery", "likeness.json"}) {
+    EXPECT_FALSE(fs::exists(folder.out() / left)) << left;
+  }
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/preview/reduced_mesh.h"
+
+#include <algorithm>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/error.h"
+
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+using testing::grid_topology;
+
+Positions flat_grid(Index columns, Index rows) {
+  Positions positions(static_cast<Index>((columns + 1) * (rows + 1)), 3);
+  for (Index y = 0; y <= rows; ++y) {
+    for (Index x = 0; x <= columns; ++x) {
+      positions.row(y * (columns + 1) + x) =
+          Eigen::RowVector3d(static_cast<double>(x), static_cast<double>(y), 0);
+    }
+  }
+  return positions;
+}
+
+double area(const ReducedMesh& mesh, const Positions& positions) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const auto corner = [&](std::size_t c) -> Eigen::Vector3d {
+      return positions.row(mesh.vertices[mesh.triangles[t + c]]);
+    };
+    sum += (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
+  }
+  return sum;
+}
+
+TEST(ReducedMesh, OfAMeshThatIsSmallEnoughIsTheMesh) {
+  const ReducedMesh mesh = reduce_mesh(grid_topology(3, 2), flat_grid(3, 2), {}, 12);
+  EXPECT_EQ(mesh.triangles.size(), 36U);
+  EXPECT_EQ(mesh.vertices.size(), 12U);
+  EXPECT_DOUBLE_EQ(area(mesh, flat_grid(3, 2)), 6.0);
+}
+
+TEST(ReducedMesh, OfAFlatSheetCoversTheSameAreaWithFewTriangles) {
+  const ReducedMesh mesh = reduce_mesh(grid_topology(40, 40), flat_grid(40, 40), {}, 60);
+  EXPECT_LE(mesh.triangles.size(), 180U);
+  EXPECT_NEAR(area(mesh, flat_grid(40, 40)), 1600, 1e-9);
+}
+
+TEST(ReducedMesh, NamesEachVertexOnceAndUsesAll) {
+  const ReducedMesh mesh = reduce_mesh(grid_topology(30, 20), flat_grid(30, 20), {}, 100);
+  const std::set<std::uint32_t> once(mesh.vertices.begin(), mesh.vertices.end());
+  EXPECT_EQ(once.size(), mesh.vertices.size());
+  const std::set<std::uint32_t> used(mesh.triangles.begin(), mesh.triangles.end());
+  EXPECT_EQ(used.size(), mesh.vertices.size());
+  EXPECT_EQ(*used.rbegin() + 1, mesh.vertices.size());
+}
+
+TEST(ReducedMesh, LeavesOutWhatIsNotDrawn) {
+  std::vector<bool> drawn(6, false);
+  drawn[0] = true;
+  const ReducedMesh mesh = reduce_mesh(grid_topology(3, 2), flat_grid(3, 2), drawn, 100);
+  EXPECT_EQ(mesh.triangles.size(), 6U);
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_TRUE(
+      reduce_mesh(grid_topology(3, 2), flat_grid(3, 2), std::vector<bool>(6), 9).triangles.empty());
+}
+
+TEST(ReducedMesh, RefusesOtherSizes) {
+  EXPECT_THROW(reduce_mesh(grid_topology(3, 2), flat_grid(2, 2), {}, 9), InvalidInput);
+  EXPECT_THROW(reduce_mesh(grid_topology(3, 2), flat_grid(3, 2), std::vector<bool>(5), 9),
+               InvalidInput);
+}
+
+}  // namespace
+}  // namespace crowdface
