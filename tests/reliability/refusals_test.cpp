@@ -121,7 +121,7 @@ TEST_F(Refusals, MaterialFilesNeverLeadOutOfTheFolder) {
 
 TEST_F(Refusals, LinksNeverLeadOutOfTheFolder) {
   fs::create_directories(folder_ / "elsewhere");
-  for (const char* name : {"meshes", "renders", "sheets"}) {
+  for (const char* name : {"meshes", "renders", "sheets", "gallery"}) {
     fs::remove_all(folder_.out());
     fs::create_directories(folder_.out());
     fs::create_directory_symlink(folder_ / "elsewhere", folder_.out() / name);

@@ -2,10 +2,10 @@
 #include "crowdface/job/crowd_renders.h"
 
 #include <cmath>
-#include <system_error>
 
 #include "crowdface/core/file.h"
 #include "crowdface/io/image.h"
+#include "crowdface/io/single_precision.h"
 #include "crowdface/render/contact_sheet.h"
 
 namespace crowdface {
@@ -67,17 +67,20 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
   if (gallery_ != nullptr) make_directories(directory.gallery_face("").parent_path());
 }
 
-FileDigest CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
-                               const Positions& positions) const {
-  const std::string png = render_png(positions);
-  write_file(directory.render(id), png);
+WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
+                                    const Positions& positions) const {
+  // As every mesh file holds them, so that pictures made from those are the same.
+  const Positions single =
+      positions.unaryExpr([](double value) -> double { return to_single(value); });
+  const auto put = [](const std::filesystem::path& path, const std::string& bytes) {
+    write_file(path, bytes);
+    return FileDigest{bytes.size(), hash_bytes(bytes)};
+  };
+  WrittenPictures written{put(directory.render(id), render_png(single)), std::nullopt};
   if (gallery_ != nullptr) {
-    write_file(directory.gallery_face(id), gallery_->face_script(id, positions));
-  } else {  // another face may have stood there, when there was a page
-    std::error_code ignored;
-    std::filesystem::remove(directory.gallery_face(id), ignored);
+    written.preview = put(directory.gallery_face(id), gallery_->face_script(id, single));
   }
-  return {png.size(), hash_bytes(png)};
+  return written;
 }
 
 Rgb8Image CrowdRenders::render_front(const Positions& positions,

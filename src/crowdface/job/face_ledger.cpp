@@ -24,7 +24,7 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
   }
-  hasher.add(extras.skin).add(extras.picture);
+  hasher.add(extras.skin).add(extras.picture).add(extras.preview);
   if (extras.picture) {
     const Config::ContactSheet& sheet = *config.output.contact_sheet;
     hasher.add(sheet.cell).add(sheet.views.size());
@@ -88,13 +88,15 @@ std::optional<FaceFiles> FaceLedger::done(const Recipe& recipe) const {
   const auto entry = ledger_.proven(item_of(recipe), key_of(recipe));
   if (!entry) return std::nullopt;
   const std::vector<MeshFormat>& formats = job_.config.output.meshes;
-  if (entry->files.size() != formats.size() + (extras_.picture ? 1U : 0U)) return std::nullopt;
+  const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);
+  if (entry->files.size() != formats.size() + pictures) return std::nullopt;
   FaceFiles files;
   for (std::size_t f = 0; f < formats.size(); ++f) {
     files.meshes.push_back(
         {formats[f], entry->files[f].content.digest, entry->files[f].content.bytes});
   }
-  if (extras_.picture) files.picture = entry->files.back().content;
+  if (extras_.picture) files.picture = entry->files[formats.size()].content;
+  if (extras_.preview) files.preview = entry->files.back().content;
   try {
     if (extras_.skin) files.skin = skin_of(entry->note);
   } catch (const Json::exception&) {
@@ -111,6 +113,10 @@ void FaceLedger::record(const Recipe& recipe, const FaceFiles& files) const {
   }
   if (files.picture) {
     entry.files.push_back({name_in(directory_, directory_.render(recipe.id)), *files.picture});
+  }
+  if (files.preview) {
+    entry.files.push_back(
+        {name_in(directory_, directory_.gallery_face(recipe.id)), *files.preview});
   }
   if (files.skin) entry.note = to_json(*files.skin).dump();
   ledger_.record(std::move(entry));

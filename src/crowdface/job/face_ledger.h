@@ -13,6 +13,7 @@ namespace crowdface {
 /// What belongs to a face beside its meshes.
 struct FaceExtras {
   bool picture = false;  ///< its render
+  bool preview = false;  ///< its mesh in the gallery
   bool skin = false;     ///< its mesh is judged
 };
 

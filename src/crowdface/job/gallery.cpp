@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/gallery.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <set>
@@ -23,7 +24,8 @@ using Json = nlohmann::ordered_json;
 /// 24,000 triangles have some 12,000 vertices of ten bytes each: as text 160 kB a face.
 constexpr std::size_t kMostTriangles = 24'000;
 
-constexpr std::array kPageFiles = {"index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"};
+constexpr std::array<std::string_view, 4> kPageFiles = {"index.html", "gallery.js", "gallery.css",
+                                                        "three.LICENSE.txt"};
 
 Positions mean_of(const FaceSet& faces) {
   Positions mean = Positions::Zero(faces.topology.vertex_count, 3);
@@ -106,17 +108,27 @@ std::optional<fs::path> find_gallery_page() {
     if (error) return std::nullopt;
     folder = program.parent_path().parent_path() / "share/crowdface/gallery";
   }
-  for (const char* file : kPageFiles) {
+  for (const std::string_view file : kPageFiles) {
     if (!fs::exists(folder / file, error)) return std::nullopt;
   }
   return folder;
 }
 
+bool has_gallery(const Config& config) {
+  return config.output.contact_sheet && config.output.gallery == Gallery::kAuto &&
+         find_gallery_page();
+}
+
+bool is_page_file(const fs::path& path) {
+  return std::find(kPageFiles.begin(), kPageFiles.end(), path.filename().string()) !=
+         kPageFiles.end();
+}
+
 Digest gallery_page_digest(const Config& config) {
   Hasher hasher;
-  const auto page = config.output.gallery == Gallery::kAuto ? find_gallery_page() : std::nullopt;
-  if (page) {
-    for (const char* file : kPageFiles) hasher.add(hash_file(*page / file).digest);
+  if (has_gallery(config)) {
+    const fs::path page = *find_gallery_page();
+    for (const std::string_view file : kPageFiles) hasher.add(hash_file(page / file).digest);
   }
   return hasher.digest();
 }
@@ -182,7 +194,7 @@ void write_gallery(const CrowdDirectory& directory, const Job& job, const fs::pa
   }
   write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
   write_file(directory.gallery() / "data/crowd.js", call("setCrowd", crowd));
-  for (const char* file : kPageFiles) {
+  for (const std::string_view file : kPageFiles) {
     write_file(directory.gallery() / file, read_file(page / file));
   }
 }

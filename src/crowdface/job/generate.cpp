@@ -313,7 +313,8 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   const auto& formats = job.config.output.meshes;
   const auto& sheet = job.config.output.contact_sheet;
   const bool judged = skin_is_judged(job);
-  const FaceLedger face_ledger(ledger, job, directory, {sheet.has_value(), judged});
+  const FaceLedger face_ledger(ledger, job, directory,
+                               {sheet.has_value(), has_gallery(job.config), judged});
   FacesSoFar so_far = find_done_faces(face_ledger, crowd, options.shard);
   const std::size_t built = so_far.todo.size();
   if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);

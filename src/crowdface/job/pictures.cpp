@@ -77,27 +77,12 @@ void CrowdPictures::write_faces(const std::vector<std::string>& ids) const {
   });
 }
 
-void CrowdPictures::complete_gallery(const std::vector<std::string>& ids) const {
-  const std::vector<MeshFormat>& formats = job_.config.output.meshes;
-  if (formats.empty()) return;
-  make_directories(directory_.gallery_face("").parent_path());
-  parallel_for_each(static_cast<Index>(ids.size()), [&](Index i) {
-    const std::string& id = ids[static_cast<std::size_t>(i)];
-    if (std::filesystem::exists(directory_.gallery_face(id))) return;
-    throw_if_interrupted();
-    const Index vertices = job_.inputs.faces.topology.vertex_count;
-    write_file(directory_.gallery_face(id),
-               gallery_->face_script(id, read_face(directory_, id, formats, vertices)));
-  });
-}
-
 std::size_t CrowdPictures::finish(const std::vector<Recipe>& crowd,
                                   const CrowdLikeness& likeness) const {
   std::vector<std::string> ids;
   for (const Recipe& recipe : crowd) ids.push_back(recipe.id);
   write_file(directory_.likeness(), format_likeness(likeness, job_.names, ids));
   if (page_) {
-    complete_gallery(ids);
     std::vector<std::string> lines;
     for (const Recipe& recipe : crowd) {
       lines.push_back(format_recipe(recipe, job_.names, job_.settings));
@@ -110,15 +95,21 @@ std::size_t CrowdPictures::finish(const std::vector<Recipe>& crowd,
 
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory) {
   std::vector<std::filesystem::path> files = {directory.likeness()};
-  for (const auto& folder : {directory.sheets(), directory.head_render("").parent_path(),
-                             directory.founder_render("").parent_path(), directory.gallery()}) {
+  const auto add = [&](const std::filesystem::path& folder, const auto& is_ours) {
     std::error_code none;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
-      const std::filesystem::path& path = entry.path();
-      const bool ours = folder != directory.sheets() || is_sheet_file(path);
-      if (entry.is_regular_file() && ours) files.push_back(path);
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      if (entry.is_regular_file() && is_ours(entry.path())) files.push_back(entry.path());
     }
-  }
+  };
+  const auto ends_in = [](const char* ending) {
+    return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
+  };
+  add(directory.sheets(), is_sheet_file);
+  add(directory.head_render("").parent_path(), ends_in(".png"));
+  add(directory.founder_render("").parent_path(), ends_in(".png"));
+  add(directory.gallery(), is_page_file);
+  add(directory.gallery() / "data", ends_in(".js"));
+  add(directory.gallery_head("").parent_path(), ends_in(".js"));
   std::sort(files.begin(), files.end());
   return files;
 }

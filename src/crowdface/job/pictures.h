@@ -32,9 +32,6 @@ class CrowdPictures {
   std::size_t finish(const std::vector<Recipe>& crowd, const CrowdLikeness& likeness) const;
 
  private:
-  /// Faces that were made when there was no page have no mesh in the gallery yet.
-  void complete_gallery(const std::vector<std::string>& ids) const;
-
   const Job& job_;
   const Config::ContactSheet& sheet_;
   const CrowdDirectory& directory_;

@@ -17,6 +17,7 @@ namespace crowdface {
 struct FaceFiles {
   std::vector<MeshFile> meshes;
   std::optional<FileDigest> picture;  ///< if it was rendered
+  std::optional<FileDigest> preview;  ///< its mesh in the gallery, if there is one
   std::optional<SkinDefects> skin;    ///< against the target's, if it was judged
 };
 
