@@ -71,11 +71,9 @@ TEST(LikenessFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.likeness.order, likeness.likeness.order);
   EXPECT_EQ(read.likeness.near[2][1].face, 1U);
   EXPECT_EQ(read.likeness.near[2][1].mm, 4);
-  testing::expect_error<InvalidInput>(
-      [&] {
-        read_likeness(path, names, {"a", "b", "d"});
-      },
-      {"likeness.json"});
+  testing::expect_error(ExitCode::kBadData, {"likeness.json"}, [&] {
+    read_likeness(path, names, {"a", "b", "d"});
+  });
 }
 
 void run(const SmallCrowdFolder& folder) {
@@ -138,8 +136,9 @@ TEST(Sheets, CompareShowsADistanceMapBesideEachFace) {
   // Against itself, a crowd is blue all over: largest distance 0.
   remake_sheets(folder.out(), {concat("output.contact_sheet.compare=", folder.out().string())});
   EXPECT_EQ(width_of(sheet), with);
-  testing::expect_error<MissingInput>(
-      [&] { remake_sheets(folder.out(), {"output.contact_sheet.compare=nowhere"}); }, {"nowhere"});
+  testing::expect_error(ExitCode::kMissingInput, {"nowhere"}, [&] {
+    remake_sheets(folder.out(), {"output.contact_sheet.compare=nowhere"});
+  });
 }
 
 TEST(Sheets, ReplacingACrowdRemovesItsPictures) {

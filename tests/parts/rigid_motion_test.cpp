@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "parts/scene.h"

@@ -199,7 +199,7 @@ TEST(FaceRenderer, AnEyeballLooksWithADarkPupil) {
   EXPECT_LT(ahead.at(33, 33)[0], 90);
   EXPECT_GT(ahead.at(12, 33)[0], 110);
   // Eyes that look away show no pupil.
-  const Rgb8Image away = FaceRenderer(ball.topology, {.size_px = 64, .front = {2, -1}}, kinds)
+  const Rgb8Image away = FaceRenderer(ball.topology, {.size_px = 64, .front = {2, -1}}, {kinds})
                              .render(ball.positions, camera);
   EXPECT_GT(away.at(33, 33)[0], 110);
 }
