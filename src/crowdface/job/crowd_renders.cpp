@@ -67,17 +67,20 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
   if (gallery_ != nullptr) make_directories(directory.gallery_face("").parent_path());
 }
 
-FileDigest CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
-                               const Positions& positions) const {
+FacePictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
+                                 const Positions& positions) const {
   const std::string png = render_png(positions);
   write_file(directory.render(id), png);
+  FacePictures written{{png.size(), hash_bytes(png)}, std::nullopt};
   if (gallery_ != nullptr) {
-    write_file(directory.gallery_face(id), gallery_->face_script(id, positions));
+    const std::string script = gallery_->face_script(id, positions);
+    write_file(directory.gallery_face(id), script);
+    written.gallery = {script.size(), hash_bytes(script)};
   } else {  // another face may have stood there, when there was a page
     std::error_code ignored;
     std::filesystem::remove(directory.gallery_face(id), ignored);
   }
-  return {png.size(), hash_bytes(png)};
+  return written;
 }
 
 Rgb8Image CrowdRenders::render_front(const Positions& positions,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@ namespace crowdface {
 /// What the faces of a crowd's mesh are made of: by the config, by the names of their materials, by shape.
 Surfaces surfaces_of(const Config& config, const Inputs& inputs);
 
+/// A face's pictures as they were written.
+struct FacePictures {
+  FileDigest picture;
+  std::optional<FileDigest> gallery;  ///< what the gallery shows of it, if there is one
+};
+
 /// Pictures of one crowd: one camera a view, fitted once to the input heads, so that sizes compare.
 class CrowdRenders {
  public:
@@ -28,9 +35,8 @@ class CrowdRenders {
   /// The folders that `write` needs.
   void make_folders(const CrowdDirectory& directory) const;
   /// Writes a face's picture, and what the gallery shows of it.
-  /// \return the picture's.
-  FileDigest write(const CrowdDirectory& directory, const std::string& id,
-                   const Positions& positions) const;
+  FacePictures write(const CrowdDirectory& directory, const std::string& id,
+                     const Positions& positions) const;
 
   /// All views of a face side by side.
   Rgb8Image render(const Positions& positions, const VertexColours* colours = nullptr) const;

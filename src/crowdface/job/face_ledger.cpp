@@ -88,13 +88,17 @@ std::optional<FaceFiles> FaceLedger::done(const Recipe& recipe) const {
   const auto entry = ledger_.proven(item_of(recipe), key_of(recipe));
   if (!entry) return std::nullopt;
   const std::vector<MeshFormat>& formats = job_.config.output.meshes;
-  if (entry->files.size() != formats.size() + (extras_.picture ? 1U : 0U)) return std::nullopt;
+  // A face that a gallery can show is done where there is none, but not the other way round.
+  const std::size_t least = formats.size() + (extras_.picture ? 1U : 0U);
+  const std::size_t most = least + (extras_.picture ? 1U : 0U), count = entry->files.size();
+  if (count < (extras_.gallery ? most : least) || count > most) return std::nullopt;
   FaceFiles files;
   for (std::size_t f = 0; f < formats.size(); ++f) {
     files.meshes.push_back(
         {formats[f], entry->files[f].content.digest, entry->files[f].content.bytes});
   }
-  if (extras_.picture) files.picture = entry->files.back().content;
+  if (extras_.picture) files.picture = entry->files[formats.size()].content;
+  if (count > least) files.gallery = entry->files.back().content;
   try {
     if (extras_.skin) files.skin = skin_of(entry->note);
   } catch (const Json::exception&) {
@@ -111,6 +115,10 @@ void FaceLedger::record(const Recipe& recipe, const FaceFiles& files) const {
   }
   if (files.picture) {
     entry.files.push_back({name_in(directory_, directory_.render(recipe.id)), *files.picture});
+  }
+  if (files.gallery) {
+    entry.files.push_back(
+        {name_in(directory_, directory_.gallery_face(recipe.id)), *files.gallery});
   }
   if (files.skin) entry.note = to_json(*files.skin).dump();
   ledger_.record(std::move(entry));

@@ -95,7 +95,9 @@ class FaceOutput {
     }
     if (renders_ != nullptr) {
       const Busy busy(render_);
-      files.picture = renders_->write(directory_, recipe.id, positions);
+      const FacePictures written = renders_->write(directory_, recipe.id, positions);
+      files.picture = written.picture;
+      files.gallery = written.gallery;
     }
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);

@@ -26,6 +26,7 @@
 #include "crowdface/job/crowd_lock.h"
 #include "crowdface/job/face_ledger.h"
 #include "crowdface/job/face_stages.h"
+#include "crowdface/job/gallery.h"
 #include "crowdface/job/ledger.h"
 #include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/pictures.h"
@@ -313,7 +314,9 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   const auto& formats = job.config.output.meshes;
   const auto& sheet = job.config.output.contact_sheet;
   const bool judged = skin_is_judged(job);
-  const FaceLedger face_ledger(ledger, job, directory, {sheet.has_value(), judged});
+  const bool gallery =
+      sheet && job.config.output.gallery == Gallery::kAuto && find_gallery_page().has_value();
+  const FaceLedger face_ledger(ledger, job, directory, {sheet.has_value(), judged, gallery});
   FacesSoFar so_far = find_done_faces(face_ledger, crowd, options.shard);
   const std::size_t built = so_far.todo.size();
   if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);

@@ -17,6 +17,7 @@ namespace crowdface {
 struct FaceFiles {
   std::vector<MeshFile> meshes;
   std::optional<FileDigest> picture;  ///< if it was rendered
+  std::optional<FileDigest> gallery;  ///< what the gallery shows of it, if there is one
   std::optional<SkinDefects> skin;    ///< against the target's, if it was judged
 };
 
