@@ -52,6 +52,25 @@ TEST(PlanFile, ReadsBackToTheBit) {
     EXPECT_EQ(line.recipe.regions[k].iterations, recipe.regions[k].iterations);
     EXPECT_EQ(line.recipe.regions[k].extrapolation, recipe.regions[k].extrapolation);
   }
+  // Distances to four decimals, so that pictures made from the plan tell what the plan tells.
+  ASSERT_TRUE(line.recipe.nearest);
+  EXPECT_EQ(line.recipe.nearest->head, 1);
+  EXPECT_EQ(line.recipe.nearest->head_mm, 2.4124);
+  EXPECT_EQ(line.recipe.nearest->crowd, "mob_0003");
+  EXPECT_EQ(line.recipe.nearest->crowd_mm, 1);
+  EXPECT_EQ(format_recipe(line.recipe, kNames, kSettings),
+            format_recipe(recipe, kNames, kSettings));
+}
+
+TEST(PlanFile, WhatIsWrongAboutNearestIsLeftOut) {
+  const std::string good = format_recipe(example(), kNames, kSettings);
+  for (const char* nearest :
+       {"7", "{}", "{\"face\":\"zed\",\"face_mm\":1}", "{\"face\":\"bob\"}"}) {
+    std::string line = good;
+    const std::size_t begin = line.find("\"nearest\":") + 10;
+    line.replace(begin, line.find('}', begin) + 1 - begin, nearest);
+    EXPECT_FALSE(parse_recipe(line, kNames, "plan:1").recipe.nearest) << nearest;
+  }
 }
 
 TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {

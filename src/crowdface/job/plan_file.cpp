@@ -75,6 +75,9 @@ class LineReader {
       }
     }
     if (json.contains("note")) recipe.note = text(json, "note");
+    if (const auto found = json.find("nearest"); found != json.end()) {
+      recipe.nearest = nearest(*found);
+    }
     result.settings = text(json, "settings");
     return result;
   }
@@ -142,6 +145,22 @@ class LineReader {
       fail("iterations", "at most 10^9", concat(result.iterations));
     }
     result.extrapolation = number(member(json, "extrapolation"), "extrapolation");
+    return result;
+  }
+
+  /// No mesh depends on it, so lines that were written by hand may leave it out or get it wrong.
+  std::optional<Nearest> nearest(const Json& json) const {
+    if (!json.is_object()) return std::nullopt;
+    const std::string face = json.value("face", Json()).is_string() ? text(json, "face") : "";
+    const auto head = std::find(names_.heads.begin(), names_.heads.end(), face);
+    const Json head_mm = json.value("face_mm", Json());
+    if (head == names_.heads.end() || !head_mm.is_number()) return std::nullopt;
+    Nearest result{head - names_.heads.begin(), head_mm.get<double>(), std::nullopt, 0};
+    const Json crowd_mm = json.value("crowd_mm", Json());
+    if (json.value("crowd", Json()).is_string() && crowd_mm.is_number()) {
+      result.crowd = text(json, "crowd");
+      result.crowd_mm = crowd_mm.get<double>();
+    }
     return result;
   }
 
