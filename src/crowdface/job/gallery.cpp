@@ -101,6 +101,7 @@ void remove_others(const fs::path& folder, const std::set<std::string>& names) {
 std::optional<fs::path> find_gallery_page() {
   std::error_code error;
   fs::path folder;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
   if (const char* chosen = std::getenv("CROWDFACE_GALLERY"); chosen != nullptr && *chosen != 0) {
     folder = chosen;
   } else {
