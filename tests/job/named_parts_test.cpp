@@ -114,7 +114,7 @@ TEST(PartsOfAJob, AreDescribed) {
   Job job = load_job(folder.config(), {});
   const std::string text = describe_parts(job.config, job.inputs);
   EXPECT_THAT(text, HasSubstr("skin: components 1 … 3 (2)"));
-  EXPECT_THAT(text, HasSubstr("eyeball: component 2, 8 vertices, eye"));
+  EXPECT_THAT(text, HasSubstr("rigid: component 2, 8 vertices, eye"));
   job.config.parts.follow = false;
   EXPECT_THAT(describe_parts(job.config, job.inputs), HasSubstr("none"));
 }

@@ -195,7 +195,7 @@ MeshDefects mesh_defects(const Job& job, const Prepared& prepared) {
   for (std::size_t h = 0; h < faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
   const auto builder = std::make_shared<FaceBuilder>(job, prepared);
   const auto check =
-      std::make_shared<SkinCheck>(faces.topology, job.inputs.components, faces.heads, targets);
+      std::make_shared<SkinCheck>(faces.topology, job.inputs.skin, faces.heads, targets);
   return [builder, check](const Recipe& recipe) {
     const Recipe* one = &recipe;
     Positions face;

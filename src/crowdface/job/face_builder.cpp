@@ -7,9 +7,14 @@
 namespace crowdface {
 
 FaceBuilder::FaceBuilder(const Job& job, const Prepared& prepared)
-    : job_(job), prepared_(prepared) {
+    : job_(job), prepared_(prepared), regions_(job.inputs.regions) {
+  if (job.config.parts.shape == PartShape::kTarget) {
+    for (const Part& part : job.inputs.parts.parts) {
+      for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
+    }
+  }
   if (job.config.smoothing.levels != Levels::kExact) {
-    blender_.emplace(job.inputs.faces, head_levels(job.config, prepared), job.inputs.regions);
+    blender_.emplace(job.inputs.faces, head_levels(job.config, prepared), regions_);
   }
   if (!job.inputs.parts.parts.empty()) {
     HeadAxes axes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
@@ -24,7 +29,7 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
   if (blender_) {
     blender_->blend(recipes, results);
   } else {
-    blend_exact(job_.inputs.faces, *prepared_.filter, job_.inputs.regions, recipes, results);
+    blend_exact(job_.inputs.faces, *prepared_.filter, regions_, recipes, results);
   }
   if (!follower_) return;
   parallel_for_each(static_cast<Index>(recipes.size()), [&](Index f) {

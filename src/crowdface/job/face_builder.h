@@ -16,6 +16,8 @@ class FaceBuilder {
  public:
   /// Both must outlive the builder.
   FaceBuilder(const Job& job, const Prepared& prepared);
+  FaceBuilder(const FaceBuilder&) = delete;
+  FaceBuilder& operator=(const FaceBuilder&) = delete;
 
   /// \param results  one for each recipe, #V by 3 in file units; their memory is used again.
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
@@ -26,6 +28,8 @@ class FaceBuilder {
  private:
   const Job& job_;
   const Prepared& prepared_;
+  /// The masks, without those vertices of parts that get other positions anyway.
+  RegionWeights regions_;
   std::optional<CrowdBlender> blender_;   ///< of fitted levels
   std::optional<PartFollower> follower_;  ///< if there are parts beside the skin
 };

@@ -59,12 +59,29 @@ void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& ve
   const Eigen::Vector3d centre(x[0], x[1], x[2]);
   shape.centre = middle + centre;
   shape.radius = std::sqrt(std::max(0.0, x[3] + centre.squaredNorm()));
-  double sum = 0;
-  for (const std::uint32_t v : vertices) {
-    const double off = (positions.row(v).transpose() - shape.centre).norm() - shape.radius;
-    sum += off * off;
+}
+
+/// Of vertices and middles of faces: the corners of any box lie on a sphere.
+void measure_roughness(const Topology& topology, const Components& components,
+                       const Positions& positions, std::vector<ComponentShape>& shapes) {
+  std::vector<double> sums(shapes.size(), 0.0);
+  const auto add = [&](std::size_t c, const Eigen::Vector3d& point) {
+    const double off = (point - shapes[c].centre).norm() - shapes[c].radius;
+    sums[c] += off * off;
+  };
+  for (Index v = 0; v < topology.vertex_count; ++v) {
+    add(components.of_vertex[static_cast<std::size_t>(v)], positions.row(v).transpose());
   }
-  shape.roughness = std::sqrt(sum / static_cast<double>(vertices.size()));
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto face = topology.face(f);
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const std::uint32_t v : face) middle += positions.row(v).transpose();
+    add(components.of_vertex[face[0]], middle / static_cast<double>(face.size()));
+  }
+  for (std::size_t c = 0; c < shapes.size(); ++c) {
+    shapes[c].roughness =
+        std::sqrt(sums[c] / static_cast<double>(shapes[c].vertices + shapes[c].faces));
+  }
 }
 
 /// The farthest that nine in ten of some evenly chosen vertices are from the skin.
@@ -124,6 +141,7 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
     fit_sphere(positions, members[c], shape);
     shape.skin_distance = distance_to(skin_grid, positions, members[c]);
   }
+  measure_roughness(topology, components, positions, shapes);
   return shapes;
 }
 

@@ -25,8 +25,7 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = part[i * part.size() / count];
     const Eigen::Vector3d point = positions.row(v).transpose();
-    const auto nearest = skin.nearest(point, 2 * reach);
-    if (nearest.vertex == kNoIndex) continue;
+    const auto nearest = skin.nearest(point);
     const SurfacePoint place = nearest_around(topology, faces, positions, nearest.vertex, point);
     if (place.distance > reach) continue;
     pairs_.push_back({v, place.corners, place.shares});

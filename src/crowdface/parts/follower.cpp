@@ -98,7 +98,9 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
       bound.insert(bound.end(), part.vertices.begin(), part.vertices.end());
       continue;
     }
-    RigidPart rigid{part.vertices, std::vector<double>(part.vertices.size(), 1.0), {}, {}, {}};
+    RigidPart rigid;
+    rigid.vertices = part.vertices;
+    rigid.ones.assign(part.vertices.size(), 1.0);
     const PointGrid grid(mean, part.vertices);
     const ComponentShape& ball = ball_of(part, parts);
     // A part that floats far from the skin follows what is nearest to it.

@@ -78,7 +78,7 @@ Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   // Outward along the ball: across the spoke, away from the gaze.
   const Vector3d spoke = foot / radius, gaze(0, 0, 1);
   const Vector3d back = (spoke * spoke.z() - gaze).normalized();
-  return eye_centre() + (radius + 0.02 * t) * (spoke + 0.35 * t * back).normalized();
+  return eye_centre() + (radius + 0.02 * t) * (spoke + 0.2 * t * back).normalized();
 }
 
 Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, double b) {
