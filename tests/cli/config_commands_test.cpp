@@ -101,8 +101,9 @@ TEST(Check, EveryProblemIsToldAndTheFirstKindSetsTheCode) {
   folder.folder().write("heads/bob.obj", "v 1 2 x\n");
   fs::remove(folder / "mask_0.png");
   folder.folder().write("config.yaml", text + "extra: 1\n" + "plane: {layout: circel}\n");
-  crowdface(64, {"check", config},
-            {"config.yaml:9:1", "extra", "config.yaml:10:17", "circle", "mask_0.png", "bob.obj:1"});
+  crowdface(
+      64, {"check", config},
+      {"config.yaml:10:1", "extra", "config.yaml:11:17", "circle", "mask_0.png", "bob.obj:1"});
   // 66 and 65.
   folder.folder().write("config.yaml", text);
   crowdface(66, {"check", config}, {"config.yaml:4:", "mask_0.png", "bob.obj:1"});
