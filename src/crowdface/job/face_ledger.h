@@ -15,7 +15,6 @@ struct FaceExtras {
   bool picture = false;  ///< its render
   bool preview = false;  ///< its mesh in the gallery
   bool skin = false;     ///< its mesh is judged
-  bool gallery = false;  ///< what the gallery shows of it
 };
 
 /// The faces of a crowd in its ledger. A face is one item: its meshes, its picture and what was
