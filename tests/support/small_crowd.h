@@ -26,7 +26,7 @@ struct SmallCrowd {
   std::string sampling = "{smoothness: [0, 1], extrapolation: [0.8, 1.3], max_sources: 3}";
   std::string contact_sheet = "none";
   std::string parts = "none";  ///< the plain computation blends all as skin
-  std::string more;  ///< further keys at the root
+  std::string more;            ///< further keys at the root
   int count = 4;
   int seed = 11;
 

@@ -211,8 +211,8 @@ CastingGround casting_ground(const Job& job, const Prepared& prepared) {
   const Config& config = job.config;
   const Positions mean = mean_head(inputs.faces);
   const std::vector<double> areas =
-      face_areas(inputs.faces.topology, inputs.skin, mean, config.distance.area,
-                 config.faces.front, inputs.distance_mask);
+      face_areas(inputs.faces.topology, inputs.skin, mean, config.distance.area, config.faces.front,
+                 inputs.distance_mask);
   const SampleCells cells = find_sample_cells(inputs.adjacency, mean, prepared.samples);
   FaceSpace space(sample_heads(inputs.faces, inputs.regions, prepared.samples,
                                prepared.trajectories, inputs.max_level, mm_per(config.faces.units)),
