@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 /// Raised whenever a change of the code alters what an entry holds.
-constexpr int kPrepareVersion = 2;
+constexpr int kPrepareVersion = 3;
 constexpr Index kSamples = 2500;
 
 Positions mean_head(const FaceSet& faces) {

@@ -22,10 +22,10 @@ class PointGrid {
   };
   /// The nearest vertex within `reach` of a point; of equals the first.
   Nearest nearest(const Eigen::Vector3d& point, double reach) const;
-  Nearest nearest(const Eigen::Vector3d& point) const { return nearest(point, HUGE_REACH); }
+  Nearest nearest(const Eigen::Vector3d& point) const { return nearest(point, kHugeReach); }
 
  private:
-  static constexpr double HUGE_REACH = 1e300;
+  static constexpr double kHugeReach = 1e300;
   using Cell = std::array<Index, 3>;
 
   Cell cell_of(const Eigen::Vector3d& point) const;
