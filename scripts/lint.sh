@@ -41,7 +41,7 @@ changed_since() {
         if [ -f "${file%.h}.cpp" ]; then
           echo "${file%.h}.cpp"
         else
-          sources 'src/*.cpp' 'tests/*.cpp' | xargs grep -lF "\"${file#*/}\"" | sed -n 1p
+          sources 'src/*.cpp' 'tests/*.cpp' | xargs grep -lF "\"${file#*/}\"" | sed -n 1p || true
         fi
         ;;
     esac

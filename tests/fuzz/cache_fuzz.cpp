@@ -29,8 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const float value : head->levels.fields) all += value;
     all += head->levels.mixing.sum() + head->trajectory.sum();
     if (head->levels.rank > shape.nodes) std::abort();
-    static volatile double keep;
-    keep = all;
+    if (all == 1e300) std::abort();  // keeps the sum from being left out
   } catch (const crowdface::Error&) {
   }
   return 0;
