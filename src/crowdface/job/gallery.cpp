@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 #include <system_error>
@@ -160,7 +161,7 @@ std::string GalleryMeshes::shared_script() const {
   std::string shades;
   for (const std::uint32_t vertex : mesh_.vertices) {
     for (int c = 0; c < 3; ++c) {
-      shades += static_cast<char>(static_cast<int>(255 * colours(vertex, c) + 0.5F));
+      shades += static_cast<char>(std::lround(255 * colours(vertex, c)));
     }
   }
   Json json;
