@@ -24,8 +24,8 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
     const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
-      const int place = result.quotas[index - 1] + 1;  // those of no quota come first
-      const auto& targets = targets_of[static_cast<std::size_t>(place)];
+      const int slot = result.quotas[index - 1] + 1;  // those of no quota come first
+      const auto& targets = targets_of[static_cast<std::size_t>(slot)];
       searches.emplace_back(
           [&casting, &targets, index](std::uint32_t attempt) {
             return draw_face(casting, index, attempt, targets);

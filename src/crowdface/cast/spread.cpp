@@ -50,8 +50,8 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
   parallel_for_each(static_cast<Index>(size), [&](Index p) {
     const auto at = static_cast<std::size_t>(p);
     if (at % 1024 == 0) throw_if_interrupted();
-    const int place = schedule[at] + 1;  // those of no quota come first
-    const auto& targets = targets_of[static_cast<std::size_t>(place)];
+    const int slot = schedule[at] + 1;  // those of no quota come first
+    const auto& targets = targets_of[static_cast<std::size_t>(slot)];
     for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
       const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
       Recipe recipe = draw_recipe(casting, {}, key, targets);

@@ -171,13 +171,13 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (frames_.back().node.kind == YamlNode::Kind::kList) {
       frames_.back().node.items.push_back(std::move(node));
     } else if (expects_key()) {
-      take_key(std::move(node));
+      take_key(node);
     } else {
       take_value(std::move(node));
     }
   }
 
-  void take_key(YamlNode node) {
+  void take_key(const YamlNode& node) {
     Frame& frame = frames_.back();
     frame.has_key = true;
     frame.key_refused = true;
