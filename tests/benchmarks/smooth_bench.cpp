@@ -16,6 +16,7 @@
 #include "crowdface/core/random.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/subdivision.h"
+#include "crowdface/smooth/chebyshev_series.h"
 #include "crowdface/smooth/iterate.h"
 #include "crowdface/smooth/level_basis.h"
 #include "crowdface/synth/synthetic_head.h"
@@ -199,6 +200,38 @@ void BM_FilterPass(benchmark::State& state) {
 }
 BENCHMARK(BM_FilterPass<float>)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(8);
 BENCHMARK(BM_FilterPass<double>)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(8);
+
+/// One level of 20,000 iterations to 10⁻⁸ of the head's size, on tiles that are there: what as many
+/// sweeps give.
+template <class T>
+void BM_OneLevel(benchmark::State& state) {
+  const Subject& s = subject(bench::size(kLarge, kSmall), state.range(0));
+  const auto level = static_cast<std::uint64_t>(bench::size(20'000, 300));
+  double seconds = 0;
+  FilterInput<T> input{s.filter.rows_of<T>(s.mesh.positions), {}};
+  input.series = {power_series(OperatorKind::kUmbrella, level, 1e-8)};
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    benchmark::DoNotOptimize(s.filter.template run<T>({&input, 1}));
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  state.counters["products"] = static_cast<double>(input.series.front().size() - 1);
+  state.counters["times_faster"] = eigen_sweep_seconds(s) * static_cast<double>(level) / seconds;
+}
+BENCHMARK(BM_OneLevel<float>)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1)
+    ->ArgName("order")
+    ->Arg(kGrid)
+    ->Arg(kSubdivided)
+    ->Arg(kShuffled);
+BENCHMARK(BM_OneLevel<double>)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1)
+    ->ArgName("order")
+    ->Arg(kGrid);
 
 /// Tiles, filter and basis of one head: what `crowdface prepare` does for the first of a set.
 void BM_PrepareHead(benchmark::State& state) {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <set>
 
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
@@ -12,16 +10,10 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/face_builder.h"
+#include "crowdface/job/mesh_judge.h"
 
 namespace crowdface {
 namespace {
-
-Positions mean_head(const FaceSet& faces) {
-  Positions mean = Positions::Zero(faces.topology.vertex_count, 3);
-  for (const Head& head : faces.heads) mean += head.positions;
-  return mean / static_cast<double>(faces.heads.size());
-}
 
 std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& head_distances) {
   const auto heads = static_cast<Index>(config.faces.names.size());
@@ -185,23 +177,6 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   }
   for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
   throw Unsatisfiable(message);
-}
-
-/// Builds candidates and judges their whole meshes, if the config asks for it.
-MeshDefects mesh_defects(const Job& job, const Prepared& prepared) {
-  if (job.config.believability.meshes != BelievabilityOptions::Meshes::kJudge) return {};
-  const FaceSet& faces = job.inputs.faces;
-  std::set<Index> targets;
-  for (std::size_t h = 0; h < faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
-  const auto builder = std::make_shared<FaceBuilder>(job, prepared);
-  const auto check =
-      std::make_shared<SkinCheck>(faces.topology, job.inputs.skin, faces.heads, targets);
-  return [builder, check](const Recipe& recipe) {
-    const Recipe* one = &recipe;
-    Positions face;
-    builder->build(std::span(&one, 1), std::span(&face, 1));
-    return check->compare(face, recipe.target);
-  };
 }
 
 }  // namespace

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The casting part of the report.
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/casting.h"
+#include "crowdface/job/rounded.h"
 
 namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double rounded(double value) {
-  return std::round(value * 1e4) / 1e4;
-}
 
 Json to_json(const Quartiles& q) {
   if (q.count == 0) return nullptr;

@@ -28,12 +28,6 @@ constexpr std::size_t kMostTriangles = 24'000;
 constexpr std::array<std::string_view, 4> kPageFiles = {"index.html", "gallery.js", "gallery.css",
                                                         "three.LICENSE.txt"};
 
-Positions mean_of(const FaceSet& faces) {
-  Positions mean = Positions::Zero(faces.topology.vertex_count, 3);
-  for (const Head& head : faces.heads) mean += head.positions;
-  return mean / static_cast<double>(faces.heads.size());
-}
-
 std::vector<const Positions*> positions_of(const FaceSet& faces) {
   std::vector<const Positions*> heads;
   for (const Head& head : faces.heads) heads.push_back(&head.positions);
@@ -142,7 +136,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   for (const SurfaceKind kind : surfaces_of(config, inputs).kinds) {
     drawn.push_back(kind != SurfaceKind::kHidden);
   }
-  mesh_ = reduce_mesh(faces.topology, mean_of(faces), drawn, kMostTriangles);
+  mesh_ = reduce_mesh(faces.topology, mean_head(faces), drawn, kMostTriangles);
   fans_ = reduced_fans(faces.topology, mesh_);
   const std::vector<const Positions*> heads = positions_of(faces);
   frame_ = PackingFrame::around(heads);
@@ -156,8 +150,8 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
 
 std::string GalleryMeshes::shared_script() const {
   const VertexColours colours =
-      surface_colours(inputs_.faces.topology, surfaces_of(config_, inputs_), mean_of(inputs_.faces),
-                      config_.faces.front);
+      surface_colours(inputs_.faces.topology, surfaces_of(config_, inputs_),
+                      mean_head(inputs_.faces), config_.faces.front);
   std::string shades;
   for (const std::uint32_t vertex : mesh_.vertices) {
     for (int c = 0; c < 3; ++c) {

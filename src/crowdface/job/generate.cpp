@@ -11,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "crowdface/cast/face_judge.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -24,11 +23,12 @@
 #include "crowdface/job/casting.h"
 #include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_lock.h"
+#include "crowdface/job/crowd_sheets.h"
 #include "crowdface/job/face_ledger.h"
 #include "crowdface/job/face_stages.h"
 #include "crowdface/job/ledger.h"
+#include "crowdface/job/mesh_judge.h"
 #include "crowdface/job/mesh_writers.h"
-#include "crowdface/job/pictures.h"
 #include "crowdface/job/report.h"
 #include "crowdface/job/resume.h"
 
@@ -164,50 +164,6 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
   return warnings;
 }
 
-/// Whether whole meshes are judged, as the config asks.
-bool skin_is_judged(const Job& job) {
-  constexpr Index kMostFaces = 200'000;  // polygons; beyond that it would rule the time of a run
-  const BelievabilityOptions& believability = job.config.believability;
-  using Meshes = BelievabilityOptions::Meshes;
-  return believability.check && believability.meshes != Meshes::kNone &&
-         (believability.meshes != Meshes::kAuto ||
-          job.inputs.faces.topology.face_count() <= kMostFaces);
-}
-
-std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>& crowd) {
-  if (!skin_is_judged(job)) return nullptr;
-  std::set<Index> targets;
-  for (const Recipe& recipe : crowd) targets.insert(recipe.target);
-  return std::make_unique<SkinCheck>(job.inputs.faces.topology, job.inputs.skin,
-                                     job.inputs.faces.heads, targets);
-}
-
-/// Faces whose whole mesh goes beyond a limit that their samples kept.
-std::vector<std::string> judge_meshes(const Job& job, const std::vector<Recipe>& crowd,
-                                      const std::vector<FaceFiles>& files) {
-  const BelievabilityOptions& limits = job.config.believability;
-  std::vector<std::string> beyond;
-  for (std::size_t i = 0; i < crowd.size(); ++i) {
-    if (!files[i].skin) continue;
-    if (limit_passed(limits, *files[i].skin)) beyond.push_back(crowd[i].id);
-  }
-  if (beyond.empty()) return {};
-  constexpr std::size_t kNamed = 8;
-  const std::size_t count = beyond.size();
-  if (count > kNamed) {
-    beyond.resize(kNamed);
-    beyond.emplace_back("…");
-  }
-  const std::string warning = concat(
-      count, count == 1 ? " face goes" : " faces go",
-      " beyond a limit of believability on the whole mesh, though not at the samples: ",
-      join(beyond),
-      "; report.json says by how much; a review can reject them, and \"believability: {meshes: "
-      "judge}\" casts none");
-  log_warning(warning);
-  return {warning};
-}
-
 void tell_dry_run(const Job& job) {
   const Config& config = job.config;
   std::uint64_t faces = config.crowd.count + config.recipes.size();
@@ -225,27 +181,6 @@ void tell_dry_run(const Job& job) {
 enum class Purpose {
   kGenerate,  ///< build what is missing
   kGather,    ///< refuse if a face is missing
-};
-
-/// The crowd's pictures, if it has any. Made ready when they are first asked for, as that takes a
-/// while, and a run that finds all done needs none.
-class LazyPictures {
- public:
-  LazyPictures(const Job& job, const CrowdDirectory& directory)
-      : job_(job), directory_(directory) {}
-  bool wanted() const { return job_.config.output.contact_sheet.has_value(); }
-  const CrowdPictures& get() {
-    if (!pictures_) {
-      pictures_ =
-          std::make_unique<CrowdPictures>(job_, *job_.config.output.contact_sheet, directory_);
-    }
-    return *pictures_;
-  }
-
- private:
-  const Job& job_;
-  const CrowdDirectory& directory_;
-  std::unique_ptr<CrowdPictures> pictures_;
 };
 
 /// Builds the faces that are not done; their files take their places in `so_far`.
@@ -266,36 +201,6 @@ StageBusy build_missing(const Job& job, const CrowdDirectory& directory, const C
     so_far.files[so_far.todo[f]] = std::move(built.files[f]);
   }
   return built.busy;
-}
-
-/// Contact sheets, gallery and what they need, unless they are there: they follow from the faces'
-/// pictures and meshes, the config and the page.
-/// \return how many pages the faces take.
-std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
-                        const std::vector<FaceFiles>& files, LazyPictures& pictures,
-                        Ledger& ledger) {
-  constexpr const char* kItem = "sheets";
-  constexpr int kSheetVersion = 2;  // raised whenever a change of the code alters what is made here
-  const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
-  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
-  Hasher hasher;
-  hasher.add(kSheetVersion).add(job.settings);
-  hasher.add(effective_config(job.config, directory.root)).add(gallery_page_digest(job.config));
-  for (std::size_t i = 0; i < crowd.size(); ++i) {
-    hasher.add(crowd[i].id).add(files[i].picture->digest);
-    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
-  }
-  const Digest key = hasher.digest();
-  // What faces are compared with may have changed since.
-  const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
-  if (!may_change && ledger.proven(kItem, key)) return sheet_pages(sheet, crowd.size());
-  pictures.get().write_heads();
-  pictures.get().write_founders(cast_job.cast.founders, FaceBuilder(job, cast_job.prepared));
-  const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast_job.cast));
-  std::vector<std::string> names;
-  for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
-  ledger.record(kItem, key, names);
-  return pages;
 }
 
 /// Everything after the crowd is cast and the folder is ready.
@@ -342,7 +247,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {
-      return make_sheets(job, directory, cast_job, so_far.files, pictures, ledger);
+      return make_sheets(job, directory, prepared, cast_job.cast, so_far.files, pictures, ledger);
     });
   }
   write(directory.report(),
@@ -380,8 +285,7 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   if (!options.shard.whole() && options.replace == Replace::kForce) {
     throw UsageError(
         "--force does not go with --shard, as one shard would remove what another made; replace "
-        "the "
-        "old crowd with crowdface plan --force first");
+        "the old crowd with crowdface plan --force first");
   }
   const LogMemory memory;  // the crowd's log is opened once there is a crowd
   StageSeconds stages;
@@ -412,30 +316,6 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
   write_plan(job, directory, crowd.cast,
              [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });
   log_info(concat(crowd.cast.crowd.size(), " recipes in ", directory.plan().string()));
-}
-
-void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set) {
-  const CrowdDirectory directory{crowd_directory};
-  ConfigOverrides overrides;
-  overrides.set = set;
-  const Job job = load_job(directory.config(), overrides);
-  if (!job.config.output.contact_sheet) {
-    throw UsageError(concat(directory.config().string(),
-                            ": this crowd has no contact sheet; ask for one with --set "
-                            "output.contact_sheet='{columns: 6}'"));
-  }
-  std::vector<Recipe> crowd;
-  std::vector<std::string> ids;
-  for (PlanLine& line : read_plan(directory.plan(), job.names)) {
-    ids.push_back(line.recipe.id);
-    crowd.push_back(std::move(line.recipe));
-  }
-  const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
-  const CrowdPictures pictures(job, *job.config.output.contact_sheet, directory);
-  pictures.write_heads();
-  pictures.write_faces(ids);
-  const std::size_t pages = pictures.finish(crowd, likeness);
-  log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
 }
 
 }  // namespace crowdface

@@ -2,7 +2,6 @@
 #include "crowdface/job/pictures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <system_error>
 
 #include "crowdface/core/file.h"
@@ -12,6 +11,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/mesh_writers.h"
+#include "crowdface/job/rounded.h"
 
 namespace crowdface {
 namespace {
@@ -118,7 +118,7 @@ CrowdLikeness crowd_likeness(const Cast& cast) {
   CrowdLikeness likeness{cast.anchors, find_likeness(cast.places, kNeighbours)};
   for (std::vector<Neighbour>& near : likeness.likeness.near) {
     // As it stands in the file, so that pictures made from that are the same.
-    for (Neighbour& other : near) other.mm = std::round(other.mm * 1e4) / 1e4;
+    for (Neighbour& other : near) other.mm = rounded(other.mm);
   }
   return likeness;
 }

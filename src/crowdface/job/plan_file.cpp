@@ -9,6 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/rounded.h"
 
 namespace crowdface {
 namespace {
@@ -17,11 +18,6 @@ using Json = nlohmann::ordered_json;
 
 const std::string& name_at(const std::vector<std::string>& names, Index i) {
   return names[static_cast<std::size_t>(i)];
-}
-
-/// Distances are for reading: four decimals, a tenth of a micrometre.
-double rounded_mm(double mm) {
-  return std::round(mm * 1e4) / 1e4;
 }
 
 template <class T>
@@ -210,9 +206,9 @@ std::string format_recipe(const Recipe& recipe, const PlanNames& names, const Di
   if (recipe.nearest) {
     const Nearest& nearest = *recipe.nearest;
     json["nearest"] = {{"face", name_at(names.heads, nearest.head)},
-                       {"face_mm", rounded_mm(nearest.head_mm)},
+                       {"face_mm", rounded(nearest.head_mm)},
                        {"crowd", or_null(nearest.crowd)},
-                       {"crowd_mm", nearest.crowd ? Json(rounded_mm(nearest.crowd_mm)) : Json()}};
+                       {"crowd_mm", nearest.crowd ? Json(rounded(nearest.crowd_mm)) : Json()}};
   }
   json["settings"] = settings.hex();
   return json.dump();
@@ -266,9 +262,9 @@ std::string format_csv(const std::vector<Recipe>& crowd, const PlanNames& names)
     const bool near = recipe.nearest.has_value();
     const bool near_crowd = near && recipe.nearest->crowd;
     row.push_back(near ? csv_field(name_at(names.heads, recipe.nearest->head)) : "");
-    row.push_back(near ? format_number(rounded_mm(recipe.nearest->head_mm)) : "");
+    row.push_back(near ? format_number(rounded(recipe.nearest->head_mm)) : "");
     row.push_back(near_crowd ? csv_field(*recipe.nearest->crowd) : "");
-    row.push_back(near_crowd ? format_number(rounded_mm(recipe.nearest->crowd_mm)) : "");
+    row.push_back(near_crowd ? format_number(rounded(recipe.nearest->crowd_mm)) : "");
     table += join(row, ",") + "\r\n";
   }
   return table;

@@ -19,12 +19,6 @@ namespace {
 constexpr int kPrepareVersion = 3;
 constexpr Index kSamples = 2500;
 
-Positions mean_head(const FaceSet& faces) {
-  Positions mean = Positions::Zero(faces.topology.vertex_count, 3);
-  for (const Head& head : faces.heads) mean += head.positions;
-  return mean / static_cast<double>(faces.heads.size());
-}
-
 Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& samples,
               std::size_t head) {
   return Hasher()

@@ -12,16 +12,13 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
+#include "crowdface/job/rounded.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double rounded(double value) {
-  return std::round(value * 1e4) / 1e4;
-}
 
 /// Smallest, median and largest; null where there is nothing.
 Json distribution(const Quartiles& values) {

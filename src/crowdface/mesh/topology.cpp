@@ -27,6 +27,12 @@ std::span<const std::uint32_t> uvs_of_face(const Topology& topology, Index f) {
 
 }  // namespace
 
+Positions mean_head(const FaceSet& faces) {
+  Positions mean = Positions::Zero(faces.topology.vertex_count, 3);
+  for (const Head& head : faces.heads) mean += head.positions;
+  return mean / static_cast<double>(faces.heads.size());
+}
+
 std::string first_difference(const Topology& expected, const Topology& found) {
   if (expected.vertex_count != found.vertex_count) {
     return concat("expected ", expected.vertex_count, " vertices, found ", found.vertex_count);

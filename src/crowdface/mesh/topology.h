@@ -58,6 +58,9 @@ struct FaceSet {
   std::vector<Head> heads;
 };
 
+/// The mean of all heads, #V by 3.
+Positions mean_head(const FaceSet& faces);
+
 /// The first difference between two topologies as a sentence ("face 12: expected vertices 1 2 3 4,
 /// found 1 2 4 3"; faces and vertices counted from 1 as in OBJ), or an empty text if there is none.
 std::string first_difference(const Topology& expected, const Topology& found);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/parts/follower.h"
 
-#include <optional>
+#include <algorithm>
+#include <cmath>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/normals.h"
@@ -19,12 +20,6 @@ constexpr double kEyeReach = 1, kReach = 0.03;
 /// How near to the skin a part may come to pass through it, and how much of a clearance is kept at
 /// least: shares of the skin's extent.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
-
-Positions mean_of(const std::vector<Head>& heads) {
-  Positions mean = Positions::Zero(heads.front().positions.rows(), 3);
-  for (const Head& head : heads) mean += head.positions;
-  return mean / static_cast<double>(heads.size());
-}
 
 /// A share of the area of the faces around each vertex, #V.
 std::vector<double> vertex_areas(const Topology& topology, const Positions& positions) {
@@ -76,7 +71,7 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
                            PartShape shape) {
   auto state =
       std::make_unique<State>(State{faces, FacesAround(faces.topology), shape, 0, {}, {}, {}});
-  const Positions mean = mean_of(faces.heads);
+  const Positions mean = mean_head(faces);
   const FacesAround& around = state->around;
   const std::vector<double> areas = vertex_areas(faces.topology, mean);
   std::vector<bool> is_skin(static_cast<std::size_t>(faces.topology.vertex_count), true);

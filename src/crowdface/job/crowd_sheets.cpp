@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/job/crowd_sheets.h"
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/job/config_writer.h"
+#include "crowdface/job/face_builder.h"
+#include "crowdface/job/face_ledger.h"
+#include "crowdface/job/generate.h"
+#include "crowdface/job/likeness_file.h"
+#include "crowdface/job/resume.h"
+
+namespace crowdface {
+
+namespace fs = std::filesystem;
+
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
+                        const Cast& cast, const std::vector<FaceFiles>& files,
+                        LazyPictures& pictures, Ledger& ledger) {
+  constexpr const char* kItem = "sheets";
+  constexpr int kSheetVersion = 2;  // raised whenever a change of the code alters what is made here
+  const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
+  const std::vector<Recipe>& crowd = cast.crowd;
+  Hasher hasher;
+  hasher.add(kSheetVersion).add(job.settings);
+  hasher.add(effective_config(job.config, directory.root)).add(gallery_page_digest(job.config));
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    hasher.add(crowd[i].id).add(files[i].picture->digest);
+    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
+  }
+  const Digest key = hasher.digest();
+  // What faces are compared with may have changed since.
+  const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
+  if (!may_change && ledger.proven(kItem, key)) return sheet_pages(sheet, crowd.size());
+  pictures.get().write_heads();
+  pictures.get().write_founders(cast.founders, FaceBuilder(job, prepared));
+  const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast));
+  std::vector<std::string> names;
+  for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
+  ledger.record(kItem, key, names);
+  return pages;
+}
+
+void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set) {
+  const CrowdDirectory directory{crowd_directory};
+  ConfigOverrides overrides;
+  overrides.set = set;
+  const Job job = load_job(directory.config(), overrides);
+  if (!job.config.output.contact_sheet) {
+    throw UsageError(concat(directory.config().string(),
+                            ": this crowd has no contact sheet; ask for one with --set "
+                            "output.contact_sheet='{columns: 6}'"));
+  }
+  std::vector<Recipe> crowd;
+  std::vector<std::string> ids;
+  for (PlanLine& line : read_plan(directory.plan(), job.names)) {
+    ids.push_back(line.recipe.id);
+    crowd.push_back(std::move(line.recipe));
+  }
+  const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
+  const CrowdPictures pictures(job, *job.config.output.contact_sheet, directory);
+  pictures.write_heads();
+  pictures.write_faces(ids);
+  const std::size_t pages = pictures.finish(crowd, likeness);
+  log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "crowdface/job/casting.h"
+#include "crowdface/job/ledger.h"
+#include "crowdface/job/pictures.h"
+#include "crowdface/job/report.h"
+
+namespace crowdface {
+
+/// The crowd's pictures, if it has any. Made ready when they are first asked for, as that takes a
+/// while, and a run that finds all done needs none.
+class LazyPictures {
+ public:
+  LazyPictures(const Job& job, const CrowdDirectory& directory)
+      : job_(job), directory_(directory) {}
+  bool wanted() const { return job_.config.output.contact_sheet.has_value(); }
+  const CrowdPictures& get() {
+    if (!pictures_) {
+      pictures_ =
+          std::make_unique<CrowdPictures>(job_, *job_.config.output.contact_sheet, directory_);
+    }
+    return *pictures_;
+  }
+
+ private:
+  const Job& job_;
+  const CrowdDirectory& directory_;
+  std::unique_ptr<CrowdPictures> pictures_;
+};
+
+/// Contact sheets, gallery and what they need, unless they are there: they follow from the faces'
+/// pictures and meshes, the config and the page.
+/// \param files  of each face of the crowd.
+/// \return how many pages the faces take.
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
+                        const Cast& cast, const std::vector<FaceFiles>& files,
+                        LazyPictures& pictures, Ledger& ledger);
+
+}  // namespace crowdface
