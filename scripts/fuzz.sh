@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Fuzzes the parsers, one after the other, with AddressSanitizer and UBSan. What is found stays in
-# build/fuzz/found; once mended it belongs into tests/fuzz/corpus, where a test reads it for ever.
+# Fuzzes the parsers, one after the other, with AddressSanitizer and UBSan, and says how much of
+# each parser's own code the inputs reach. What is found stays in build/fuzz/found; once mended it
+# belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
 #   scripts/fuzz.sh [SECONDS [PARSER …]]    by default 1200 s each of obj mask yaml review plan cache
-#                                           ledger; needs the Debian packages clang, libclang-rt-14-dev
+#                                           ledger; needs the Debian packages clang-14, llvm-14,
+#                                           libclang-rt-14-dev. 0 s: coverage of what is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-1200}
@@ -12,19 +14,67 @@ shift || true
 parsers=("$@")
 [ ${#parsers[@]} -gt 0 ] || parsers=(obj mask yaml review plan cache ledger)
 
+# The files that make a parser, in src/crowdface: what they share is counted with each.
+declare -A sources=(
+  [obj]='io/obj_file.cpp io/obj_scan.cpp'
+  [mask]='io/image.cpp'
+  [yaml]='job/config_reader*.cpp job/config_values.cpp job/yaml.cpp job/complaints.cpp'
+  [review]='job/config_reader_review.cpp job/yaml.cpp'
+  [plan]='job/plan_file.cpp job/yaml.cpp'
+  [cache]='job/head_cache.cpp'
+  [ledger]='job/ledger.cpp'
+)
+
 scripts/build.sh fuzz $(printf 'crowdface_%s_fuzz ' "${parsers[@]}")
-mkdir -p build/fuzz/found
+out=$PWD/build/fuzz
+mkdir -p "$out/found"
+TMPDIR=$(mktemp -d /dev/shm/crowdface_fuzz.XXXXXX) # what a target writes stays in memory
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+# The words that the readers of configs, plans and reviews know.
+grep -oh '"[a-z_]*"' src/crowdface/job/{config,plan,yaml}*.cpp | sort -u >"$out/words.dict"
+
+# Seeds that are no files of tests/fuzz.
+more_seeds() {
+  case $1 in
+  yaml) echo configs configs/paper ;;
+  mask) echo masks ;;
+  esac
+}
+
+fuzz() {
+  local parser=$1 dictionary=()
+  case $parser in yaml | review | plan) dictionary=(-dict="$out/words.dict") ;; esac
+  "$out/bin/crowdface_${parser}_fuzz" "$out/corpus/$parser" "tests/fuzz/corpus/$parser" \
+    $(more_seeds "$parser") -max_total_time="$seconds" -max_len=65536 -rss_limit_mb=4096 \
+    -timeout=20 -print_final_stats=1 "${dictionary[@]}" -artifact_prefix="$out/found/$parser-" \
+    >"$out/$parser.log" 2>&1
+}
+
+# Lines of the parser's own files that all its inputs together reach, in percent.
+coverage() {
+  local parser=$1 program=$out/bin/crowdface_${parser}_fuzz files=()
+  for file in ${sources[$parser]}; do files+=(src/crowdface/$file); done
+  LLVM_PROFILE_FILE=$out/$parser.profraw "$program" "$out/corpus/$parser" \
+    "tests/fuzz/corpus/$parser" $(more_seeds "$parser") -runs=0 >"$out/$parser.replay.log" 2>&1
+  llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw"
+  llvm-cov-14 show "$program" -instr-profile="$out/$parser.profdata" "${files[@]}" \
+    >"$out/$parser.lines.txt"
+  llvm-cov-14 report "$program" -instr-profile="$out/$parser.profdata" "${files[@]}" |
+    tee "$out/$parser.coverage.txt" | awk '$1 == "TOTAL" {print $10}'
+}
+
 status=0
 for parser in "${parsers[@]}"; do
-  mkdir -p "build/fuzz/corpus/$parser"
-  log=build/fuzz/$parser.log
-  if build/fuzz/bin/crowdface_${parser}_fuzz "build/fuzz/corpus/$parser" "tests/fuzz/corpus/$parser" \
-    -max_total_time="$seconds" -max_len=65536 -rss_limit_mb=4096 -timeout=20 -print_final_stats=1 \
-    -artifact_prefix="build/fuzz/found/$parser-" >"$log" 2>&1; then
-    printf '%-8s %12s runs, nothing found\n' "$parser" \
-      "$(awk '/number_of_executed_units/ {print $2}' "$log")"
+  mkdir -p "$out/corpus/$parser"
+  start=$SECONDS
+  if [ "$seconds" -eq 0 ] || fuzz "$parser"; then
+    printf '%-8s %6d s %12s runs, nothing found, %s of its lines\n' "$parser" \
+      $((SECONDS - start)) \
+      "$(awk '/number_of_executed_units/ {print $2}' "$out/$parser.log" 2>/dev/null || echo 0)" \
+      "$(coverage "$parser")"
   else
-    printf '%-8s FOUND, see %s\n' "$parser" "$log"
+    printf '%-8s %6d s FOUND, see %s\n' "$parser" $((SECONDS - start)) "build/fuzz/$parser.log"
     status=1
   fi
 done

@@ -2,35 +2,49 @@
 // An entry's checksum would stop the fuzzer at once, so the input gets the right one at its end.
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 #include "crowdface/core/error.h"
-#include "crowdface/core/file.h"
 #include "crowdface/job/head_cache.h"
 
 #include "fuzz/input_file.h"
 
+namespace {
+
+using namespace crowdface;
+
+/// Every number that is promised can be read.
+void read_all(const PreparedHead& head, const HeadCacheShape& shape) {
+  double all = 0;
+  for (const float value : head.levels.fields) all += value;
+  all += head.levels.mixing.sum() + head.trajectory.sum();
+  if (head.levels.rank > shape.nodes) std::abort();
+  if (all == 1e300) std::abort();  // keeps the sum from being left out
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto folder = std::filesystem::temp_directory_path() /
                              ("crowdface_fuzz_cache_" + std::to_string(::getpid()));
-  const crowdface::Digest key = {1, 2};
-  const crowdface::HeadCacheShape shape = {8, 4, 3, 5, 60, crowdface::Levels::kBasis};
-  std::string bytes(crowdface::fuzz::text_of(data, size));
-  crowdface::Digest sum;
+  const Digest key = {1, 2};
+  std::string bytes(fuzz::text_of(data, size));
+  Digest sum;
   if (bytes.size() >= sizeof sum) {
-    sum = crowdface::hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof sum));
+    sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof sum));
     std::memcpy(bytes.data() + bytes.size() - sizeof sum, &sum, sizeof sum);
   }
-  std::filesystem::create_directories(folder);
-  crowdface::write_file(crowdface::cache_entry(folder, key), bytes);
-  try {
-    const auto head = crowdface::read_cached_head(folder, key, shape);
-    double all = 0;  // every number that is promised can be read
-    for (const float value : head->levels.fields) all += value;
-    all += head->levels.mixing.sum() + head->trajectory.sum();
-    if (head->levels.rank > shape.nodes) std::abort();
-    if (all == 1e300) std::abort();  // keeps the sum from being left out
-  } catch (const crowdface::Error&) {
+  std::filesystem::create_directories(cache_entry(folder, key).parent_path());
+  std::ofstream(cache_entry(folder, key), std::ios::binary) << bytes;
+  for (const Levels levels : {Levels::kBasis, Levels::kExact, Levels::kCubic}) {
+    const HeadCacheShape shape = {8, 4, 3, 5, 60, levels};
+    try {
+      if (const auto head = read_cached_head(folder, key, shape)) read_all(*head, shape);
+    } catch (const Error&) {
+    }
   }
   return 0;
 }

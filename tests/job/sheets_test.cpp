@@ -9,6 +9,7 @@
 #include "crowdface/io/image.h"
 #include "crowdface/job/generate.h"
 #include "crowdface/job/likeness_file.h"
+#include "crowdface/job/verify.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
@@ -120,6 +121,23 @@ TEST(Sheets, AnotherFormLeavesNothingOfTheOldOne) {
   EXPECT_TRUE(fs::exists(folder.out() / "sheets/sheet_001.png"));
   EXPECT_FALSE(fs::exists(folder.out() / "sheets/sheet_002.png"));
   EXPECT_FALSE(fs::exists(folder.out() / "sheets/sheets.pdf"));
+}
+
+TEST(Sheets, MadeAnewTheyAreVerifiedAndGivenBackAsTheConfigHasThem) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, rows: 2, cell: 48}";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const fs::path sheet = folder.out() / "sheets/sheet_001.png";
+  const std::string before = read_file(sheet);
+  for (const char* change : {"output.contact_sheet.columns=1", "output.contact_sheet.cell=64"}) {
+    remake_sheets(folder.out(), {change});
+    EXPECT_NE(read_file(sheet), before) << change;
+    EXPECT_TRUE(verify_crowd(folder.out()).good()) << change;
+    run(folder);
+    EXPECT_EQ(read_file(sheet), before) << change;
+    EXPECT_TRUE(verify_crowd(folder.out()).good()) << change;
+  }
 }
 
 TEST(Sheets, CompareShowsADistanceMapBesideEachFace) {

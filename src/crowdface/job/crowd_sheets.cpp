@@ -5,6 +5,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/config_writer.h"
+#include "crowdface/job/crowd_lock.h"
 #include "crowdface/job/face_builder.h"
 #include "crowdface/job/face_ledger.h"
 #include "crowdface/job/generate.h"
@@ -15,11 +16,22 @@ namespace crowdface {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* kItem = "sheets";  // in the ledger
+constexpr int kSheetVersion = 2;  // raised whenever a change of the code alters what is made here
+
+void record_sheets(const CrowdDirectory& directory, const Digest& key, Ledger& ledger) {
+  std::vector<std::string> names;
+  for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
+  ledger.record(kItem, key, names);
+}
+
+}  // namespace
+
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
                         const Cast& cast, const std::vector<FaceFiles>& files,
                         LazyPictures& pictures, Ledger& ledger) {
-  constexpr const char* kItem = "sheets";
-  constexpr int kSheetVersion = 2;  // raised whenever a change of the code alters what is made here
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
   const std::vector<Recipe>& crowd = cast.crowd;
   Hasher hasher;
@@ -36,9 +48,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
   pictures.get().write_heads();
   pictures.get().write_founders(cast.founders, FaceBuilder(job, prepared));
   const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast));
-  std::vector<std::string> names;
-  for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
-  ledger.record(kItem, key, names);
+  record_sheets(directory, key, ledger);
   return pages;
 }
 
@@ -52,6 +62,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             ": this crowd has no contact sheet; ask for one with --set "
                             "output.contact_sheet='{columns: 6}'"));
   }
+  const CrowdLock lock(directory, {});
   std::vector<Recipe> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {
@@ -63,6 +74,9 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   pictures.write_heads();
   pictures.write_faces(ids);
   const std::size_t pages = pictures.finish(crowd, likeness);
+  Ledger ledger(directory.root, directory.ledger(), directory.shard_ledgers());
+  record_sheets(directory, Hasher().add("made anew").digest(), ledger);
+  ledger.adopt({"renders", "gallery"});
   log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/ledger.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -185,6 +186,27 @@ void Ledger::write(const std::string& name, std::string_view bytes) {
   const LedgerEntry entry{name, content.digest, {{name, content}}, {}};
   if (!files_match(root_, entry)) write_file(root_ / name, bytes);
   record(entry);
+}
+
+void Ledger::adopt(const std::vector<std::string>& folders) {
+  const auto is_in_them = [&](const std::string& name) {
+    return std::any_of(folders.begin(), folders.end(),
+                       [&](const std::string& folder) { return name.starts_with(folder + '/'); });
+  };
+  const std::map<std::string, LedgerEntry> before = entries_;
+  for (const auto& [item, known] : before) {
+    LedgerEntry entry = known;
+    bool altered = false;
+    for (LedgerEntry::File& file : entry.files) {
+      if (!is_in_them(file.name)) continue;
+      const FileDigest content = hash_file(root_ / file.name);
+      altered = altered || content != file.content;
+      file.content = content;
+    }
+    if (!altered) continue;
+    entry.key = Hasher().add(entry.key).add("made anew").digest();
+    record(std::move(entry));
+  }
 }
 
 void Ledger::settle() {

@@ -69,6 +69,11 @@ class Ledger {
   /// Writes a file determined by nothing but its bytes, unless it is there, and records it.
   void write(const std::string& name, std::string_view bytes);
 
+  /// Takes over files that were made anew in another form than the config's: an item of which one
+  /// has other bytes now is recorded with them under another key, so that the next run makes it as
+  /// the config says. \param folders  only files in these are looked at.
+  void adopt(const std::vector<std::string>& folders);
+
   /// Puts the ledger in order: what this run found proven or recorded, sorted by item, and nothing
   /// else; the others are removed.
   void settle();
