@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Test 13 of docs/reliability.md across compilers and optimisation: builds the test of the golden
+# crowds with each and compares their hashes with tests/golden. Prints a line a build.
+#
+#   scripts/bits.sh [COMPILER-OPTIMISATION …]   default: g++-O0 g++-O2 g++-O3 clang++-O0 clang++-O2
+#                                               clang++-O3; clang++ needs the Debian package clang
+set -euo pipefail
+cd "$(dirname "$0")/.."
+builds=("$@")
+[ ${#builds[@]} -gt 0 ] || builds=(g++-O0 g++-O2 g++-O3 clang++-O0 clang++-O2 clang++-O3)
+scripts/install_dependencies.sh
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+
+status=0
+for build in "${builds[@]}"; do
+  folder=build/bits/$build
+  mkdir -p "$folder"
+  {
+    cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+      -DCMAKE_CXX_COMPILER="${build%-O*}" -DCMAKE_CXX_FLAGS_RELEASE="-O${build##*-O}" \
+      "${launcher[@]}" && cmake --build "$folder" --target crowdface_crowd_test
+  } >"$folder/build.log" 2>&1 || { tail -n 40 "$folder/build.log" >&2; exit 1; }
+  result=equal
+  "$folder/bin/crowdface_crowd_test" --gtest_filter='*Golden*' >"$folder/test.log" 2>&1 ||
+    { result=DIFFERENT status=1; }
+  passed=$(grep -c '^\[       OK' "$folder/test.log" || true)
+  printf '%-12s %s (%s tests passed)\n' "$build" "$result" "$passed"
+done
+exit $status
