@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 builds=("$@")
 [ ${#builds[@]} -gt 0 ] || builds=(g++-O0 g++-O2 g++-O3 clang++-O0 clang++-O2 clang++-O3)
-scripts/install_dependencies.sh
+scripts/install_dependencies.sh --fuzz
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 

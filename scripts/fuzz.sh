@@ -5,8 +5,7 @@
 # belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
 #   scripts/fuzz.sh [SECONDS [PARSER …]]    by default 1200 s each of obj mask yaml review plan cache
-#                                           ledger; needs the Debian packages clang-14, llvm-14,
-#                                           libclang-rt-14-dev. 0 s: coverage of what is there
+#                                           ledger. 0 s: coverage of what is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-1200}
@@ -25,6 +24,7 @@ declare -A sources=(
   [ledger]='job/ledger.cpp'
 )
 
+scripts/install_dependencies.sh --fuzz
 scripts/build.sh fuzz $(printf 'crowdface_%s_fuzz ' "${parsers[@]}")
 out=$PWD/build/fuzz
 mkdir -p "$out/found"

@@ -7,6 +7,7 @@
 #   scripts/install_dependencies.sh          what building needs, and most tests
 #   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in
 #   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
+#   scripts/install_dependencies.sh --fuzz   and what scripts/fuzz.sh and scripts/bits.sh need
 set -euo pipefail
 
 packages=(
@@ -29,7 +30,8 @@ case "${1-}" in
   "") ;;
   --test) packages+=(chromium) ;;
   --check) packages+=(clang-format clang-tidy) ;;
-  *) echo "usage: scripts/install_dependencies.sh [--test | --check]" >&2; exit 64 ;;
+  --fuzz) packages+=(clang llvm-14 libclang-rt-14-dev) ;;
+  *) echo "usage: scripts/install_dependencies.sh [--test | --check | --fuzz]" >&2; exit 64 ;;
 esac
 
 cannot() {
