@@ -41,9 +41,10 @@ timings = json.load(open(sys.argv[1]))
 heads, vertices, faces, size = (int(text) for text in sys.argv[2:])
 wall, busy = timings["seconds"], timings["busy_seconds"]
 making = wall["build"] + wall.get("sheets", 0)
-print("| heads | vertices | faces | prepare, s | faces an hour | " +
+print("| heads | vertices | faces | read, s | prepare, s | cast, s | build and sheets, s | faces an hour | " +
       " | ".join(f"{part}, s a face" for part in busy) + " | slowest | peak memory, GiB | written, GB |")
-print(f"| {heads} | {vertices:,} | {faces:,} | {wall['prepare']:.1f} | {3600 * faces / making:,.0f} | " +
+print(f"| {heads} | {vertices:,} | {faces:,} | {wall['read']:.1f} | {wall['prepare']:.1f} | {wall['cast']:.1f} | " +
+      f"{making:.1f} | {3600 * faces / making:,.0f} | " +
       " | ".join(f"{seconds / faces:.4f}" for seconds in busy.values()) +
       f" | {timings['slowest']} | {timings['peak_memory_bytes'] / 2**30:.2f} | {size / 1e9:.2f} |")
 PYTHON

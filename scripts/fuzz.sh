@@ -53,15 +53,26 @@ fuzz() {
 
 # Lines of the parser's own files that all its inputs together reach, in percent.
 coverage() {
-  local parser=$1 program=$out/bin/crowdface_${parser}_fuzz files=()
-  for file in ${sources[$parser]}; do files+=(src/crowdface/$file); done
+  local parser=$1 program=$out/bin/crowdface_${parser}_fuzz names
+  names=$(cd src/crowdface && printf '/%s ' ${sources[$parser]})
   LLVM_PROFILE_FILE=$out/$parser.profraw "$program" "$out/corpus/$parser" \
     "tests/fuzz/corpus/$parser" $(more_seeds "$parser") -runs=0 >"$out/$parser.replay.log" 2>&1
   llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw"
-  llvm-cov-14 show "$program" -instr-profile="$out/$parser.profdata" "${files[@]}" \
-    >"$out/$parser.lines.txt"
-  llvm-cov-14 report "$program" -instr-profile="$out/$parser.profdata" "${files[@]}" |
-    tee "$out/$parser.coverage.txt" | awk '$1 == "TOTAL" {print $10}'
+  llvm-cov-14 show "$program" -instr-profile="$out/$parser.profdata" >"$out/$parser.lines.txt"
+  llvm-cov-14 report "$program" -instr-profile="$out/$parser.profdata" >"$out/$parser.files.txt"
+  # Columns 8 and 9: lines of a file, and those that were missed.
+  awk -v names="$names" '
+    BEGIN {count = split(names, name, " ")}
+    {
+      for (i = 1; i <= count; ++i) {
+        if (length($1) >= length(name[i]) && \
+            substr($1, length($1) - length(name[i]) + 1) == name[i]) {
+          lines += $8
+          missed += $9
+        }
+      }
+    }
+    END {printf "%.1f %% of %d", 100 * (lines - missed) / lines, lines}' "$out/$parser.files.txt"
 }
 
 status=0
@@ -69,7 +80,7 @@ for parser in "${parsers[@]}"; do
   mkdir -p "$out/corpus/$parser"
   start=$SECONDS
   if [ "$seconds" -eq 0 ] || fuzz "$parser"; then
-    printf '%-8s %6d s %12s runs, nothing found, %s of its lines\n' "$parser" \
+    printf '%-8s %6d s %12s runs, nothing found, %s lines reached\n' "$parser" \
       $((SECONDS - start)) \
       "$(awk '/number_of_executed_units/ {print $2}' "$out/$parser.log" 2>/dev/null || echo 0)" \
       "$(coverage "$parser")"
