@@ -32,7 +32,7 @@ TMPDIR=$(mktemp -d /dev/shm/crowdface_fuzz.XXXXXX) # what a target writes stays 
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 # The words that the readers of configs, plans and reviews know.
-grep -oh '"[a-z_]*"' src/crowdface/job/{config,plan,yaml}*.cpp | sort -u >"$out/words.dict"
+grep -oh '"[a-z_][a-z_]*"' src/crowdface/job/{config,plan,yaml}*.cpp | sort -u >"$out/words.dict"
 
 # Seeds that are no files of tests/fuzz.
 more_seeds() {

@@ -16,6 +16,7 @@ namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 using testing::read_text;
 using testing::TemporaryFolder;
 
@@ -52,6 +53,38 @@ class ImageCorpus : public ::testing::Test {
 
   TemporaryFolder folder_;
 };
+
+// The decoder would take two gigabytes before it looks.
+TEST_F(ImageCorpus, AnExrHeaderThatClaimsTooMuchIsRefusedBeforeItIsDecoded) {
+  const std::string whole = picture("a.exr", OIIO::TypeDesc::FLOAT, 0.5F);
+  const auto refusal = [&](const std::string& bytes) -> std::string {
+    const fs::path file = folder_.write("mask.bin", bytes);
+    try {
+      read_image(file);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  for (const std::string& attribute :
+       {"channels\0chlist"s, "compression\0compression"s, "displayWindow\0box2i"s}) {
+    const std::size_t at = whole.find(attribute) + attribute.size() + 1;
+    ASSERT_LT(at, whole.size());
+    for (const char* size : {"\xff\xff\xff\x7f", "\xff\xff\xff\xff"}) {
+      std::string bytes = whole;
+      bytes.replace(at, 4, size, 4);
+      EXPECT_THAT(refusal(bytes), ::testing::HasSubstr("header runs beyond the file's end"));
+    }
+  }
+  const std::string window = "dataWindow\0box2i"s;
+  for (const int axis : {0, 1}) {
+    std::string bytes = whole;
+    const auto end =
+        whole.find(window) + window.size() + 5 + 8 + 4 * static_cast<std::size_t>(axis);
+    bytes.replace(end, 4, "\xff\xff\xff\x7f", 4);
+    EXPECT_THAT(refusal(bytes), ::testing::HasSubstr("2147483648"));
+  }
+}
 
 TEST_F(ImageCorpus, CutAnywhereIsRefused) {
   int refused = 0;

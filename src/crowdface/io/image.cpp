@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <string_view>
 #include <system_error>
 
 #include <OpenImageIO/filesystem.h>
@@ -14,43 +13,15 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/image_container.h"
 
 namespace crowdface {
 namespace {
 
 using std::filesystem::path;
-using namespace std::string_view_literals;
 
 [[noreturn]] void refuse(const path& file, const std::string& what) {
   throw InvalidInput(concat(file.string(), ": ", what));
-}
-
-/// The format's name in OpenImageIO, told by the file's first bytes; empty if it is not one we
-/// read.
-std::string format_of(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
-  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return "tiff";
-  if (bytes.starts_with("II+\0"sv) || bytes.starts_with("MM\0+"sv)) return "tiff";
-  if (bytes.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
-  return {};
-}
-
-std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = at; i < at + 4; ++i)
-    value = value << 8U | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
-/// Whether the chunks of a PNG run unbroken to its end mark: libpng is content without the last.
-bool png_is_whole(std::string_view bytes) {
-  std::size_t at = 8;
-  while (at + 12 <= bytes.size()) {
-    const std::size_t next = at + 12 + big_endian(bytes, at);
-    if (bytes.substr(at + 4, 4) == "IEND") return next <= bytes.size();
-    at = next;
-  }
-  return false;
 }
 
 std::unique_ptr<OIIO::ImageInput> open(const path& file, const std::string& format,
@@ -151,15 +122,16 @@ Image read_image(const path& file, const ImageLimits& limits) {
   std::string format;
   {
     const MappedFile mapped(file);
-    format = format_of(mapped.bytes());
+    format = image_format(mapped.bytes());
     if (format.empty()) {
       refuse(file, concat("expected a PNG, TIFF or OpenEXR image, found ",
                           mapped.bytes().empty()
                               ? "an empty file"
                               : "a file that begins with " + quoted(mapped.bytes().substr(0, 8))));
     }
-    if (format == "png" && !png_is_whole(mapped.bytes())) {
-      refuse(file, "is damaged or cut short: the PNG's end is missing");
+    if (const std::string defect = container_defect(format, mapped.bytes(), limits);
+        !defect.empty()) {
+      refuse(file, defect);
     }
   }
   OIIO::ImageSpec spec;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/image_container.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "crowdface/core/text.h"
+#include "crowdface/io/little_endian.h"
+
+namespace crowdface {
+namespace {
+
+using namespace std::string_view_literals;
+
+std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = at; i < at + 4; ++i)
+    value = value << 8U | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+/// Whether the chunks of a PNG run unbroken to its end mark: libpng is content without the last.
+bool png_is_whole(std::string_view bytes) {
+  std::size_t at = 8;
+  while (at + 12 <= bytes.size()) {
+    const std::size_t next = at + 12 + big_endian(bytes, at);
+    if (bytes.substr(at + 4, 4) == "IEND") return next <= bytes.size();
+    at = next;
+  }
+  return false;
+}
+
+/// One attribute of an OpenEXR header.
+struct Attribute {
+  std::string_view name, type, value;
+};
+
+/// The attributes of the headers of an OpenEXR file, one after the other. Each is a name and a type,
+/// both ended by a zero, the size of its value as 32 bits, and the value; an empty name ends a
+/// header.
+class ExrHeader {
+ public:
+  explicit ExrHeader(std::string_view bytes)
+      : bytes_(bytes), at_(std::min<std::size_t>(8, bytes.size())) {}  // magic number and version
+
+  bool at_end() const { return at_ < bytes_.size() && bytes_[at_] == '\0'; }
+  void skip_end() { ++at_; }
+
+  /// \return nothing if it is not whole.
+  std::optional<Attribute> next() {
+    Attribute attribute;
+    attribute.name = text();
+    attribute.type = text();
+    if (bytes_.size() - at_ < 4) return std::nullopt;
+    const auto size = number_at<std::uint32_t>(bytes_.data() + at_);
+    at_ += 4;
+    if (size > bytes_.size() - at_) return std::nullopt;
+    attribute.value = bytes_.substr(at_, size);
+    at_ += size;
+    return attribute;
+  }
+
+ private:
+  std::string_view text() {
+    const std::size_t end = std::min(bytes_.find('\0', at_), bytes_.size());
+    const std::string_view found = bytes_.substr(at_, end - at_);
+    at_ = std::min(end + 1, bytes_.size());
+    return found;
+  }
+
+  std::string_view bytes_;
+  std::size_t at_;
+};
+
+/// The decoder makes a table of all lines of the window, and lines of its width.
+std::string window_defect(const Attribute& attribute, const ImageLimits& limits) {
+  if (attribute.type != "box2i" || attribute.value.size() != 16) return {};
+  const auto side = [&](std::size_t axis) {
+    const auto low = number_at<std::int32_t>(attribute.value.data() + 4 * axis);
+    const auto high = number_at<std::int32_t>(attribute.value.data() + 8 + 4 * axis);
+    return std::int64_t{high} - low + 1;
+  };
+  const std::int64_t width = side(0), height = side(1);
+  if (width <= limits.max_side && height <= limits.max_side) return {};
+  return concat("expected at most ", limits.max_side, " pixels a side, found a data window of ",
+                width, " x ", height);
+}
+
+std::string exr_defect(std::string_view bytes, const ImageLimits& limits) {
+  constexpr std::uint32_t kManyParts = 0x1000;
+  const bool many =
+      bytes.size() >= 8 && (number_at<std::uint32_t>(bytes.data() + 4) & kManyParts) != 0;
+  ExrHeader header(bytes);
+  do {
+    while (!header.at_end()) {
+      const auto attribute = header.next();
+      if (!attribute) return "is damaged or cut short: its header runs beyond the file's end";
+      if (attribute->name != "dataWindow") continue;
+      if (std::string defect = window_defect(*attribute, limits); !defect.empty()) return defect;
+    }
+    header.skip_end();
+  } while (many && !header.at_end());
+  return {};
+}
+
+}  // namespace
+
+std::string image_format(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
+  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return "tiff";
+  if (bytes.starts_with("II+\0"sv) || bytes.starts_with("MM\0+"sv)) return "tiff";
+  if (bytes.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
+  return {};
+}
+
+std::string container_defect(std::string_view format, std::string_view bytes,
+                             const ImageLimits& limits) {
+  if (format == "png" && !png_is_whole(bytes)) {
+    return "is damaged or cut short: the PNG's end is missing";
+  }
+  if (format == "openexr") return exr_defect(bytes, limits);
+  return {};
+}
+
+}  // namespace crowdface
