@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Fuzzes the parsers, one after the other, with AddressSanitizer and UBSan, and says how much of
-# each parser's own code the inputs reach. What is found stays in build/fuzz/found; once mended it
+# each parser's own code its inputs and the tests of its module reach. What is found stays in build/fuzz/found; once mended it
 # belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
 #   scripts/fuzz.sh [SECONDS [PARSER …]]    by default 1200 s each of obj mask yaml review plan cache
@@ -25,12 +25,14 @@ declare -A sources=(
 )
 
 scripts/install_dependencies.sh --fuzz
-scripts/build.sh fuzz $(printf 'crowdface_%s_fuzz ' "${parsers[@]}")
+scripts/build.sh fuzz $(printf 'crowdface_%s_fuzz ' "${parsers[@]}") \
+  crowdface_io_test crowdface_job_test crowdface_crowd_test
 out=$PWD/build/fuzz
 mkdir -p "$out/found"
 TMPDIR=$(mktemp -d /dev/shm/crowdface_fuzz.XXXXXX) # what a target writes stays in memory
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
+rm -f "$out"/*_test.profraw
 # The words that the readers of configs, plans and reviews know.
 grep -oh '"[a-z_][a-z_]*"' src/crowdface/job/{config,plan,yaml}*.cpp | sort -u >"$out/words.dict"
 
@@ -51,15 +53,26 @@ fuzz() {
     >"$out/$parser.log" 2>&1
 }
 
-# Lines of the parser's own files that all its inputs together reach, in percent.
+# What the tests of a module reach, once.
+test_profile() {
+  local profile=$out/$1_test.profraw
+  [ -e "$profile" ] || LLVM_PROFILE_FILE=$profile "$out/bin/crowdface_$1_test" \
+    --gtest_filter="${2-*}" >"$out/$1_test.log" 2>&1
+  echo "$profile"
+}
+
+# Lines of the parser's own files that all its inputs and the tests together reach, in percent.
 coverage() {
   local parser=$1 program=$out/bin/crowdface_${parser}_fuzz names
   names=$(cd src/crowdface && printf '/%s ' ${sources[$parser]})
   LLVM_PROFILE_FILE=$out/$parser.profraw "$program" "$out/corpus/$parser" \
     "tests/fuzz/corpus/$parser" $(more_seeds "$parser") -runs=0 >"$out/$parser.replay.log" 2>&1
-  llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw"
-  llvm-cov-14 show "$program" -instr-profile="$out/$parser.profdata" >"$out/$parser.lines.txt"
-  llvm-cov-14 report "$program" -instr-profile="$out/$parser.profdata" >"$out/$parser.files.txt"
+  llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw" \
+    "$(test_profile io)" "$(test_profile job)" "$(test_profile crowd 'Plan*:Ledger*:*Cache*')"
+  local seen=("$program" -object "$out/bin/crowdface_io_test" -object "$out/bin/crowdface_job_test"
+    -object "$out/bin/crowdface_crowd_test" -instr-profile="$out/$parser.profdata")
+  llvm-cov-14 show "${seen[@]}" >"$out/$parser.lines.txt"
+  llvm-cov-14 report "${seen[@]}" >"$out/$parser.files.txt"
   # Columns 8 and 9: lines of a file, and those that were missed.
   awk -v names="$names" '
     BEGIN {count = split(names, name, " ")}
