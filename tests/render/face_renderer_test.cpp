@@ -186,9 +186,8 @@ TEST(FaceRenderer, SoftShadowsHaveNoGrain) {
   const int size = 128;
   const Rgb8Image image =
       FaceRenderer(scene.topology, {.size_px = size}).render(scene.positions, camera);
-  const Rgb8Image smooth =
-      FaceRenderer(scene.topology, {.size_px = size, .samples_per_side = 12, .occlusion_rays = 4})
-          .render(scene.positions, camera);
+  const Rgb8Image smooth = FaceRenderer(scene.topology, {.size_px = size, .samples_per_side = 12})
+                               .render(scene.positions, camera);
   double squares = 0;
   int shadow = 255;
   for (int y = 0; y < size; ++y) {
