@@ -178,6 +178,29 @@ TEST(FaceRenderer, OcclusionDarkensACrevice) {
   EXPECT_LE(drop({-0.3, 0, 0.95}), 1);
 }
 
+TEST(FaceRenderer, SoftShadowsHaveNoGrain) {
+  // A ball before a wall; the wall as a dense disc of a sphere so large that it is all but flat.
+  const Mesh scene = join_meshes(make_sphere(20, 200, 400), make_sphere(0.5), {-0.1, 0.1, 20.8});
+  Camera camera = camera_for(scene.positions.bottomRows(make_sphere(0.5).positions.rows()));
+  camera.distance *= 2.5;
+  const int size = 128;
+  const Rgb8Image image =
+      FaceRenderer(scene.topology, {.size_px = size}).render(scene.positions, camera);
+  const Rgb8Image smooth = FaceRenderer(scene.topology, {.size_px = size, .samples_per_side = 12})
+                               .render(scene.positions, camera);
+  double squares = 0;
+  int shadow = 255;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const double difference = image.at(x, y)[1] - smooth.at(x, y)[1];
+      squares += difference * difference;
+      shadow = std::min<int>(shadow, smooth.at(x, y)[1]);
+    }
+  }
+  EXPECT_LT(shadow, 130) << "there is a shadow";
+  EXPECT_LT(std::sqrt(squares) / size, 1.2) << "against sixteen times as many rays to the lamp";
+}
+
 TEST(FaceRenderer, HiddenFacesAreNotThere) {
   const Mesh sphere = make_sphere(1);
   const std::vector<SurfaceKind> kinds(static_cast<std::size_t>(sphere.topology.face_count()),

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 /// Raised whenever a change of the code alters a picture, what is found about a skin, or a mesh file
 /// of the same positions. (What alters positions raises kBlendVersion, which is in `settings`.)
-constexpr int kFaceFilesVersion = 2;
+constexpr int kFaceFilesVersion = 3;
 
 /// What determines a face's files beside its recipe and `settings`: formats, frame, pictures.
 Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras) {

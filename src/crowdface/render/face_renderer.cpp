@@ -17,10 +17,10 @@
 #include "crowdface/mesh/normals.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
-#include "crowdface/render/perpendicular.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/render/sampling_pattern.h"
 #include "crowdface/render/shading.h"
+#include "crowdface/render/tile_renderer.h"
 
 namespace crowdface {
 
@@ -92,152 +92,6 @@ struct FaceRenderer::Prepared {
 };
 
 namespace {
-
-using Vector = Eigen::Vector3f;
-
-// Lengths are in half the side of the image, so that these hold for any unit.
-constexpr float kSkyReach = 0.55F;    // how far ambient occlusion looks
-constexpr float kClearance = 2e-4F;   // rays start this far above the surface
-constexpr float kThickness = 0.012F;  // how deep light soaks in: softens where shadows begin
-constexpr int kTile = 16;
-
-/// A head as the camera sees it: x right, y up, z towards the camera, target at the origin, half
-/// the image's side as unit.
-struct Stage {
-  const RayScene& scene;
-  std::vector<Vector> normals;  ///< #V
-  const VertexColours* colours;
-  const std::vector<Quad>& quads;
-  const std::vector<SurfaceKind>& kinds;
-  const std::vector<std::optional<Light>>& paints;
-  const Eyeballs& eyeballs;
-  std::vector<PlacedEye> eyes;
-  Vector gaze;
-  Vector viewer;
-};
-
-/// Shares of a primitive's four vertices in a point on it.
-Eigen::Vector4f shares(const Quad& quad, float u, float v) {
-  if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
-  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
-}
-
-Light own_albedo(const Stage& stage, std::uint32_t primitive, const Vector& point) {
-  if (!stage.paints.empty() && stage.paints[primitive]) return *stage.paints[primitive];
-  const SurfaceKind kind = stage.kinds[primitive];
-  if (kind != SurfaceKind::kEye) return albedo_of(kind);
-  const std::uint32_t eye = stage.eyeballs.of_vertex[stage.quads[primitive][0]];
-  return eye_albedo(stage.eyes[eye], stage.gaze, point);
-}
-
-/// A point of the surface that a camera ray has met.
-struct Meeting {
-  Vector point;
-  Vector start;  ///< where rays to the lights begin
-  ShadePoint surface;
-};
-
-Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
-  const Quad& quad = stage.quads[hit.primitive];
-  const Eigen::Vector4f weights = shares(quad, hit.u, hit.v);
-  Meeting meeting;
-  meeting.point = stage.viewer + hit.distance * direction;
-  meeting.surface.kind = stage.kinds[hit.primitive];
-  Vector normal = Vector::Zero();
-  Vector colour = Vector::Zero();
-  for (int c = 0; c < 4; ++c) {
-    const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
-    normal += weights[c] * stage.normals[vertex];
-    if (stage.colours != nullptr) colour += weights[c] * stage.colours->row(vertex).transpose();
-  }
-  meeting.surface.albedo = stage.colours != nullptr
-                               ? from_srgb(colour.array())
-                               : own_albedo(stage, hit.primitive, meeting.point);
-  // The side that is seen is told by the vertices' normals, which winding() has turned outwards.
-  const Vector geometric = hit.normal.dot(normal) < 0 ? Vector(-hit.normal) : hit.normal;
-  meeting.surface.inside = geometric.dot(direction) > 0;
-  const float side = meeting.surface.inside ? -1.0F : 1.0F;
-  meeting.surface.normal = side * normal.normalized();
-  meeting.surface.to_eye = -direction.normalized();
-  // Rays start above the facets, on the smooth surface that the normals speak of, lest facets show
-  // where light grazes them (Hanika 2021, "Hacking the shadow terminator").
-  Vector lift = Vector::Zero();
-  for (int c = 0; c < 4; ++c) {
-    const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
-    const Vector n = side * stage.normals[vertex];
-    lift -= weights[c] * std::min(0.0F, (meeting.point - stage.scene.point(vertex)).dot(n)) * n;
-  }
-  meeting.start = meeting.point + lift + kClearance * side * geometric.normalized();
-  return meeting;
-}
-
-/// A direction given as a point of the disc around `axis`, turned by the pixel's angle.
-struct Turned {
-  Vector s, t;
-  Turned(const Vector& axis, const Eigen::Vector2f& turn) {
-    const auto [a, b] = perpendicular(axis);
-    s = turn.x() * a + turn.y() * b;
-    t = turn.x() * b - turn.y() * a;
-  }
-  Vector operator()(const Eigen::Vector2f& disc) const { return disc.x() * s + disc.y() * t; }
-};
-
-/// Share of the sky seen from a point, weighted by the cosine.
-float sky_share(const RayScene& scene, const Meeting& meeting,
-                std::span<const Eigen::Vector2f> discs, const Eigen::Vector2f& turn) {
-  if (discs.empty()) return 1;
-  const Turned turned(meeting.surface.normal, turn);
-  float open = 0;
-  for (const Eigen::Vector2f& disc : discs) {
-    const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
-    const Vector direction = turned(disc) + height * meeting.surface.normal;
-    if (!scene.occluded({meeting.start, direction, 0, kSkyReach})) open += 1;
-  }
-  return open / static_cast<float>(discs.size());
-}
-
-bool key_reaches(const RayScene& scene, const Meeting& meeting, const Eigen::Vector2f& disc,
-                 const Eigen::Vector2f& turn) {
-  const Vector key = key_direction();
-  const Vector direction = (key + kKeyRadius * Turned(key, turn)(disc)).normalized();
-  const Vector start = meeting.start + kThickness * meeting.surface.normal;
-  return !scene.occluded({start, direction, 0, 1e30F});
-}
-
-/// Light along one ray through the image at `place`, a fraction of its side.
-Light trace(const Stage& stage, const SamplingPattern& pattern, std::size_t sample,
-            const Eigen::Vector2f& place, const Eigen::Vector2f& turn) {
-  const Vector direction = Vector(2 * place.x() - 1, 1 - 2 * place.y(), 0) - stage.viewer;
-  const auto hit = stage.scene.nearest_hit({stage.viewer, direction});
-  if (!hit) return background(place.y());
-  Meeting meeting = meet(stage, *hit, direction);
-  const std::size_t rays = pattern.sky.size() / pattern.places.size();
-  const std::span discs(pattern.sky.data() + sample * rays, rays);
-  meeting.surface.sky = sky_share(stage.scene, meeting, discs, turn);
-  const bool lit =
-      faces_key(meeting.surface) && key_reaches(stage.scene, meeting, pattern.lamp[sample], turn);
-  meeting.surface.key = lit ? 1.0F : 0.0F;
-  return shade(meeting.surface);
-}
-
-void render_tile(const Stage& stage, const SamplingPattern& pattern, int left, int top,
-                 Rgb8Image& image) {
-  const std::size_t samples = pattern.places.size();
-  for (int y = top; y < std::min(top + kTile, image.height); ++y) {
-    for (int x = left; x < std::min(left + kTile, image.width); ++x) {
-      const Eigen::Vector2f corner(static_cast<float>(x), static_cast<float>(y));
-      const Eigen::Vector2f turn = pixel_turn(x, y);
-      Light sum = Light::Zero();
-      for (std::size_t s = 0; s < samples; ++s) {
-        const Eigen::Vector2f place =
-            (corner + pattern.places[s]) / static_cast<float>(image.width);
-        sum += trace(stage, pattern, s, place, turn);
-      }
-      const auto pixel = to_srgb8(sum / static_cast<float>(samples));
-      std::copy(pixel.begin(), pixel.end(), image.at(x, y));
-    }
-  }
-}
 
 void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
   if (face.size() == 4) return quads.push_back({face[0], face[1], face[2], face[3]});
@@ -317,7 +171,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
         concat("expected ", topology.vertex_count, " vertex colours, found ", colours->rows()));
   }
   std::vector<float> points = to_camera(positions, camera);
-  const Vector gaze = to_camera(camera, prepared_->options.front);
+  const Eigen::Vector3f gaze = to_camera(camera, prepared_->options.front);
   std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, points, gaze);
   std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
   // A crowd is wound like its heads: there is no need to find that out for every face.
@@ -331,7 +185,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->eyeballs,
                     std::move(eyes),
                     gaze,
-                    Vector(0, 0, static_cast<float>(1 / camera.half_tangent))};
+                    Eigen::Vector3f(0, 0, static_cast<float>(1 / camera.half_tangent))};
   const int size = prepared_->options.size_px;
   const int tiles = (size + kTile - 1) / kTile;
   Rgb8Image image(size, size);

@@ -15,7 +15,7 @@ namespace crowdface {
 struct RenderOptions {
   int size_px = 256;         ///< side of the square image
   int samples_per_side = 3;  ///< antialiasing: this squared samples a pixel, at fixed places
-  int occlusion_rays = 3;    ///< a sample; 0 leaves ambient occlusion out
+  int occlusion_rays = 1;    ///< a sample; pixels share what theirs find. 0 leaves it out
   Axis front = {2, 1};       ///< where the eyes look: irises are painted there
 };
 

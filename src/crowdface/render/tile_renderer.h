@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/render/eyeballs.h"
+#include "crowdface/render/ray_scene.h"
+#include "crowdface/render/rgb8_image.h"
+#include "crowdface/render/sampling_pattern.h"
+#include "crowdface/render/shading.h"
+#include "crowdface/render/surface_kind.h"
+#include "crowdface/render/vertex_colours.h"
+
+namespace crowdface {
+
+/// A head as the camera sees it: x right, y up, z towards the camera, target at the origin, half
+/// the image's side as unit.
+struct Stage {
+  const RayScene& scene;
+  std::vector<Eigen::Vector3f> normals;  ///< #V
+  const VertexColours* colours;          ///< #V in place of all others, or nullptr
+  const std::vector<Quad>& quads;
+  const std::vector<SurfaceKind>& kinds;            ///< #quads
+  const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
+  const Eyeballs& eyeballs;
+  std::vector<PlacedEye> eyes;
+  Eigen::Vector3f gaze;
+  Eigen::Vector3f viewer;
+};
+
+/// Side of the squares that an image is rendered in, in pixels.
+inline constexpr int kTile = 32;
+
+/// Renders one square of an image, whatever else there is of it. What a pixel knows of its lights
+/// it shares with those around it that show the same surface: each has tried other directions, and
+/// together they leave no grain.
+/// \param left, top  the square's upper left corner; what sticks out of the image is left out.
+void render_tile(const Stage& stage, const SamplingPattern& pattern, int left, int top,
+                 Rgb8Image& image);
+
+}  // namespace crowdface
