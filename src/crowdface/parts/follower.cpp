@@ -38,19 +38,24 @@ struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<double> ones;  ///< #vertices, for fits of its shape
   Socket socket;
-  Lids lids;                                    ///< of an eyeball
-  std::vector<Eyeball> eyeballs;                ///< #heads, of an eyeball
-  Contact contact;                              ///< of all but eyeballs
-  std::vector<std::vector<double>> clearances;  ///< #heads
+  bool eyeball = false;
+  EyeSocket eye;    ///< of an eyeball
+  Contact contact;  ///< of all else
 };
 
-/// The ball that an eyeball of several layers is: that of its largest component.
-const ComponentShape& ball_of(const Part& part, const PartList& list) {
-  const ComponentShape* ball = &list.shapes[part.components.front()];
-  for (const std::uint32_t c : part.components) {
-    if (list.shapes[c].radius > ball->radius) ball = &list.shapes[c];
-  }
-  return *ball;
+EyeSocket bind_eye(const FaceSet& faces, const FacesAround& around, const Part& part,
+                   const ComponentShape& ball, const HeadAxes& axes, const Positions& mean,
+                   Lids lids) {
+  const std::vector<double> ones(part.vertices.size(), 1.0);
+  std::vector<BallMap> maps(faces.heads.size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(maps.size()), [&](std::ptrdiff_t h) {
+    const auto i = static_cast<std::size_t>(h);
+    const Positions& head = faces.heads[i].positions;
+    const RigidMotion motion = fit_rigid_motion(mean, head, part.vertices, ones);
+    maps[i] = BallMap(faces.topology, around, head, part.surface, motion.apply(ball.centre),
+                      motion.scale * ball.radius, axes);
+  });
+  return {std::move(lids), std::move(maps), faces.heads};
 }
 
 }  // namespace
@@ -97,28 +102,19 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
     rigid.vertices = part.vertices;
     rigid.ones.assign(part.vertices.size(), 1.0);
     const PointGrid grid(mean, part.vertices);
-    const ComponentShape& ball = ball_of(part, parts);
+    const ComponentShape& ball = parts.shapes[part.ball];
     // A part that floats far from the skin follows what is nearest to it.
     double reach = part.eyeball ? kEyeReach * ball.radius : kReach * extent;
     for (int tries = 0; tries < 8 && rigid.socket.vertices.size() < 12; ++tries, reach *= 2) {
       rigid.socket = find_socket(mean, grid, skin, areas, reach);
     }
     if (part.eyeball) {
-      rigid.lids = find_lids(mean, grid, ball.centre, ball.radius, axes, skin);
-      for (const Head& head : faces.heads) {
-        const RigidMotion motion =
-            fit_rigid_motion(mean, head.positions, rigid.vertices, rigid.ones);
-        rigid.eyeballs.emplace_back(faces.topology, state->around, head.positions, part.vertices,
-                                    motion.apply(ball.centre), motion.scale * ball.radius,
-                                    rigid.lids);
-      }
-    }
-    if (!part.eyeball) {
-      rigid.contact =
-          Contact(faces.topology, around, mean, skin_grid, part.vertices, kContactReach * extent);
-      for (const Head& head : faces.heads) {
-        rigid.clearances.push_back(rigid.contact.heights(head.positions));
-      }
+      rigid.eyeball = true;
+      rigid.eye = bind_eye(faces, around, part, ball, axes, mean,
+                           find_lids(mean, grid, ball.centre, ball.radius, axes, skin));
+    } else {
+      rigid.contact = Contact(faces.topology, around, mean, skin_grid, part.vertices,
+                              kContactReach * extent, faces.heads);
     }
     state->rigid.push_back(std::move(rigid));
   }
@@ -139,8 +135,8 @@ PartFollower& PartFollower::operator=(PartFollower&&) noexcept = default;
 void PartFollower::State::follow_rigid(const RigidPart& part, std::size_t target,
                                        Positions& result) const {
   const Positions& before = faces.heads[target].positions;
-  const bool still =
-      unmoved(before, result, part.socket.vertices) && unmoved(before, result, part.lids.vertices);
+  const bool still = unmoved(before, result, part.socket.vertices) &&
+                     unmoved(before, result, part.eye.lids().vertices);
   if (still && shape == PartShape::kTarget) {
     for (const std::uint32_t v : part.vertices) result.row(v) = before.row(v);
     return;
@@ -148,12 +144,8 @@ void PartFollower::State::follow_rigid(const RigidPart& part, std::size_t target
   RigidMotion motion;
   if (!still && part.socket.vertices.size() >= 3) {
     motion = fit_rigid_motion(before, result, part.socket.vertices, part.socket.weights);
-    if (!part.eyeballs.empty()) {
-      motion.to += part.eyeballs[target].shift_into(part.lids, motion, result);
-    } else {
-      motion.to += part.contact.clearing_shift(before, part.clearances[target], motion, result,
-                                               kContactMargin * extent);
-    }
+    motion = part.eyeball ? part.eye.fit(target, motion, result)
+                          : part.contact.clear(before, motion, result, kContactMargin * extent);
   }
   if (shape == PartShape::kTarget) {
     for (const std::uint32_t v : part.vertices) {
@@ -178,7 +170,7 @@ std::uint64_t PartFollower::memory_bytes() const {
   std::uint64_t bytes = 0;
   for (const RigidPart& part : state_->rigid) {
     bytes += part.vertices.size() * 12 + part.socket.vertices.size() * 12;
-    bytes += part.eyeballs.size() * part.vertices.size() * 12;
+    bytes += part.eye.memory_bytes();
   }
   for (const auto& places : state_->places) bytes += places.size() * sizeof(Eigen::Vector3d);
   return bytes;
