@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/parts/small_program.h"
 #include "crowdface/parts/vector3.h"
 
@@ -27,8 +28,8 @@ enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepS
 }  // namespace
 
 Contact::Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
-                 const PointGrid& skin, std::span<const std::uint32_t> part, double reach,
-                 const std::vector<Head>& heads)
+                 std::span<const std::uint32_t> skin, std::span<const std::uint32_t> part,
+                 double reach, const std::vector<Head>& heads)
     : topology_(&topology), faces_(&faces), reach_(reach), part_(part.begin(), part.end()) {
   for (const std::uint32_t v : part_) middle_ += positions.row(v).transpose();
   middle_ /= static_cast<double>(part_.size());
@@ -38,26 +39,59 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
   }
   radius_ = std::max(std::sqrt(radius_ / static_cast<double>(part_.size())), 1e-3 * reach);
 
+  const PointGrid grid(positions, skin);
   const std::size_t count = std::min(part.size(), kMostVertices);
   std::vector<double> heights;
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = part[i * part.size() / count];
     const Eigen::Vector3d point = positions.row(v).transpose();
-    const auto nearest = skin.nearest(point, 2 * reach);
+    const auto nearest = grid.nearest(point, 2 * reach);
     if (nearest.vertex == kNoIndex) continue;
     const SurfacePoint place = nearest_around(topology, faces, positions, nearest.vertex, point);
     if (place.distance > reach) continue;
-    pairs_.push_back({v, place.corners, place.shares, 1e300});
+    const std::uint32_t start = place.corners[0];
+    pairs_.push_back({v, place.corners, place.shares, {start, start, start}, 1e300});
     heights.push_back(height(pairs_.size() - 1, point, positions).height);
     sum += heights.back() > 0 ? 1 : -1;
   }
   // Most lie on the free side; roots that reach into the flesh may.
   side_ = sum < 0 ? -1 : 1;
+  find_starts(positions, skin, heads);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     for (const Head& head : heads) {
       const Eigen::Vector3d point = head.positions.row(pairs_[i].vertex).transpose();
       pairs_[i].least = std::min(pairs_[i].least, height(i, point, head.positions).height);
+    }
+  }
+}
+
+void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
+                          const std::vector<Head>& heads) {
+  // Starts nearer to each other than this lead to the same place.
+  const double apart = 0.3 * reach_;
+  std::vector<std::vector<std::uint32_t>> nearest(heads.size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(heads.size()), [&](std::ptrdiff_t h) {
+    const auto i = static_cast<std::size_t>(h);
+    const PointGrid grid(heads[i].positions, skin);
+    for (const Pair& pair : pairs_) {
+      nearest[i].push_back(
+          grid.nearest(heads[i].positions.row(pair.vertex).transpose(), 2 * reach_).vertex);
+    }
+  });
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    auto& starts = pairs_[i].starts;
+    std::size_t count = 1;
+    for (const auto& of_head : nearest) {
+      const std::uint32_t v = of_head[i];
+      const auto is_near = [&](std::uint32_t start) {
+        return length3((positions.row(v) - positions.row(start)).transpose()) < apart;
+      };
+      if (v == kNoIndex || count == kStarts ||
+          std::any_of(starts.begin(), starts.begin() + count, is_near)) {
+        continue;
+      }
+      starts[count++] = v;
     }
   }
 }
@@ -91,8 +125,12 @@ Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions&
 
 Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
                                 const Positions& skin) const {
-  const SurfacePoint place =
-      nearest_from(*topology_, *faces_, skin, pairs_[pair].corners[0], point);
+  const auto& starts = pairs_[pair].starts;
+  SurfacePoint place = nearest_from(*topology_, *faces_, skin, starts[0], point);
+  for (std::size_t s = 1; s < kStarts && starts[s] != starts[0]; ++s) {
+    const SurfacePoint other = nearest_from(*topology_, *faces_, skin, starts[s], point);
+    if (other.distance < place.distance) place = other;
+  }
   const Eigen::Vector3d normal = normal_near(place, skin);
   const Eigen::Vector3d from = point - place.position;
   const double side = dot3(from, normal) < 0 ? -1 : 1;

@@ -22,7 +22,7 @@ class Contact {
   /// \param reach      how near
   /// Topology and faces must outlive it.
   Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
-          const PointGrid& skin, std::span<const std::uint32_t> part, double reach,
+          std::span<const std::uint32_t> skin, std::span<const std::uint32_t> part, double reach,
           const std::vector<Head>& heads);
 
   /// How far a pair's vertex, wherever it is, is off the skin of a head; negative: through it.
@@ -43,12 +43,17 @@ class Contact {
   std::size_t size() const { return pairs_.size(); }
 
  private:
+  static constexpr std::size_t kStarts = 3;
   struct Pair {
     std::uint32_t vertex;
     std::array<std::uint32_t, 3> corners;
     std::array<double, 3> shares;
+    /// Vertices to start from when the nearest skin is looked for: of both lips, where both are near.
+    std::array<std::uint32_t, kStarts> starts;
     double least;  ///< height in all heads
   };
+  void find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
+                   const std::vector<Head>& heads);
   double rough_height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   RigidMotion step(const Positions& target, const RigidMotion& start, const RigidMotion& motion,

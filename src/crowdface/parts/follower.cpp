@@ -113,7 +113,7 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
       rigid.eye = bind_eye(faces, around, part, ball, axes, mean,
                            find_lids(mean, grid, ball.centre, ball.radius, axes, skin));
     } else {
-      rigid.contact = Contact(faces.topology, around, mean, skin_grid, part.vertices,
+      rigid.contact = Contact(faces.topology, around, mean, skin, part.vertices,
                               kContactReach * extent, faces.heads);
     }
     state->rigid.push_back(std::move(rigid));
