@@ -46,6 +46,7 @@ struct Reading {
   /// Whether what is nearest is a wall of the mouth; roots reach through its roof and floor, where
   /// nobody sees them.
   std::vector<std::vector<bool>> wall;
+  std::vector<double> gums;  ///< distances between gums and the teeth in them
 };
 
 class Watch {
@@ -68,6 +69,14 @@ class Watch {
         eyes_.push_back(watch_eye(part));
       } else {
         mouths_.push_back(&part);
+        const PointGrid teeth(mean_, part.vertices);
+        for (const Part& other : parts_.parts) {
+          if (other.part_class != PartClass::kBound) continue;
+          for (const std::uint32_t v : other.vertices) {
+            const auto nearest = teeth.nearest(mean_.row(v).transpose(), 1 / mm_);
+            if (nearest.vertex != kNoIndex) gums_.emplace_back(v, nearest.vertex);
+          }
+        }
       }
     }
   }
@@ -94,6 +103,9 @@ class Watch {
       reading.lids.push_back(gaps(eye.rim));
       reading.around.push_back(gaps(eye.around));
     }
+    for (const auto& [gum, tooth] : gums_) {
+      reading.gums.push_back((mesh.row(gum) - mesh.row(tooth)).norm() * mm_);
+    }
     const PointGrid skin(mesh, skin_);
     const Positions normals = vertex_normals(topology_, mesh);
     for (const Part* part : mouths_) {
@@ -119,6 +131,7 @@ class Watch {
     return reading;
   }
 
+  std::size_t gums() const { return gums_.size(); }
   const std::vector<Eye>& eyes() const { return eyes_; }
   const PartList& parts() const { return parts_; }
   /// Of the mouth's vertices: whether it is of a closed piece.
@@ -197,6 +210,8 @@ class Watch {
   std::vector<std::uint32_t> skin_;
   std::vector<Eye> eyes_;
   std::vector<const Part*> mouths_;
+  /// Bound vertices less than a millimetre from a tooth on the mean head, and its nearest vertex.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> gums_;
 };
 
 struct Range2 {
@@ -244,6 +259,7 @@ struct Column {
   Range2 upper, lower, nearest;       ///< mean gaps of a lid; the smallest gap of a mesh
   Range2 upper_change, lower_change;  ///< of the mean gaps against the target's
   Range2 rim_change;                  ///< of single gaps
+  Range2 gum_change;                  ///< of the distances between gums and teeth
   Through rim, eye, teeth, gums;
 };
 
@@ -292,6 +308,9 @@ void add(Column& column, const Watch& watch, const Reading& reading, const Readi
   }
   add(column.rim, reading.lids, least.lids, [](std::size_t, std::size_t) { return true; });
   add(column.eye, reading.around, least.around, [](std::size_t, std::size_t) { return true; });
+  for (std::size_t i = 0; i < watch.gums(); ++i) {
+    column.gum_change.add(reading.gums[i] - target.gums[i]);
+  }
   const auto tooth = [&](std::size_t p, std::size_t i) { return watch.is_tooth(p, i); };
   const auto wall = [&](std::size_t p, std::size_t i) { return reading.wall[p][i]; };
   add(column.teeth, reading.mouth, least.mouth,
@@ -333,6 +352,8 @@ void print(const std::vector<Column>& columns) {
   through("vertices of lids and their lining inside an eyeball", &Column::eye);
   through("vertices of teeth in lips or cheeks", &Column::teeth);
   through("vertices of gums and tongue in lips or cheeks", &Column::gums);
+  row("gums against their teeth, change of distance, mm",
+      [](const Column& c) { return c.gum_change.text(); });
 }
 
 FaceSet read_heads(const std::filesystem::path& folder) {

@@ -16,6 +16,8 @@ constexpr std::size_t kMostVertices = 6000;
 /// Shares of the reach (some 4 mm): nearer than this by a rough measure a vertex is measured exactly;
 /// and what counts as free.
 constexpr double kNear = 0.4, kFree = -0.005;
+/// What is farther off after that is left out of further steps; and how much may be missing at last.
+constexpr double kFar = 0.25, kDone = 0.002;
 /// What a turn and a change of size cost, as against a shift that moves as much.
 constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
@@ -58,12 +60,14 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
   // Most lie on the free side; roots that reach into the flesh may.
   side_ = sum < 0 ? -1 : 1;
   find_starts(positions, skin, heads);
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    for (const Head& head : heads) {
-      const Eigen::Vector3d point = head.positions.row(pairs_[i].vertex).transpose();
-      pairs_[i].least = std::min(pairs_[i].least, height(i, point, head.positions).height);
+  parallel_blocks(static_cast<std::ptrdiff_t>(pairs_.size()), 64, [&](auto begin, auto end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      for (const Head& head : heads) {
+        const Eigen::Vector3d point = head.positions.row(pairs_[i].vertex).transpose();
+        pairs_[i].least = std::min(pairs_[i].least, height(i, point, head.positions).height);
+      }
     }
-  }
+  });
 }
 
 void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
@@ -142,32 +146,37 @@ RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
                            const Positions& after, double margin) const {
   constexpr int kSteps = 4;
   RigidMotion cleared = motion;
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    const Eigen::Vector3d point = motion.apply(target.row(pairs_[i].vertex).transpose());
+    if (rough_height(pairs_[i], point, after) < kNear * reach_) near.push_back(i);
+  }
   for (int k = 0; k < kSteps; ++k) {
-    const RigidMotion next = step(target, motion, cleared, after, margin);
-    if (next.to == cleared.to && next.scale == cleared.scale) break;
-    cleared = next;
+    if (!step(target, motion, after, margin, near, cleared)) break;
   }
   return cleared;
 }
 
-RigidMotion Contact::step(const Positions& target, const RigidMotion& start,
-                          const RigidMotion& motion, const Positions& after, double margin) const {
+bool Contact::step(const Positions& target, const RigidMotion& start, const Positions& after,
+                   double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const {
   const Eigen::Vector3d middle = motion.apply(middle_);
   const Eigen::Vector3d shifted = middle - start.apply(middle_);
   const double radius = motion.scale * radius_;
   const double grown = (motion.scale / start.scale - 1) * radius;
   SmallProgram program(kUnknowns);
   bool missing = false;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+  std::size_t kept = 0;
+  for (const std::uint32_t i : near) {
     const Pair& pair = pairs_[i];
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
-    if (rough_height(pair, point, after) > kNear * reach_) continue;
     const Height now = height(i, point, after);
+    if (now.height > kFar * reach_) continue;
+    near[kept++] = i;
     const Eigen::Vector3d from = point - middle;
     const Eigen::Vector3d arm = cross3(from, now.outward) / radius;
     const bool never = pair.least > kFree * reach_;
     const double least = never ? std::clamp(pair.least, 0.2 * margin, margin) : pair.least;
-    missing = missing || now.height < least;
+    missing = missing || now.height < least - kDone * reach_;
     SmallProgram::Vector a = {now.outward.x(),
                               now.outward.y(),
                               now.outward.z(),
@@ -178,7 +187,8 @@ RigidMotion Contact::step(const Positions& target, const RigidMotion& start,
     a[never ? kNewSlack : kDeepSlack] = 1;
     program.demand(a, least - now.height);
   }
-  if (!missing) return motion;
+  near.resize(kept);
+  if (!missing) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     program.want(kShift + i, -shifted(static_cast<Index>(i)), 1);
     program.want(kTurn + i, 0, kHoldTurn);
@@ -195,8 +205,10 @@ RigidMotion Contact::step(const Positions& target, const RigidMotion& start,
     program.demand(slack, 0);
   }
   const SmallProgram::Vector x = program.solve(1e-5 * reach_);
-  return nudged(motion, middle, {x[0], x[1], x[2]},
-                Eigen::Vector3d(x[kTurn], x[kTurn + 1], x[kTurn + 2]) / radius, x[kSize] / radius);
+  motion =
+      nudged(motion, middle, {x[0], x[1], x[2]},
+             Eigen::Vector3d(x[kTurn], x[kTurn + 1], x[kTurn + 2]) / radius, x[kSize] / radius);
+  return true;
 }
 
 }  // namespace crowdface

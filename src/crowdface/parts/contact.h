@@ -56,8 +56,10 @@ class Contact {
                    const std::vector<Head>& heads);
   double rough_height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
-  RigidMotion step(const Positions& target, const RigidMotion& start, const RigidMotion& motion,
-                   const Positions& after, double margin) const;
+  /// \param near  the pairs to look at; those that turn out to be far are taken out
+  /// \return false if nothing is missing
+  bool step(const Positions& target, const RigidMotion& start, const Positions& after,
+            double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
   const Topology* topology_ = nullptr;
   const FacesAround* faces_ = nullptr;

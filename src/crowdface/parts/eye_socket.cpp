@@ -20,12 +20,14 @@ constexpr std::size_t kDirections = 60;
 /// off: a share of the radius, 0.05 mm.
 constexpr double kMeans = 20, kMeanOff = 0.004;
 /// What a shift and a change of size cost beside the gaps.
-constexpr double kHold = 0.02, kHoldSize = 0.05;
+constexpr double kHold = 0.02, kHoldSize = 0.2;
 /// How much smaller or larger the eyeball may become.
 constexpr double kSmaller = 0.08, kLarger = 0.03;
 /// Shares of the radius: what is kept free where no head has a lid inside, and what still counts as
 /// free: 0.025 and 0.04 mm.
 constexpr double kMargin = 0.002, kFree = -0.003;
+/// A shift, as a share of the radius, after which another step changes nothing that can be seen.
+constexpr double kDone = 5e-4;
 /// Prices, as multiples of the radius, of what cannot be had: that no lid enters where none does comes
 /// first, then the mean gaps, then that none enters farther than in any head.
 constexpr double kNewPrice = 100, kMeanPrice = 10, kDeepPrice = 1;
@@ -93,97 +95,104 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
       if (rim_of_[i] != kNoIndex) gaps[rim_of_[i]] = gap;
     }
   }
-  RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion, const Positions& after)
-      const {
-    constexpr int kSteps = 4;
-    if (lids_.rim.empty()) return motion;
-    std::vector<Lid> lids;
-    lids.reserve(lids_.vertices.size());
-    for (std::uint32_t i = 0; i < lids_.vertices.size(); ++i) {
-      lids.push_back({after.row(lids_.vertices[i]).transpose(), i});
-    }
-    RigidMotion fitted = motion;
-    for (int k = 0; k < kSteps; ++k) fitted = step(target, motion, fitted, lids);
-    return fitted;
+}
+
+RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
+                           const Positions& after) const {
+  constexpr int kSteps = 4;
+  if (lids_.rim.empty()) return motion;
+  std::vector<Lid> lids;
+  lids.reserve(lids_.vertices.size());
+  for (std::uint32_t i = 0; i < lids_.vertices.size(); ++i) {
+    lids.push_back({after.row(lids_.vertices[i]).transpose(), i});
   }
-
-  RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start,
-                              const RigidMotion& motion, std::vector<Lid>& lids) const {
-    // Lids that are this far off, as a share of the radius, are not met by what is still to come.
-    constexpr double kFar = 0.15;
-    const BallMap& map = maps_[target];
-    const double radius = motion.scale * map.radius();
-    const Eigen::Vector3d centre = motion.apply(map.centre());
-    const Eigen::Vector3d shifted = centre - start.apply(map.centre());
-    const double grown = (motion.scale / start.scale - 1) * radius;
-    const auto rim = static_cast<double>(lids_.rim.size());
-    SmallProgram program(kUnknowns);
-    struct {
-      SmallProgram::Vector a = {};
-      double missing = 0, count = 0;
-    } mean[2];
-
-    std::size_t kept = 0;
-    for (const Lid& lid : lids) {
-      const std::uint32_t r = rim_of_[lid.number];
-      BallMap::Gap gap = map.gap_at(motion.undo(lid.point) - map.centre());
-      gap.gap *= motion.scale;
-      if (r == kNoIndex && gap.gap > kFar * radius) continue;
-      lids[kept++] = lid;
-      const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
-      // A shift by x changes the gap by −x · normal.
-      SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
-      a[kSize] = -dot3(normal, lid.point - gap.gap * normal - centre) / radius;
-      if (r != kNoIndex) {
-        const double missing = gaps_[target][r] - gap.gap;
-        program.want(a, missing, 1 / rim);
-        auto& of = mean[lids_.upper[r] ? 1 : 0];
-        for (std::size_t i = 0; i < kMeanSlack; ++i) of.a[i] += a[i];
-        of.missing += missing;
-        of.count += 1;
-      }
-      const double least = least_[lid.number];
-      const bool never = least > kFree * map.radius();
-      a[never ? kNewSlack : kDeepSlack] = 1;
-      program.demand(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
-    }
-    lids.resize(kept);
-
-    for (auto& of : mean) {
-      if (of.count == 0) continue;
-      for (double& value : of.a) value /= of.count;
-      const double missing = of.missing / of.count;
-      program.want(of.a, missing, kMeans);
-      SmallProgram::Vector less = of.a;
-      for (double& value : less) value = -value;
-      of.a[kMeanSlack] = less[kMeanSlack] = 1;
-      program.demand(of.a, missing - kMeanOff * radius);
-      program.demand(less, -missing - kMeanOff * radius);
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      program.want(kShift + i, -shifted(static_cast<Index>(i)), kHold);
-    }
-    program.want(kSize, -grown, kHoldSize);
-    SmallProgram::Vector smaller = {};
-    smaller[kSize] = -1;
-    program.demand(kSize, -kSmaller * radius - grown);
-    program.demand(smaller, -(kLarger * radius - grown));
-    const std::pair<Unknown, double> slacks[] = {
-        {kMeanSlack, kMeanPrice}, {kNewSlack, kNewPrice}, {kDeepSlack, kDeepPrice}};
-    for (const auto& [slack, price] : slacks) {
-      program.want(slack, 0, 1);
-      program.charge(slack, price * radius);
-      program.demand(slack, 0);
-    }
-    const SmallProgram::Vector x = program.solve(1e-5 * radius);
-    return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kSize] / radius);
+  RigidMotion fitted = motion;
+  for (int k = 0; k < kSteps; ++k) {
+    const RigidMotion next = step(target, motion, fitted, lids);
+    const double change = length3(next.to - fitted.to);
+    fitted = next;
+    if (change < kDone * maps_[target].radius()) break;
   }
+  return fitted;
+}
 
-  std::uint64_t EyeSocket::memory_bytes() const {
-    std::uint64_t bytes = lids_.vertices.size() * 16;
-    for (const BallMap& map : maps_) bytes += map.memory_bytes();
-    for (const auto& gaps : gaps_) bytes += gaps.size() * sizeof(double);
-    return bytes;
+RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
+                            std::vector<Lid>& lids) const {
+  // Lids that are this far off, as a share of the radius, are not met by what is still to come.
+  constexpr double kFar = 0.1;
+  const BallMap& map = maps_[target];
+  const double radius = motion.scale * map.radius();
+  const Eigen::Vector3d centre = motion.apply(map.centre());
+  const Eigen::Vector3d shifted = centre - start.apply(map.centre());
+  const double grown = (motion.scale / start.scale - 1) * radius;
+  const auto rim = static_cast<double>(lids_.rim.size());
+  SmallProgram program(kUnknowns);
+  struct {
+    SmallProgram::Vector a = {};
+    double missing = 0, count = 0;
+  } mean[2];
+
+  std::size_t kept = 0;
+  for (const Lid& lid : lids) {
+    const std::uint32_t r = rim_of_[lid.number];
+    BallMap::Gap gap = map.gap_at(motion.undo(lid.point) - map.centre());
+    gap.gap *= motion.scale;
+    if (r == kNoIndex && gap.gap > kFar * radius) continue;
+    lids[kept++] = lid;
+    const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
+    // A shift by x changes the gap by −x · normal.
+    SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
+    a[kSize] = -dot3(normal, lid.point - gap.gap * normal - centre) / radius;
+    if (r != kNoIndex) {
+      const double missing = gaps_[target][r] - gap.gap;
+      program.want(a, missing, 1 / rim);
+      auto& of = mean[lids_.upper[r] ? 1 : 0];
+      for (std::size_t i = 0; i < kMeanSlack; ++i) of.a[i] += a[i];
+      of.missing += missing;
+      of.count += 1;
+    }
+    const double least = least_[lid.number];
+    const bool never = least > kFree * map.radius();
+    a[never ? kNewSlack : kDeepSlack] = 1;
+    program.demand(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
+  lids.resize(kept);
+
+  for (auto& of : mean) {
+    if (of.count == 0) continue;
+    for (double& value : of.a) value /= of.count;
+    const double missing = of.missing / of.count;
+    program.want(of.a, missing, kMeans);
+    SmallProgram::Vector less = of.a;
+    for (double& value : less) value = -value;
+    of.a[kMeanSlack] = less[kMeanSlack] = 1;
+    program.demand(of.a, missing - kMeanOff * radius);
+    program.demand(less, -missing - kMeanOff * radius);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    program.want(kShift + i, -shifted(static_cast<Index>(i)), kHold);
+  }
+  program.want(kSize, -grown, kHoldSize);
+  SmallProgram::Vector smaller = {};
+  smaller[kSize] = -1;
+  program.demand(kSize, -kSmaller * radius - grown);
+  program.demand(smaller, -(kLarger * radius - grown));
+  const std::pair<Unknown, double> slacks[] = {
+      {kMeanSlack, kMeanPrice}, {kNewSlack, kNewPrice}, {kDeepSlack, kDeepPrice}};
+  for (const auto& [slack, price] : slacks) {
+    program.want(slack, 0, 1);
+    program.charge(slack, price * radius);
+    program.demand(slack, 0);
+  }
+  const SmallProgram::Vector x = program.solve(1e-5 * radius);
+  return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kSize] / radius);
+}
+
+std::uint64_t EyeSocket::memory_bytes() const {
+  std::uint64_t bytes = lids_.vertices.size() * 16;
+  for (const BallMap& map : maps_) bytes += map.memory_bytes();
+  for (const auto& gaps : gaps_) bytes += gaps.size() * sizeof(double);
+  return bytes;
+}
 
 }  // namespace crowdface

@@ -117,6 +117,62 @@ bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t
   return false;
 }
 
+/// All bounds in y, column by column, so that many are worked on at once.
+template <class Bound>
+class Table {
+ public:
+  Table(const std::vector<Bound>& bounds, const Matrix& l, std::size_t n)
+      : unknowns_(n),
+        count_(bounds.size()),
+        normals_(n * count_),
+        least_(count_),
+        stretch_(count_) {
+    std::vector<double> before(count_, 0.0), after(count_, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      double* column = &normals_[i * count_];
+      for (std::size_t b = 0; b < count_; ++b) {
+        column[b] = bounds[b].a[i];
+        before[b] += column[b] * column[b];
+      }
+      for (std::size_t j = 0; j < i; ++j) {  // L⁻¹ a
+        const double* solved = &normals_[j * count_];
+        for (std::size_t b = 0; b < count_; ++b) column[b] -= l[i][j] * solved[b];
+      }
+      for (std::size_t b = 0; b < count_; ++b) {
+        column[b] /= l[i][i];
+        after[b] += column[b] * column[b];
+      }
+    }
+    for (std::size_t b = 0; b < count_; ++b) {
+      const double length = after[b] > 0 ? std::sqrt(after[b]) : 1;
+      stretch_[b] = before[b] > 0 ? length / std::sqrt(before[b]) : 0;
+      least_[b] = bounds[b].least / length;
+      for (std::size_t i = 0; i < n; ++i) normals_[i * count_ + b] /= length;
+    }
+  }
+
+  /// By how much each bound is missed, measured along its normal in x.
+  void missing(const Vector& y, std::vector<double>& result) const {
+    result = least_;
+    for (std::size_t i = 0; i < unknowns_; ++i) {
+      const double* column = &normals_[i * count_];
+      for (std::size_t b = 0; b < count_; ++b) result[b] -= column[b] * y[i];
+    }
+    for (std::size_t b = 0; b < count_; ++b) result[b] *= stretch_[b];
+  }
+  Vector normal(std::size_t bound) const {
+    Vector result{};
+    for (std::size_t i = 0; i < unknowns_; ++i) result[i] = normals_[i * count_ + bound];
+    return result;
+  }
+  double least(std::size_t bound) const { return least_[bound]; }
+
+ private:
+  std::size_t unknowns_, count_;
+  std::vector<double> normals_;  ///< #unknowns by #bounds, of unit length
+  std::vector<double> least_, stretch_;
+};
+
 }  // namespace
 
 void SmallProgram::want(const Vector& a, double wanted, double weight) {
@@ -150,33 +206,21 @@ SmallProgram::Vector SmallProgram::solve(double tolerance) const {
   const std::size_t n = unknowns_;
   // In y = Lᵀ x the quadratic form is a plain distance, and normals are made of unit length.
   const Matrix l = cholesky(quadratic_, n);
-  std::vector<Bound> bounds;
-  bounds.reserve(bounds_.size());
-  std::vector<double> lengths;
-  lengths.reserve(bounds_.size());
-  for (const Bound& bound : bounds_) {
-    Bound scaled{forward(l, bound.a, n), bound.least};
-    const double length = std::sqrt(dot(scaled.a, scaled.a, n));
-    if (!(length > 0)) continue;
-    for (double& value : scaled.a) value /= length;
-    scaled.least /= length;
-    bounds.push_back(scaled);
-    // What a step of one in x along the normal makes in y.
-    lengths.push_back(length / std::sqrt(dot(bound.a, bound.a, n)));
-  }
+  const Table table(bounds_, l, n);
   Vector y = forward(l, linear_, n);
+  std::vector<double> missing(bounds_.size());
   Active active;
   for (int step = 0; step < kMostSteps; ++step) {
+    table.missing(y, missing);
     double worst = tolerance;
-    std::size_t which = bounds.size();
-    for (std::size_t b = 0; b < bounds.size(); ++b) {
-      const double missing = (bounds[b].least - dot(bounds[b].a, y, n)) * lengths[b];
-      if (missing <= worst) continue;
-      worst = missing;
+    std::size_t which = missing.size();
+    for (std::size_t b = 0; b < missing.size(); ++b) {
+      if (missing[b] <= worst) continue;
+      worst = missing[b];
       which = b;
     }
-    if (which == bounds.size()) break;
-    if (!reach(active, bounds[which].a, bounds[which].least, y, n)) break;
+    if (which == missing.size()) break;
+    if (!reach(active, table.normal(which), table.least(which), y, n)) break;
   }
   return backward(l, y, n);
 }
