@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/parts/contact.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 namespace crowdface {
 namespace {
 
+constexpr double kMargin = 0.05;
+
 /// A box a millimetre behind a wall of skin, both seen from +z.
 struct Scene {
   Mesh mesh = testing::Shapes()
@@ -18,51 +21,78 @@ struct Scene {
                   .mesh();
   Index skin = mesh.topology.vertex_count - 8;
   FacesAround faces{mesh.topology};
-  std::vector<std::uint32_t> box = {
+  std::vector<std::uint32_t> front = {
       static_cast<std::uint32_t>(skin + 4), static_cast<std::uint32_t>(skin + 5),
       static_cast<std::uint32_t>(skin + 6), static_cast<std::uint32_t>(skin + 7)};
-  Contact contact = find();
 
-  Contact find() const {
+  Contact contact(const std::vector<Head>& heads) const {
     std::vector<std::uint32_t> wall(static_cast<std::size_t>(skin));
     std::iota(wall.begin(), wall.end(), 0U);
-    return {mesh.topology, faces, mesh.positions, PointGrid(mesh.positions, wall), box, 0.3};
+    return {mesh.topology, faces, mesh.positions, wall, front, 0.6, heads};
+  }
+  Contact contact() const { return contact({{"ann", mesh.positions}}); }
+  /// The wall pushed back, and tilted about the up axis.
+  Positions pushed(double by, double tilt = 0) const {
+    Positions after = mesh.positions;
+    after.topRows(skin).col(2).array() += -by + tilt * after.topRows(skin).col(0).array();
+    return after;
+  }
+  /// The least distance of the box's front from such a wall; negative: through it.
+  double clearance(const RigidMotion& motion, double by, double tilt = 0) const {
+    double least = 1e300;
+    for (const std::uint32_t v : front) {
+      const Eigen::Vector3d point = motion.apply(mesh.positions.row(v).transpose());
+      least = std::min(least, -by + tilt * point.x() - point.z());
+    }
+    return least / std::sqrt(1 + tilt * tilt);
   }
 };
 
 TEST(Contact, KnowsHeightsWhicheverWayFacesLook) {
   const Scene scene;
-  ASSERT_EQ(scene.contact.size(), 4U);
-  for (const double height : scene.contact.heights(scene.mesh.positions)) {
-    EXPECT_NEAR(height, 0.1, 1e-12);
+  const Contact contact = scene.contact();
+  ASSERT_EQ(contact.size(), 4U);
+  for (std::size_t i = 0; i < contact.size(); ++i) {
+    const Eigen::Vector3d point = scene.mesh.positions.row(scene.front[i]).transpose();
+    EXPECT_NEAR(contact.height(i, point, scene.mesh.positions).height, 0.1, 1e-12);
+    EXPECT_NEAR(contact.height(i, point, scene.pushed(0.3)).height, -0.2, 1e-12);
+    EXPECT_NEAR(contact.height(i, point, scene.pushed(0.3)).outward.z(), -1, 1e-12);
   }
 }
 
 TEST(Contact, LeavesAPartThatIsClear) {
   const Scene scene;
-  Positions after = scene.mesh.positions;
-  after.topRows(scene.skin).col(2).array() -= 0.04;
-  const auto before = scene.contact.heights(scene.mesh.positions);
-  EXPECT_EQ(scene.contact.clearing_shift(scene.mesh.positions, before, {}, after, 0.05).norm(), 0);
+  const RigidMotion motion =
+      scene.contact().clear(scene.mesh.positions, {}, scene.pushed(0.04), kMargin);
+  EXPECT_EQ(motion.to.norm(), 0);
+  EXPECT_EQ(motion.scale, 1);
 }
 
 TEST(Contact, ClearsAPartOfTheSkin) {
   const Scene scene;
-  Positions after = scene.mesh.positions;
-  after.topRows(scene.skin).col(2).array() -= 0.3;  // the wall comes 2 mm through the box
-  const auto before = scene.contact.heights(scene.mesh.positions);
-  const Eigen::Vector3d shift =
-      scene.contact.clearing_shift(scene.mesh.positions, before, {}, after, 0.05);
-  EXPECT_NEAR(shift.z(), -0.25, 0.02) << "until the margin is left";
-  EXPECT_NEAR(shift.x(), 0, 1e-12);
+  const RigidMotion motion =
+      scene.contact().clear(scene.mesh.positions, {}, scene.pushed(0.3), kMargin);
+  EXPECT_NEAR(scene.clearance(motion, 0.3), kMargin, 0.003);
+  EXPECT_NEAR(motion.to.x(), 0, 1e-9);
 }
 
-TEST(Contact, AllowsWhatTheTargetHas) {
+TEST(Contact, TurnsAPartBehindATiltedWall) {
   const Scene scene;
-  Positions target = scene.mesh.positions;
-  target.topRows(scene.skin).col(2).array() -= 0.3;
-  const auto before = scene.contact.heights(target);
-  EXPECT_EQ(scene.contact.clearing_shift(target, before, {}, target, 0.05).norm(), 0);
+  const RigidMotion motion =
+      scene.contact().clear(scene.mesh.positions, {}, scene.pushed(0.1, 0.15), kMargin);
+  EXPECT_LT(scene.clearance({}, 0.1, 0.15), -0.1);
+  EXPECT_GT(scene.clearance(motion, 0.1, 0.15), 0.5 * kMargin);
+  EXPECT_LT(motion.turn({1, 0, 0}).z(), 0.15);
+  EXPECT_GT(motion.turn({1, 0, 0}).z(), 0.01) << "turned some of the way";
+}
+
+TEST(Contact, AllowsWhatAHeadHas) {
+  const Scene scene;
+  const Positions through = scene.pushed(0.3);
+  const Contact contact = scene.contact({{"ann", scene.mesh.positions}, {"bob", through}});
+  EXPECT_EQ(contact.clear(through, {}, through, kMargin).to.norm(), 0);
+  const RigidMotion motion = contact.clear(scene.mesh.positions, {}, scene.pushed(0.4), kMargin);
+  EXPECT_NEAR(scene.clearance(motion, 0.4), -0.2, 0.005) << "no deeper than in any head";
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "crowdface/parts/part_list.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/surface_point.h"
+#include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {
@@ -42,6 +43,10 @@ struct Reading {
   std::vector<std::vector<double>> lids;    ///< of the rim; negative: inside the eyeball
   std::vector<std::vector<double>> around;  ///< of all skin near the eyeball
   std::vector<std::vector<double>> mouth;   ///< negative: inside the flesh
+  /// Whether what is nearest is a wall of the mouth; roots reach through its roof and floor, where
+  /// nobody sees them.
+  std::vector<std::vector<bool>> wall;
+  std::vector<double> gums;  ///< distances between gums and the teeth in them
 };
 
 class Watch {
@@ -55,7 +60,8 @@ class Watch {
     parts_ = find_parts(topology_, adjacency, components, mean_);
     component_ = components.of_vertex;
     for (std::uint32_t v = 0; v < topology_.vertex_count; ++v) {
-      if (parts_.classes[components.of_vertex[v]] == PartClass::kSkin) skin_.push_back(v);
+      is_skin_.push_back(parts_.classes[components.of_vertex[v]] == PartClass::kSkin);
+      if (is_skin_.back()) skin_.push_back(v);
     }
     for (const Part& part : parts_.parts) {
       if (part.part_class != PartClass::kRigid) continue;
@@ -63,6 +69,14 @@ class Watch {
         eyes_.push_back(watch_eye(part));
       } else {
         mouths_.push_back(&part);
+        const PointGrid teeth(mean_, part.vertices);
+        for (const Part& other : parts_.parts) {
+          if (other.part_class != PartClass::kBound) continue;
+          for (const std::uint32_t v : other.vertices) {
+            const auto nearest = teeth.nearest(mean_.row(v).transpose(), 1 / mm_);
+            if (nearest.vertex != kNoIndex) gums_.emplace_back(v, nearest.vertex);
+          }
+        }
       }
     }
   }
@@ -70,8 +84,9 @@ class Watch {
   Reading read(const Positions& mesh) const {
     Reading reading;
     for (const Eye& eye : eyes_) {
-      const PointGrid ball(mesh, eye.part->vertices);
-      const Vector3d centre = middle_of(mesh, eye.part->vertices);
+      // Of the layers of an eyeball the outermost.
+      const PointGrid ball(mesh, eye.part->surface);
+      const Vector3d centre = middle_of(mesh, eye.part->surface);
       const auto gaps = [&](const std::vector<std::uint32_t>& vertices) {
         std::vector<double> result;
         for (const std::uint32_t v : vertices) {
@@ -88,10 +103,14 @@ class Watch {
       reading.lids.push_back(gaps(eye.rim));
       reading.around.push_back(gaps(eye.around));
     }
+    for (const auto& [gum, tooth] : gums_) {
+      reading.gums.push_back((mesh.row(gum) - mesh.row(tooth)).norm() * mm_);
+    }
     const PointGrid skin(mesh, skin_);
     const Positions normals = vertex_normals(topology_, mesh);
     for (const Part* part : mouths_) {
       std::vector<double> depths;
+      std::vector<bool> walls;
       for (const std::uint32_t v : part->vertices) {
         const Vector3d point = mesh.row(v).transpose();
         const SurfacePoint place =
@@ -100,16 +119,19 @@ class Watch {
         for (std::size_t k = 0; k < 3; ++k) {
           normal += place.shares[k] * normals.row(place.corners[k]).transpose();
         }
-        const double side = normal.dot(point - place.position) < 0 ? -1 : 1;
-        // Roots reach through the roof and the floor of the mouth, where nobody sees them.
-        const bool wall = std::abs(normal.y()) < 0.7 * normal.norm();
-        depths.push_back((wall ? side : 1) * place.distance * mm_);
+        // Where lips lie in folds the nearest skin may look away from the flesh: the turns tell.
+        const bool inside =
+            normal.dot(point - place.position) < 0 && turns_around(mesh, point) > 0.5;
+        depths.push_back((inside ? -1 : 1) * place.distance * mm_);
+        walls.push_back(std::abs(normal.y()) < 0.7 * normal.norm());
       }
       reading.mouth.push_back(std::move(depths));
+      reading.wall.push_back(std::move(walls));
     }
     return reading;
   }
 
+  std::size_t gums() const { return gums_.size(); }
   const std::vector<Eye>& eyes() const { return eyes_; }
   const PartList& parts() const { return parts_; }
   /// Of the mouth's vertices: whether it is of a closed piece.
@@ -127,14 +149,33 @@ class Watch {
     return (low + high) / 2;
   }
 
+  /// How often the skin winds around a point: 1 inside, 0 outside, about, since the neck is open (the
+  /// solid angles of its triangles, Van Oosterom & Strackee 1983).
+  double turns_around(const Positions& mesh, const Vector3d& point) const {
+    double sum = 0;
+    for (Index f = 0; f < topology_.face_count(); ++f) {
+      const auto face = topology_.face(f);
+      if (!is_skin_[face[0]]) continue;
+      const Vector3d a = mesh.row(face[0]).transpose() - point;
+      for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+        const Vector3d b = mesh.row(face[k]).transpose() - point;
+        const Vector3d c = mesh.row(face[k + 1]).transpose() - point;
+        const double la = a.norm(), lb = b.norm(), lc = c.norm();
+        sum += std::atan2(a.dot(cross3(b, c)),
+                          la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+      }
+    }
+    return sum / 6.2831853071795865;
+  }
+
   /// The rim of the lids on the mean head: every 6° around the axis the skin that is innermost; and
   /// all other skin near the eyeball's front, for what passes through it.
   Eye watch_eye(const Part& part) const {
     constexpr int kSectors = 60;
     constexpr double kNear = 0.35;  // cm
     Eye eye{&part, {}, {}, {}};
-    const PointGrid ball(mean_, part.vertices);
-    const Vector3d centre = middle_of(mean_, part.vertices);
+    const PointGrid ball(mean_, part.surface);
+    const Vector3d centre = middle_of(mean_, part.surface);
     std::vector<double> nearest(kSectors, 0.4);
     std::vector<std::uint32_t> rim(kSectors, kNoIndex);
     for (const std::uint32_t v : skin_) {
@@ -165,9 +206,12 @@ class Watch {
   Positions mean_;
   PartList parts_;
   std::vector<std::uint32_t> component_;  ///< #V
+  std::vector<bool> is_skin_;             ///< #V
   std::vector<std::uint32_t> skin_;
   std::vector<Eye> eyes_;
   std::vector<const Part*> mouths_;
+  /// Bound vertices less than a millimetre from a tooth on the mean head, and its nearest vertex.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> gums_;
 };
 
 struct Range2 {
@@ -215,6 +259,7 @@ struct Column {
   Range2 upper, lower, nearest;       ///< mean gaps of a lid; the smallest gap of a mesh
   Range2 upper_change, lower_change;  ///< of the mean gaps against the target's
   Range2 rim_change;                  ///< of single gaps
+  Range2 gum_change;                  ///< of the distances between gums and teeth
   Through rim, eye, teeth, gums;
 };
 
@@ -263,10 +308,15 @@ void add(Column& column, const Watch& watch, const Reading& reading, const Readi
   }
   add(column.rim, reading.lids, least.lids, [](std::size_t, std::size_t) { return true; });
   add(column.eye, reading.around, least.around, [](std::size_t, std::size_t) { return true; });
+  for (std::size_t i = 0; i < watch.gums(); ++i) {
+    column.gum_change.add(reading.gums[i] - target.gums[i]);
+  }
   const auto tooth = [&](std::size_t p, std::size_t i) { return watch.is_tooth(p, i); };
-  add(column.teeth, reading.mouth, least.mouth, tooth);
+  const auto wall = [&](std::size_t p, std::size_t i) { return reading.wall[p][i]; };
+  add(column.teeth, reading.mouth, least.mouth,
+      [&](std::size_t p, std::size_t i) { return wall(p, i) && tooth(p, i); });
   add(column.gums, reading.mouth, least.mouth,
-      [&](std::size_t p, std::size_t i) { return !tooth(p, i); });
+      [&](std::size_t p, std::size_t i) { return wall(p, i) && !tooth(p, i); });
 }
 
 void print(const std::vector<Column>& columns) {
@@ -302,6 +352,8 @@ void print(const std::vector<Column>& columns) {
   through("vertices of lids and their lining inside an eyeball", &Column::eye);
   through("vertices of teeth in lips or cheeks", &Column::teeth);
   through("vertices of gums and tongue in lips or cheeks", &Column::gums);
+  row("gums against their teeth, change of distance, mm",
+      [](const Column& c) { return c.gum_change.text(); });
 }
 
 FaceSet read_heads(const std::filesystem::path& folder) {

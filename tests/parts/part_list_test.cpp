@@ -37,6 +37,32 @@ TEST(Parts, AreToldApartByTheirShapes) {
   EXPECT_EQ(list.parts[3].part_class, PartClass::kBound);
 }
 
+TEST(Parts, KeepTheTeethOfTheTwoJawsApart) {
+  testing::Shapes shapes;
+  shapes.ball({0, 0, 0}, 10, 32);
+  for (const double bottom : {-3.5, -2.45}) {  // two rows that nearly touch, of three teeth each
+    for (const double x : {-1.5, -0.5, 0.5}) {
+      shapes.box({x, bottom, 8.2}, {x + 0.95, bottom + 1, 8.7});
+    }
+  }
+  const Mesh mesh = shapes.mesh();
+  const PartList list = parts_of(mesh);
+  ASSERT_EQ(list.parts.size(), 2U);
+  EXPECT_THAT(list.parts[0].components, ElementsAre(1, 2, 3));
+  EXPECT_THAT(list.parts[1].components, ElementsAre(4, 5, 6));
+  PartOverrides overrides;
+  overrides.together = {{1, 2, 3, 4, 5, 6}};
+  EXPECT_EQ(parts_of(mesh, overrides).parts.size(), 1U) << "what is said by hand counts";
+}
+
+TEST(Parts, KnowAnEyeballsSurface) {
+  const PartList list = parts_of(testing::simple_head());
+  const Part& eye = list.parts[0];
+  EXPECT_EQ(eye.ball, HeadComponent::kLeftEye);
+  EXPECT_EQ(static_cast<Index>(eye.surface.size()), list.shapes[HeadComponent::kLeftEye].vertices);
+  EXPECT_TRUE(list.parts[2].surface.empty());
+}
+
 TEST(Parts, DoNotDependOnUnitsOrPlace) {
   Mesh mesh = testing::simple_head();
   const PartList cm = parts_of(mesh);

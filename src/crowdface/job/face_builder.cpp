@@ -3,6 +3,7 @@
 
 #include "crowdface/blend/blend.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/job/named_parts.h"
 
 namespace crowdface {
 
@@ -17,10 +18,8 @@ FaceBuilder::FaceBuilder(const Job& job, const Prepared& prepared)
     blender_.emplace(job.inputs.faces, head_levels(job.config, prepared), regions_);
   }
   if (!job.inputs.parts.parts.empty()) {
-    HeadAxes axes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-    axes.front(job.config.faces.front.index) = job.config.faces.front.sign;
-    axes.up(job.config.faces.up.index) = job.config.faces.up.sign;
-    follower_.emplace(job.inputs.faces, job.inputs.parts, axes, job.config.parts.shape);
+    follower_.emplace(job.inputs.faces, job.inputs.parts, head_axes(job.config),
+                      job.config.parts.shape);
   }
 }
 

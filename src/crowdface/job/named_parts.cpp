@@ -126,6 +126,13 @@ std::string name_of(const Part& part) {
 
 }  // namespace
 
+HeadAxes head_axes(const Config& config) {
+  HeadAxes axes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  axes.front(config.faces.front.index) = config.faces.front.sign;
+  axes.up(config.faces.up.index) = config.faces.up.sign;
+  return axes;
+}
+
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems) {
   inputs.skin = inputs.components;
   if (!config.parts.follow) return;
@@ -133,8 +140,8 @@ void find_named_parts(const Config& config, Inputs& inputs, Problems& problems) 
   Positions mean = Positions::Zero(inputs.faces.topology.vertex_count, 3);
   for (const Head& head : inputs.faces.heads) mean += head.positions;
   mean /= static_cast<double>(inputs.faces.heads.size());
-  inputs.parts =
-      find_parts(inputs.faces.topology, inputs.adjacency, inputs.components, mean, overrides);
+  inputs.parts = find_parts(inputs.faces.topology, inputs.adjacency, inputs.components, mean,
+                            overrides, head_axes(config));
   inputs.skin = join_skin(inputs.components, inputs.parts);
 }
 

@@ -7,12 +7,16 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/job/config.h"
 #include "crowdface/job/inputs.h"
+#include "crowdface/parts/head_axes.h"
 
 namespace crowdface {
 
 /// Sorts the components of the heads into parts as the config asks, into `inputs.parts` and
 /// `inputs.skin`. A name that no component bears is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
+
+/// Which way the heads look, as the config says.
+HeadAxes head_axes(const Config& config);
 
 /// Adds what a mesh depends on; nothing if all is skin.
 void add_parts(const Config& config, const PartList& parts, Hasher& hasher);

@@ -2,100 +2,213 @@
 #include "crowdface/parts/contact.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "crowdface/parts/solve3.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/parts/small_program.h"
 #include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {
 
 /// More pairs than this change nothing but the time.
-constexpr std::size_t kMostVertices = 1500;
-/// What a shift costs beside a gap that it closes, a pair.
-constexpr double kHold = 1e-3;
-constexpr int kSteps = 8;
+constexpr std::size_t kMostVertices = 6000;
+/// Shares of the reach (some 4 mm): nearer than this by a rough measure a vertex is measured exactly;
+/// and what counts as free.
+constexpr double kNear = 0.4, kFree = -0.005;
+/// What is farther off after that is left out of further steps; and how much may be missing at last.
+constexpr double kFar = 0.25, kDone = 0.002;
+/// What a turn and a change of size cost, as against a shift that moves as much.
+constexpr double kHoldTurn = 1, kHoldSize = 2;
+constexpr double kSmaller = 0.06, kLarger = 0.01;
+/// Prices, as multiples of the reach: that nothing passes where nothing does comes first.
+constexpr double kNewPrice = 1000, kDeepPrice = 1;
+
+/// Unknowns of a step; lengths.
+enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepSlack, kUnknowns };
 
 }  // namespace
 
 Contact::Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
-                 const PointGrid& skin, std::span<const std::uint32_t> part, double reach) {
+                 std::span<const std::uint32_t> skin, std::span<const std::uint32_t> part,
+                 double reach, const std::vector<Head>& heads)
+    : topology_(&topology), faces_(&faces), reach_(reach), part_(part.begin(), part.end()) {
+  for (const std::uint32_t v : part_) middle_ += positions.row(v).transpose();
+  middle_ /= static_cast<double>(part_.size());
+  for (const std::uint32_t v : part_) {
+    const Eigen::Vector3d from = positions.row(v).transpose() - middle_;
+    radius_ += dot3(from, from);
+  }
+  radius_ = std::max(std::sqrt(radius_ / static_cast<double>(part_.size())), 1e-3 * reach);
+
+  const PointGrid grid(positions, skin);
   const std::size_t count = std::min(part.size(), kMostVertices);
   std::vector<double> heights;
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = part[i * part.size() / count];
     const Eigen::Vector3d point = positions.row(v).transpose();
-    const auto nearest = skin.nearest(point);
+    const auto nearest = grid.nearest(point, 2 * reach);
+    if (nearest.vertex == kNoIndex) continue;
     const SurfacePoint place = nearest_around(topology, faces, positions, nearest.vertex, point);
     if (place.distance > reach) continue;
-    pairs_.push_back({v, place.corners, place.shares});
-    heights.push_back(height(pairs_.back(), point, positions));
+    const std::uint32_t start = place.corners[0];
+    pairs_.push_back({v, place.corners, place.shares, {start, start, start}, 1e300});
+    heights.push_back(height(pairs_.size() - 1, point, positions).height);
     sum += heights.back() > 0 ? 1 : -1;
   }
   // Most lie on the free side; roots that reach into the flesh may.
   side_ = sum < 0 ? -1 : 1;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (side_ * heights[i] > 0) pairs_[kept++] = pairs_[i];
-  }
-  pairs_.resize(kept);
-}
-
-Eigen::Vector3d Contact::normal(const Pair& pair, const Positions& head) const {
-  const Eigen::Vector3d a = head.row(pair.corners[0]).transpose();
-  const Eigen::Vector3d b = head.row(pair.corners[1]).transpose();
-  const Eigen::Vector3d c = head.row(pair.corners[2]).transpose();
-  return side_ * unit3(cross3(b - a, c - a));
-}
-
-double Contact::height(const Pair& pair, const Eigen::Vector3d& point,
-                       const Positions& skin) const {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {
-    place += pair.shares[k] * skin.row(pair.corners[k]).transpose();
-  }
-  return dot3(normal(pair, skin), point - place);
-}
-
-std::vector<double> Contact::heights(const Positions& head) const {
-  std::vector<double> result;
-  for (const Pair& pair : pairs_) {
-    result.push_back(height(pair, head.row(pair.vertex).transpose(), head));
-  }
-  return result;
-}
-
-Eigen::Vector3d Contact::clearing_shift(const Positions& target, std::span<const double> before,
-                                        const RigidMotion& motion, const Positions& after,
-                                        double margin) const {
-  // Gauss and Newton on the squares of what is missing; only pairs that miss something count.
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  std::vector<double> gap;
-  std::vector<Eigen::Vector3d> normals;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const Eigen::Vector3d point = motion.apply(target.row(pairs_[i].vertex).transpose());
-    normals.push_back(normal(pairs_[i], after));
-    gap.push_back(height(pairs_[i], point, after) - std::min(before[i], margin));
-  }
-  for (int step = 0; step < kSteps; ++step) {
-    double a[3][3] = {}, b[3] = {};
-    double missing_pairs = 0;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const Eigen::Vector3d& n = normals[i];
-      const double missing = -(gap[i] + dot3(n, shift));
-      if (missing <= 0) continue;
-      missing_pairs += 1;
-      for (Index r = 0; r < 3; ++r) {
-        for (Index c = 0; c < 3; ++c) a[r][c] += n(r) * n(c);
-        b[r] += n(r) * missing;
+  find_starts(positions, skin, heads);
+  parallel_blocks(static_cast<std::ptrdiff_t>(pairs_.size()), 64, [&](auto begin, auto end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      for (const Head& head : heads) {
+        const Eigen::Vector3d point = head.positions.row(pairs_[i].vertex).transpose();
+        pairs_[i].least = std::min(pairs_[i].least, height(i, point, head.positions).height);
       }
     }
-    if (missing_pairs == 0) break;
-    const double hold = kHold * static_cast<double>(pairs_.size()) + 0.05 * missing_pairs;
-    for (Index r = 0; r < 3; ++r) a[r][r] += hold;
-    shift += solve3(a, b);
+  });
+}
+
+void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
+                          const std::vector<Head>& heads) {
+  // Starts nearer to each other than this lead to the same place.
+  const double apart = 0.3 * reach_;
+  std::vector<std::vector<std::uint32_t>> nearest(heads.size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(heads.size()), [&](std::ptrdiff_t h) {
+    const auto i = static_cast<std::size_t>(h);
+    const PointGrid grid(heads[i].positions, skin);
+    for (const Pair& pair : pairs_) {
+      nearest[i].push_back(
+          grid.nearest(heads[i].positions.row(pair.vertex).transpose(), 2 * reach_).vertex);
+    }
+  });
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    auto& starts = pairs_[i].starts;
+    std::size_t count = 1;
+    for (const auto& of_head : nearest) {
+      const std::uint32_t v = of_head[i];
+      const auto is_near = [&](std::uint32_t start) {
+        return length3((positions.row(v) - positions.row(start)).transpose()) < apart;
+      };
+      if (v == kNoIndex || count == kStarts ||
+          std::any_of(starts.begin(), starts.begin() + count, is_near)) {
+        continue;
+      }
+      starts[count++] = v;
+    }
   }
-  return shift;
+}
+
+double Contact::rough_height(const Pair& pair, const Eigen::Vector3d& point,
+                             const Positions& skin) const {
+  const Eigen::Vector3d a = skin.row(pair.corners[0]).transpose();
+  const Eigen::Vector3d b = skin.row(pair.corners[1]).transpose();
+  const Eigen::Vector3d c = skin.row(pair.corners[2]).transpose();
+  const Eigen::Vector3d place = pair.shares[0] * a + pair.shares[1] * b + pair.shares[2] * c;
+  return side_ * dot3(unit3(cross3(b - a, c - a)), point - place);
+}
+
+Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions& skin) const {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (place.shares[k] <= 0) continue;
+    Eigen::Vector3d at_corner = Eigen::Vector3d::Zero();
+    for (const std::uint32_t f : faces_->of(place.corners[k])) {
+      const auto face = topology_->face(f);
+      const Eigen::Vector3d first = skin.row(face[0]).transpose();
+      for (std::size_t j = 1; j + 1 < face.size(); ++j) {
+        at_corner += cross3(skin.row(face[j]).transpose() - first,
+                            skin.row(face[j + 1]).transpose() - first);
+      }
+    }
+    normal += place.shares[k] * unit3(at_corner);
+  }
+  return side_ * unit3(normal);
+}
+
+Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
+                                const Positions& skin) const {
+  const auto& starts = pairs_[pair].starts;
+  SurfacePoint place = nearest_from(*topology_, *faces_, skin, starts[0], point);
+  for (std::size_t s = 1; s < kStarts && starts[s] != starts[0]; ++s) {
+    const SurfacePoint other = nearest_from(*topology_, *faces_, skin, starts[s], point);
+    if (other.distance < place.distance) place = other;
+  }
+  const Eigen::Vector3d normal = normal_near(place, skin);
+  const Eigen::Vector3d from = point - place.position;
+  const double side = dot3(from, normal) < 0 ? -1 : 1;
+  if (place.distance < 1e-3 * reach_) return {side * place.distance, normal};
+  return {side * place.distance, side / place.distance * from};
+}
+
+RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
+                           const Positions& after, double margin) const {
+  constexpr int kSteps = 4;
+  RigidMotion cleared = motion;
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    const Eigen::Vector3d point = motion.apply(target.row(pairs_[i].vertex).transpose());
+    if (rough_height(pairs_[i], point, after) < kNear * reach_) near.push_back(i);
+  }
+  for (int k = 0; k < kSteps; ++k) {
+    if (!step(target, motion, after, margin, near, cleared)) break;
+  }
+  return cleared;
+}
+
+bool Contact::step(const Positions& target, const RigidMotion& start, const Positions& after,
+                   double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const {
+  const Eigen::Vector3d middle = motion.apply(middle_);
+  const Eigen::Vector3d shifted = middle - start.apply(middle_);
+  const double radius = motion.scale * radius_;
+  const double grown = (motion.scale / start.scale - 1) * radius;
+  SmallProgram program(kUnknowns);
+  bool missing = false;
+  std::size_t kept = 0;
+  for (const std::uint32_t i : near) {
+    const Pair& pair = pairs_[i];
+    const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
+    const Height now = height(i, point, after);
+    if (now.height > kFar * reach_) continue;
+    near[kept++] = i;
+    const Eigen::Vector3d from = point - middle;
+    const Eigen::Vector3d arm = cross3(from, now.outward) / radius;
+    const bool never = pair.least > kFree * reach_;
+    const double least = never ? std::clamp(pair.least, 0.2 * margin, margin) : pair.least;
+    missing = missing || now.height < least - kDone * reach_;
+    SmallProgram::Vector a = {now.outward.x(),
+                              now.outward.y(),
+                              now.outward.z(),
+                              arm.x(),
+                              arm.y(),
+                              arm.z(),
+                              dot3(from, now.outward) / radius};
+    a[never ? kNewSlack : kDeepSlack] = 1;
+    program.demand(a, least - now.height);
+  }
+  near.resize(kept);
+  if (!missing) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    program.want(kShift + i, -shifted(static_cast<Index>(i)), 1);
+    program.want(kTurn + i, 0, kHoldTurn);
+  }
+  program.want(kSize, -grown, kHoldSize);
+  SmallProgram::Vector smaller = {};
+  smaller[kSize] = -1;
+  program.demand(kSize, -kSmaller * radius - grown);
+  program.demand(smaller, -(kLarger * radius - grown));
+  const std::pair<Unknown, double> slacks[] = {{kNewSlack, kNewPrice}, {kDeepSlack, kDeepPrice}};
+  for (const auto& [slack, price] : slacks) {
+    program.want(slack, 0, 1);
+    program.charge(slack, price * reach_);
+    program.demand(slack, 0);
+  }
+  const SmallProgram::Vector x = program.solve(1e-5 * reach_);
+  motion =
+      nudged(motion, middle, {x[0], x[1], x[2]},
+             Eigen::Vector3d(x[kTurn], x[kTurn + 1], x[kTurn + 2]) / radius, x[kSize] / radius);
+  return true;
 }
 
 }  // namespace crowdface

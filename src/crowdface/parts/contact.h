@@ -20,33 +20,55 @@ class Contact {
   Contact() = default;
   /// \param positions  of the head on which the pairs are looked for
   /// \param reach      how near
+  /// Topology and faces must outlive it.
   Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
-          const PointGrid& skin, std::span<const std::uint32_t> part, double reach);
+          std::span<const std::uint32_t> skin, std::span<const std::uint32_t> part, double reach,
+          const std::vector<Head>& heads);
 
-  /// How far the part's vertices are off the skin in one head, #pairs; negative: through it.
-  std::vector<double> heights(const Positions& head) const;
+  /// How far a pair's vertex, wherever it is, is off the skin of a head; negative: through it.
+  struct Height {
+    double height = 0;
+    Eigen::Vector3d outward;  ///< off the skin, unit
+  };
+  Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// The shortest shift, about, that clears the part of the skin where it passes through it farther
-  /// than in the target.
-  /// \param before   heights of the target
-  /// \param margin   what is left of a clearance that the target has
-  Eigen::Vector3d clearing_shift(const Positions& target, std::span<const double> before,
-                                 const RigidMotion& motion, const Positions& after,
-                                 double margin) const;
+  /// A motion as near as can be to the given one after which no vertex is deeper in the skin than in
+  /// any of the heads, nor in it at all if it is in none. The part is shifted, turned and made a little
+  /// smaller.
+  /// \param target  the part before the motion
+  /// \param margin  what is left of a clearance that all heads have
+  RigidMotion clear(const Positions& target, const RigidMotion& motion, const Positions& after,
+                    double margin) const;
 
   std::size_t size() const { return pairs_.size(); }
 
  private:
+  static constexpr std::size_t kStarts = 3;
   struct Pair {
     std::uint32_t vertex;
     std::array<std::uint32_t, 3> corners;
     std::array<double, 3> shares;
+    /// Vertices to start from when the nearest skin is looked for: of both lips, where both are near.
+    std::array<std::uint32_t, kStarts> starts;
+    double least;  ///< height in all heads
   };
-  Eigen::Vector3d normal(const Pair& pair, const Positions& head) const;
-  double height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
+  void find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
+                   const std::vector<Head>& heads);
+  double rough_height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
+  Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
+  /// \param near  the pairs to look at; those that turn out to be far are taken out
+  /// \return false if nothing is missing
+  bool step(const Positions& target, const RigidMotion& start, const Positions& after,
+            double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
+  const Topology* topology_ = nullptr;
+  const FacesAround* faces_ = nullptr;
+  double reach_ = 0;
+  double side_ = 1;    ///< −1: the skin's faces look away from the part
+  double radius_ = 0;  ///< of the part: root mean square about its middle
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< of the part where the pairs were found
+  std::vector<std::uint32_t> part_;
   std::vector<Pair> pairs_;
-  double side_ = 1;  ///< −1: the skin's faces look away from the part
 };
 
 }  // namespace crowdface

@@ -5,30 +5,41 @@
 #include <array>
 #include <cmath>
 
-#include "crowdface/parts/solve3.h"
+#include "crowdface/parts/small_program.h"
 #include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {
 
-/// How far off the eyeball the rim may be, as a share of its radius, some 12 mm.
-constexpr double kLidReach = 0.25;
-constexpr double kLeastFront = 0.3;  // cosine of the angle to the axis, at the lids' corners
-constexpr std::size_t kDirections = 48;
-/// What the mean gap of a lid counts beside all the gaps of the rim.
-constexpr double kMeans = 20;
-/// What a shift costs beside the gaps: keeps an eyeball in place along its own surface.
-constexpr double kHold = 0.02;
-/// What a gap counts where the eyeball comes through the rim and did not before.
-constexpr double kThrough = 4;
+/// How far off the eyeball lids may be, as a share of its radius, some 12 mm.
+constexpr double kLidReach = 0.3;
+constexpr double kLeastFront = 0.35;  // cosine of the angle to the axis, at the lids' corners
+constexpr std::size_t kDirections = 60;
 
-/// Which of kDirections equal sectors a direction in the plane lies in, without an arc tangent: the
-/// sectors are equal along a diamond, |x| + |y| = 1.
+/// What the mean gap of a lid counts beside the mean square of all gaps of the rim, and how far it may be
+/// off: a share of the radius, 0.05 mm.
+constexpr double kMeans = 20, kMeanOff = 0.004;
+/// What a shift and a change of size cost beside the gaps.
+constexpr double kHold = 0.02, kHoldSize = 0.2;
+/// How much smaller or larger the eyeball may become.
+constexpr double kSmaller = 0.08, kLarger = 0.03;
+/// Shares of the radius: what is kept free where no head has a lid inside, and what still counts as
+/// free: 0.025 and 0.04 mm.
+constexpr double kMargin = 0.002, kFree = -0.003;
+/// A shift, as a share of the radius, after which another step changes nothing that can be seen.
+constexpr double kDone = 5e-4;
+/// Prices, as multiples of the radius, of what cannot be had: that no lid enters where none does comes
+/// first, then the mean gaps, then that none enters farther than in any head.
+constexpr double kNewPrice = 100, kMeanPrice = 10, kDeepPrice = 1;
+
+/// Unknowns of a step; lengths.
+enum Unknown : std::size_t { kShift = 0, kSize = 3, kMeanSlack, kNewSlack, kDeepSlack, kUnknowns };
+
+/// Which of kDirections equal sectors a direction in the plane lies in.
 std::size_t sector(double x, double y) {
-  const double sum = std::abs(x) + std::abs(y);
-  if (!(sum > 0)) return 0;
-  const double along = y >= 0 ? 1 - x / sum : 3 + x / sum;  // 0 … 4
-  const auto number = static_cast<std::size_t>(along / 4 * static_cast<double>(kDirections));
+  constexpr double kTurn = 6.283185307179586, kRound = 1e9;
+  const double turn = std::round((std::atan2(y, x) / kTurn + 0.5) * kRound) / kRound;
+  const auto number = static_cast<std::size_t>(turn * static_cast<double>(kDirections));
   return std::min(number, kDirections - 1);
 }
 
@@ -37,116 +48,151 @@ std::size_t sector(double x, double y) {
 Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen::Vector3d& centre,
                double radius, const HeadAxes& axes, std::span<const std::uint32_t> skin) {
   const double reach = kLidReach * radius;
-  const Eigen::Vector3d side = cross3(axes.up, axes.front);
+  const Eigen::Vector3d side = axes.side();
   struct Innermost {
-    std::uint32_t vertex = kNoIndex;
+    std::uint32_t number = kNoIndex;
     double cosine = kLeastFront;
   };
-  std::array<Innermost, kDirections> rim;
+  std::array<Innermost, kDirections> innermost;
+  Lids lids;
   for (const std::uint32_t v : skin) {
     const Eigen::Vector3d point = positions.row(v).transpose();
     const Eigen::Vector3d from = point - centre;
     const double distance = length3(from);
-    if (distance > radius + 2 * reach) continue;
-    const double cosine = dot3(from, axes.front) / distance;
-    Innermost& innermost = rim[sector(dot3(from, side), dot3(from, axes.up))];
-    if (cosine <= innermost.cosine) continue;
+    if (distance > radius + 2 * reach || dot3(from, axes.front) < -reach) continue;
     if (eyeball.nearest(point, reach).vertex == kNoIndex) continue;
-    innermost = {v, cosine};
-  }
-  std::vector<std::uint32_t> vertices;
-  for (const Innermost& innermost : rim) {
-    if (innermost.vertex != kNoIndex) vertices.push_back(innermost.vertex);
-  }
-  std::sort(vertices.begin(), vertices.end());
-  Lids lids;
-  for (const std::uint32_t v : vertices) {
+    const auto number = static_cast<std::uint32_t>(lids.vertices.size());
     lids.vertices.push_back(v);
-    lids.upper.push_back(dot3(positions.row(v).transpose() - centre, axes.up) > 0);
+    const double cosine = dot3(from, axes.front) / distance;
+    Innermost& best = innermost[sector(dot3(from, side), dot3(from, axes.up))];
+    if (cosine > best.cosine) best = {number, cosine};
+  }
+  for (const Innermost& best : innermost) {
+    if (best.number != kNoIndex) lids.rim.push_back(best.number);
+  }
+  std::sort(lids.rim.begin(), lids.rim.end());
+  for (const std::uint32_t number : lids.rim) {
+    const Eigen::Vector3d point = positions.row(lids.vertices[number]).transpose();
+    lids.upper.push_back(dot3(point - centre, axes.up) > 0);
   }
   return lids;
 }
 
-Eyeball::Eyeball(const Topology& topology, const FacesAround& faces, const Positions& head,
-                 std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre,
-                 double radius, const Lids& lids)
-    : topology_(topology),
-      faces_(faces),
-      head_(head),
-      grid_(head, vertices),
-      centre_(centre),
-      radius_(radius) {
-  for (const std::uint32_t v : lids.vertices) {
-    const Eigen::Vector3d point = head.row(v).transpose();
-    gaps_.push_back(length3(point - ball_under(point)) - radius);
+EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads)
+    : lids_(std::move(lids)),
+      maps_(std::move(maps)),
+      least_(lids_.vertices.size(), 1e300),
+      rim_of_(lids_.vertices.size(), kNoIndex) {
+  for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
+    rim_of_[lids_.rim[r]] = static_cast<std::uint32_t>(r);
+  }
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    std::vector<double>& gaps = gaps_.emplace_back(lids_.rim.size());
+    for (std::size_t i = 0; i < lids_.vertices.size(); ++i) {
+      const Eigen::Vector3d point = heads[h].positions.row(lids_.vertices[i]).transpose();
+      const double gap = maps_[h].gap_at(point - maps_[h].centre()).gap;
+      least_[i] = std::min(least_[i], gap);
+      if (rim_of_[i] != kNoIndex) gaps[rim_of_[i]] = gap;
+    }
   }
 }
 
-Eigen::Vector3d Eyeball::ball_under(const Eigen::Vector3d& point) const {
-  const SurfacePoint place =
-      nearest_around(topology_, faces_, head_, grid_.nearest(point).vertex, point);
-  Eigen::Vector3d outward = normal_at(head_, place);
-  if (dot3(outward, place.position - centre_) < 0) outward = -outward;
-  return place.position - radius_ * outward;
-}
-
-Eigen::Vector3d Eyeball::shift_into(const Lids& lids, const RigidMotion& motion,
-                                    const Positions& after) const {
-  constexpr int kRounds = 2, kSteps = 3;
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector3d> balls(lids.vertices.size());
-  for (int round = 0; round < kRounds; ++round) {
-    // Where the lids have slid to on the eyeball, looked up on the head it came from.
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-      const Eigen::Vector3d point = after.row(lids.vertices[i]).transpose();
-      balls[i] = motion.apply(ball_under(motion.undo(point - shift)));
-    }
-    for (int k = 0; k < kSteps; ++k) {
-      shift += step(lids, balls, motion.scale * radius_, shift, after);
-    }
+RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
+                           const Positions& after) const {
+  constexpr int kSteps = 4;
+  if (lids_.rim.empty()) return motion;
+  std::vector<Lid> lids;
+  lids.reserve(lids_.vertices.size());
+  for (std::uint32_t i = 0; i < lids_.vertices.size(); ++i) {
+    lids.push_back({after.row(lids_.vertices[i]).transpose(), i});
   }
-  return shift;
+  RigidMotion fitted = motion;
+  for (int k = 0; k < kSteps; ++k) {
+    const RigidMotion next = step(target, motion, fitted, lids);
+    const double change = length3(next.to - fitted.to);
+    fitted = next;
+    if (change < kDone * maps_[target].radius()) break;
+  }
+  return fitted;
 }
 
-Eigen::Vector3d Eyeball::step(const Lids& lids, const std::vector<Eigen::Vector3d>& balls,
-                              double radius, const Eigen::Vector3d& shift,
-                              const Positions& after) const {
-  const std::size_t count = lids.vertices.size();
-  double a[3][3] = {}, b[3] = {};
-  // A shift by x changes a gap by −x · u.
-  const auto add = [&](double weight, const Eigen::Vector3d& u, double wide) {
-    for (Index r = 0; r < 3; ++r) {
-      for (Index c = 0; c < 3; ++c) a[r][c] += weight * u(r) * u(c);
-      b[r] += weight * u(r) * wide;
-    }
-  };
+RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
+                            std::vector<Lid>& lids) const {
+  // Lids that are this far off, as a share of the radius, are not met by what is still to come.
+  constexpr double kFar = 0.1;
+  const BallMap& map = maps_[target];
+  const double radius = motion.scale * map.radius();
+  const Eigen::Vector3d centre = motion.apply(map.centre());
+  const Eigen::Vector3d shifted = centre - start.apply(map.centre());
+  const double grown = (motion.scale / start.scale - 1) * radius;
+  const auto rim = static_cast<double>(lids_.rim.size());
+  SmallProgram program(kUnknowns);
   struct {
-    Eigen::Vector3d u = Eigen::Vector3d::Zero();
-    double wide = 0, count = 0;
+    SmallProgram::Vector a = {};
+    double missing = 0, count = 0;
   } mean[2];
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d from = after.row(lids.vertices[i]).transpose() - balls[i] - shift;
-    const double length = length3(from);
-    if (!(length > 0)) continue;
-    const Eigen::Vector3d u = from / length;
-    const double gap = length - radius, wide = gap - gaps_[i];
-    add(gap < 0 && gaps_[i] >= 0 ? kThrough : 1, u, wide);
-    auto& lid = mean[lids.upper[i] ? 1 : 0];
-    lid.u += u;
-    lid.wide += wide;
-    lid.count += 1;
+
+  std::size_t kept = 0;
+  for (const Lid& lid : lids) {
+    const std::uint32_t r = rim_of_[lid.number];
+    BallMap::Gap gap = map.gap_at(motion.undo(lid.point) - map.centre());
+    gap.gap *= motion.scale;
+    if (r == kNoIndex && gap.gap > kFar * radius) continue;
+    lids[kept++] = lid;
+    const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
+    // A shift by x changes the gap by −x · normal.
+    SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
+    a[kSize] = -dot3(normal, lid.point - gap.gap * normal - centre) / radius;
+    if (r != kNoIndex) {
+      const double missing = gaps_[target][r] - gap.gap;
+      program.want(a, missing, 1 / rim);
+      auto& of = mean[lids_.upper[r] ? 1 : 0];
+      for (std::size_t i = 0; i < kMeanSlack; ++i) of.a[i] += a[i];
+      of.missing += missing;
+      of.count += 1;
+    }
+    const double least = least_[lid.number];
+    const bool never = least > kFree * map.radius();
+    a[never ? kNewSlack : kDeepSlack] = 1;
+    program.demand(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
-  for (const auto& lid : mean) {
-    if (lid.count == 0) continue;
-    add(kMeans * static_cast<double>(count), lid.u / lid.count, lid.wide / lid.count);
+  lids.resize(kept);
+
+  for (auto& of : mean) {
+    if (of.count == 0) continue;
+    for (double& value : of.a) value /= of.count;
+    const double missing = of.missing / of.count;
+    program.want(of.a, missing, kMeans);
+    SmallProgram::Vector less = of.a;
+    for (double& value : less) value = -value;
+    of.a[kMeanSlack] = less[kMeanSlack] = 1;
+    program.demand(of.a, missing - kMeanOff * radius);
+    program.demand(less, -missing - kMeanOff * radius);
   }
-  const double hold = kHold * static_cast<double>(count);
-  if (count == 0) return Eigen::Vector3d::Zero();
-  for (Index r = 0; r < 3; ++r) {
-    a[r][r] += hold;
-    b[r] -= hold * shift(r);
+  for (std::size_t i = 0; i < 3; ++i) {
+    program.want(kShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
-  return solve3(a, b);
+  program.want(kSize, -grown, kHoldSize);
+  SmallProgram::Vector smaller = {};
+  smaller[kSize] = -1;
+  program.demand(kSize, -kSmaller * radius - grown);
+  program.demand(smaller, -(kLarger * radius - grown));
+  const std::pair<Unknown, double> slacks[] = {
+      {kMeanSlack, kMeanPrice}, {kNewSlack, kNewPrice}, {kDeepSlack, kDeepPrice}};
+  for (const auto& [slack, price] : slacks) {
+    program.want(slack, 0, 1);
+    program.charge(slack, price * radius);
+    program.demand(slack, 0);
+  }
+  const SmallProgram::Vector x = program.solve(1e-5 * radius);
+  return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kSize] / radius);
+}
+
+std::uint64_t EyeSocket::memory_bytes() const {
+  std::uint64_t bytes = lids_.vertices.size() * 16;
+  for (const BallMap& map : maps_) bytes += map.memory_bytes();
+  for (const auto& gaps : gaps_) bytes += gaps.size() * sizeof(double);
+  return bytes;
 }
 
 }  // namespace crowdface

@@ -5,22 +5,19 @@
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
+#include "crowdface/parts/ball_map.h"
+#include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/rigid_motion.h"
-#include "crowdface/parts/surface_point.h"
 
 namespace crowdface {
 
-/// Which way a head looks: unit vectors.
-struct HeadAxes {
-  Eigen::Vector3d front = {0, 0, 1}, up = {0, 1, 0};
-};
-
-/// The rim of an eyeball's lids: of the skin close to the eyeball, in each of some directions around
-/// its axis, the vertex that comes nearest to the axis.
+/// The skin close to the front of an eyeball: lids and what lines them. Of these the rim: in each of
+/// some directions around the axis, the vertex that comes nearest to the axis.
 struct Lids {
   std::vector<std::uint32_t> vertices;  ///< ascending
-  std::vector<bool> upper;              ///< #vertices: of the upper lid
+  std::vector<std::uint32_t> rim;       ///< places in `vertices`, ascending
+  std::vector<bool> upper;              ///< #rim: of the upper lid
 };
 
 /// \param eyeball         vertices of the eyeball
@@ -29,37 +26,39 @@ struct Lids {
 Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen::Vector3d& centre,
                double radius, const HeadAxes& axes, std::span<const std::uint32_t> skin);
 
-/// An eyeball as it stands in one head, and how far the lids are off it.
-class Eyeball {
+/// How an eyeball lies behind its lids in each of the heads, and how it is put there in a new one.
+class EyeSocket {
  public:
-  /// \param vertices        of the eyeball
-  /// \param centre, radius  of its ball in this head
-  /// Topology, faces and head must outlive it.
-  Eyeball(const Topology& topology, const FacesAround& faces, const Positions& head,
-          std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre, double radius,
-          const Lids& lids);
+  EyeSocket() = default;
+  /// \param maps   of the eyeball in each head
+  EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads);
 
-  /// #lids; negative inside the eyeball.
-  const std::vector<double>& gaps() const { return gaps_; }
+  const Lids& lids() const { return lids_; }
+  /// Of the rim in one of the heads; negative inside the eyeball.
+  const std::vector<double>& gaps(std::size_t head) const { return gaps_[head]; }
 
-  /// How to shift the eyeball after it has moved, so that its mean gap to each lid becomes what it was,
-  /// and each gap of the rim as nearly as it then can (weighted least squares by Gauss and Newton).
-  Eigen::Vector3d shift_into(const Lids& lids, const RigidMotion& motion,
-                             const Positions& after) const;
+  /// Where the eyeball of `target` comes to lie when its face has moved: shifted, and made a little
+  /// smaller or larger, so that its mean gap to each lid becomes what it was, and each gap of the rim as
+  /// nearly as it then can, while no lid enters it farther than in any of the heads, nor at all if it
+  /// enters it in none.
+  /// \param motion  of the skin around the eye
+  RigidMotion fit(std::size_t target, const RigidMotion& motion, const Positions& after) const;
+
+  std::uint64_t memory_bytes() const;
 
  private:
-  /// Centre of the ball of our radius that touches the eyeball from inside where a point is nearest.
-  Eigen::Vector3d ball_under(const Eigen::Vector3d& point) const;
-  Eigen::Vector3d step(const Lids& lids, const std::vector<Eigen::Vector3d>& balls, double radius,
-                       const Eigen::Vector3d& shift, const Positions& after) const;
+  struct Lid {
+    Eigen::Vector3d point;
+    std::uint32_t number;
+  };
+  RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
+                   std::vector<Lid>& lids) const;
 
-  const Topology& topology_;
-  const FacesAround& faces_;
-  const Positions& head_;
-  PointGrid grid_;
-  Eigen::Vector3d centre_;
-  double radius_;
-  std::vector<double> gaps_;
+  Lids lids_;
+  std::vector<BallMap> maps_;              ///< #heads
+  std::vector<std::vector<double>> gaps_;  ///< #heads by #rim
+  std::vector<double> least_;              ///< #lids: the least gap of all heads
+  std::vector<std::uint32_t> rim_of_;      ///< #lids: number in the rim, or kNoIndex
 };
 
 }  // namespace crowdface

@@ -10,6 +10,7 @@
 #include "crowdface/parts/contact.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/parts/socket.h"
+#include "crowdface/parts/ties.h"
 
 namespace crowdface {
 namespace {
@@ -20,6 +21,8 @@ constexpr double kEyeReach = 1, kReach = 0.03;
 /// How near to the skin a part may come to pass through it, and how much of a clearance is kept at
 /// least: shares of the skin's extent.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
+/// How far from a tooth gums still go along with it, as a share of the skin's extent.
+constexpr double kTieReach = 0.01;
 
 /// A share of the area of the faces around each vertex, #V.
 std::vector<double> vertex_areas(const Topology& topology, const Positions& positions) {
@@ -38,19 +41,24 @@ struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<double> ones;  ///< #vertices, for fits of its shape
   Socket socket;
-  Lids lids;                                    ///< of an eyeball
-  std::vector<Eyeball> eyeballs;                ///< #heads, of an eyeball
-  Contact contact;                              ///< of all but eyeballs
-  std::vector<std::vector<double>> clearances;  ///< #heads
+  bool eyeball = false;
+  EyeSocket eye;    ///< of an eyeball
+  Contact contact;  ///< of all else
 };
 
-/// The ball that an eyeball of several layers is: that of its largest component.
-const ComponentShape& ball_of(const Part& part, const PartList& list) {
-  const ComponentShape* ball = &list.shapes[part.components.front()];
-  for (const std::uint32_t c : part.components) {
-    if (list.shapes[c].radius > ball->radius) ball = &list.shapes[c];
-  }
-  return *ball;
+EyeSocket bind_eye(const FaceSet& faces, const FacesAround& around, const Part& part,
+                   const ComponentShape& ball, const HeadAxes& axes, const Positions& mean,
+                   Lids lids) {
+  const std::vector<double> ones(part.vertices.size(), 1.0);
+  std::vector<BallMap> maps(faces.heads.size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(maps.size()), [&](std::ptrdiff_t h) {
+    const auto i = static_cast<std::size_t>(h);
+    const Positions& head = faces.heads[i].positions;
+    const RigidMotion motion = fit_rigid_motion(mean, head, part.vertices, ones);
+    maps[i] = BallMap(faces.topology, around, head, part.surface, motion.apply(ball.centre),
+                      motion.scale * ball.radius, axes);
+  });
+  return {std::move(lids), std::move(maps), faces.heads};
 }
 
 }  // namespace
@@ -63,14 +71,16 @@ struct PartFollower::State {
   std::vector<RigidPart> rigid;
   Anchors anchors;
   std::vector<std::vector<Eigen::Vector3d>> places;  ///< #heads, of the bound vertices
+  Ties ties;                                         ///< of bound vertices to teeth
 
-  void follow_rigid(const RigidPart& part, std::size_t target, Positions& result) const;
+  /// \return how the part moved
+  RigidMotion follow_rigid(const RigidPart& part, std::size_t target, Positions& result) const;
 };
 
 PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const HeadAxes& axes,
                            PartShape shape) {
   auto state =
-      std::make_unique<State>(State{faces, FacesAround(faces.topology), shape, 0, {}, {}, {}});
+      std::make_unique<State>(State{faces, FacesAround(faces.topology), shape, 0, {}, {}, {}, {}});
   const Positions mean = mean_head(faces);
   const FacesAround& around = state->around;
   const std::vector<double> areas = vertex_areas(faces.topology, mean);
@@ -88,41 +98,43 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
   const PointGrid skin_grid(mean, skin);
   const auto heads = static_cast<std::ptrdiff_t>(faces.heads.size());
 
+  std::vector<const Part*> rigid;
   for (const Part& part : parts.parts) {
     if (part.part_class == PartClass::kBound) {
       bound.insert(bound.end(), part.vertices.begin(), part.vertices.end());
-      continue;
+    } else {
+      rigid.push_back(&part);
     }
-    RigidPart rigid;
-    rigid.vertices = part.vertices;
-    rigid.ones.assign(part.vertices.size(), 1.0);
+  }
+  state->rigid.resize(rigid.size());
+  const auto bind = [&](std::ptrdiff_t p) {
+    const Part& part = *rigid[static_cast<std::size_t>(p)];
+    RigidPart& bound_part = state->rigid[static_cast<std::size_t>(p)];
+    bound_part.vertices = part.vertices;
+    bound_part.ones.assign(part.vertices.size(), 1.0);
     const PointGrid grid(mean, part.vertices);
-    const ComponentShape& ball = ball_of(part, parts);
+    const ComponentShape& ball = parts.shapes[part.ball];
     // A part that floats far from the skin follows what is nearest to it.
     double reach = part.eyeball ? kEyeReach * ball.radius : kReach * extent;
-    for (int tries = 0; tries < 8 && rigid.socket.vertices.size() < 12; ++tries, reach *= 2) {
-      rigid.socket = find_socket(mean, grid, skin, areas, reach);
+    for (int tries = 0; tries < 8 && bound_part.socket.vertices.size() < 12; ++tries, reach *= 2) {
+      bound_part.socket = find_socket(mean, grid, skin, areas, reach);
     }
     if (part.eyeball) {
-      rigid.lids = find_lids(mean, grid, ball.centre, ball.radius, axes, skin);
-      for (const Head& head : faces.heads) {
-        const RigidMotion motion =
-            fit_rigid_motion(mean, head.positions, rigid.vertices, rigid.ones);
-        rigid.eyeballs.emplace_back(faces.topology, state->around, head.positions, part.vertices,
-                                    motion.apply(ball.centre), motion.scale * ball.radius,
-                                    rigid.lids);
-      }
+      bound_part.eyeball = true;
+      bound_part.eye = bind_eye(faces, around, part, ball, axes, mean,
+                                find_lids(mean, grid, ball.centre, ball.radius, axes, skin));
+    } else {
+      bound_part.contact = Contact(faces.topology, around, mean, skin, part.vertices,
+                                   kContactReach * extent, faces.heads);
     }
-    if (!part.eyeball) {
-      rigid.contact =
-          Contact(faces.topology, around, mean, skin_grid, part.vertices, kContactReach * extent);
-      for (const Head& head : faces.heads) {
-        rigid.clearances.push_back(rigid.contact.heights(head.positions));
-      }
-    }
-    state->rigid.push_back(std::move(rigid));
-  }
+  };
+  parallel_for_each(static_cast<std::ptrdiff_t>(rigid.size()), bind);
   std::sort(bound.begin(), bound.end());
+  std::vector<std::span<const std::uint32_t>> tying;
+  for (const RigidPart& part : state->rigid) {
+    if (!part.eyeball) tying.emplace_back(part.vertices);
+  }
+  state->ties = Ties(mean, tying, bound, kTieReach * extent);
   state->anchors = Anchors(faces.topology, around, mean, skin_grid, std::move(bound));
   state->places.resize(faces.heads.size());
   parallel_for_each(heads, [&](std::ptrdiff_t h) {
@@ -136,49 +148,52 @@ PartFollower::~PartFollower() = default;
 PartFollower::PartFollower(PartFollower&&) noexcept = default;
 PartFollower& PartFollower::operator=(PartFollower&&) noexcept = default;
 
-void PartFollower::State::follow_rigid(const RigidPart& part, std::size_t target,
-                                       Positions& result) const {
+RigidMotion PartFollower::State::follow_rigid(const RigidPart& part, std::size_t target,
+                                              Positions& result) const {
   const Positions& before = faces.heads[target].positions;
-  const bool still =
-      unmoved(before, result, part.socket.vertices) && unmoved(before, result, part.lids.vertices);
+  const bool still = unmoved(before, result, part.socket.vertices) &&
+                     unmoved(before, result, part.eye.lids().vertices);
   if (still && shape == PartShape::kTarget) {
     for (const std::uint32_t v : part.vertices) result.row(v) = before.row(v);
-    return;
+    return {};
   }
   RigidMotion motion;
   if (!still && part.socket.vertices.size() >= 3) {
     motion = fit_rigid_motion(before, result, part.socket.vertices, part.socket.weights);
-    if (!part.eyeballs.empty()) {
-      motion.to += part.eyeballs[target].shift_into(part.lids, motion, result);
-    } else {
-      motion.to += part.contact.clearing_shift(before, part.clearances[target], motion, result,
-                                               kContactMargin * extent);
-    }
+    motion = part.eyeball ? part.eye.fit(target, motion, result)
+                          : part.contact.clear(before, motion, result, kContactMargin * extent);
   }
   if (shape == PartShape::kTarget) {
     for (const std::uint32_t v : part.vertices) {
       result.row(v) = motion.apply(before.row(v).transpose()).transpose();
     }
-    return;
+    return motion;
   }
   // The blended shape, brought to where the target's is.
   const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.ones);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = motion.apply(home.apply(result.row(v).transpose())).transpose();
   }
+  return motion;
 }
 
 void PartFollower::follow(Index target, Positions& result) const {
   const auto t = static_cast<std::size_t>(target);
-  for (const RigidPart& part : state_->rigid) state_->follow_rigid(part, t, result);
-  state_->anchors.put(state_->faces.heads[t].positions, state_->places[t], result);
+  const Positions& before = state_->faces.heads[t].positions;
+  std::vector<RigidMotion> motions;
+  for (const RigidPart& part : state_->rigid) {
+    const RigidMotion motion = state_->follow_rigid(part, t, result);
+    if (!part.eyeball) motions.push_back(motion);
+  }
+  state_->anchors.put(before, state_->places[t], result);
+  state_->ties.pull(before, motions, result);
 }
 
 std::uint64_t PartFollower::memory_bytes() const {
   std::uint64_t bytes = 0;
   for (const RigidPart& part : state_->rigid) {
     bytes += part.vertices.size() * 12 + part.socket.vertices.size() * 12;
-    bytes += part.eyeballs.size() * part.vertices.size() * 12;
+    bytes += part.eye.memory_bytes();
   }
   for (const auto& places : state_->places) bytes += places.size() * sizeof(Eigen::Vector3d);
   return bytes;

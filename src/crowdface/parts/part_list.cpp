@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 
 #include "crowdface/parts/point_grid.h"
+#include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {
@@ -51,9 +53,65 @@ class Grouping {
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
+  /// Undoes what was joined: for all of a group at once.
+  void release(std::uint32_t c) { parent_[c] = c; }
+
  private:
   std::vector<std::uint32_t> parent_;
 };
+
+/// How a component stands in the head, along the side, up and front.
+struct Box {
+  Eigen::Vector3d low, high;
+  double height() const { return (low.y() + high.y()) / 2; }
+  void add(const Box& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  double shared(const Box& other, Index axis) const {
+    return std::min(high(axis), other.high(axis)) - std::max(low(axis), other.low(axis));
+  }
+  double lesser(const Box& other, Index axis) const {
+    return std::min(high(axis) - low(axis), other.high(axis) - other.low(axis));
+  }
+};
+
+Box box_of(const Positions& positions, const std::vector<std::uint32_t>& vertices,
+           const HeadAxes& axes) {
+  Box box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
+  for (const std::uint32_t v : vertices) {
+    const Eigen::Vector3d point = positions.row(v).transpose();
+    const Eigen::Vector3d place(dot3(point, axes.side()), dot3(point, axes.up),
+                                dot3(point, axes.front));
+    box.add({place, place});
+  }
+  return box;
+}
+
+/// How many of some components, lowest first, are the teeth of the lower jaw: those below the widest
+/// gap between their middles, if the two rows are flat against that gap, stand above each other and
+/// hardly beside. 0: there are no two rows.
+std::size_t lower_row(const std::vector<Box>& lowest_first) {
+  std::size_t lower = 0;
+  double widest = 0;
+  for (std::size_t i = 1; i < lowest_first.size(); ++i) {
+    const double gap = lowest_first[i].height() - lowest_first[i - 1].height();
+    if (gap <= widest) continue;
+    widest = gap;
+    lower = i;
+  }
+  if (lower == 0) return 0;
+  Box below = lowest_first.front(), above = lowest_first.back();
+  for (std::size_t i = 0; i < lowest_first.size(); ++i) {
+    (i < lower ? below : above).add(lowest_first[i]);
+  }
+  const double spread = std::max(lowest_first[lower - 1].height() - lowest_first.front().height(),
+                                 lowest_first.back().height() - lowest_first[lower].height());
+  const bool stacked = spread < widest && below.shared(above, 1) < below.lesser(above, 1) / 2;
+  const bool over = below.shared(above, 0) > below.lesser(above, 0) / 2 &&
+                    below.shared(above, 2) > below.lesser(above, 2) / 2;
+  return stacked && over ? lower : 0;
+}
 
 bool touch(const PointGrid& grid, const Positions& positions,
            const std::vector<std::uint32_t>& vertices, double reach) {
@@ -62,11 +120,39 @@ bool touch(const PointGrid& grid, const Positions& positions,
   });
 }
 
+/// Takes groups of teeth apart, jaw by jaw.
+void split_jaws(const Positions& positions, const std::vector<std::vector<std::uint32_t>>& members,
+                const HeadAxes& axes, const std::vector<bool>& eyeball,
+                const std::vector<bool>& by_hand, const std::vector<PartClass>& classes,
+                Grouping& grouping) {
+  std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
+  for (std::uint32_t c = 0; c < members.size(); ++c) {
+    if (classes[c] == PartClass::kRigid && !by_hand[c]) groups[grouping.root(c)].push_back(c);
+  }
+  for (auto& [root, group] : groups) {
+    const auto is_eyeball = [&](std::uint32_t c) { return eyeball[c]; };
+    if (group.size() < 2 || std::any_of(group.begin(), group.end(), is_eyeball)) continue;
+    std::vector<std::pair<Box, std::uint32_t>> boxes;
+    for (const std::uint32_t c : group) boxes.emplace_back(box_of(positions, members[c], axes), c);
+    std::stable_sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) {
+      return a.first.height() < b.first.height();
+    });
+    std::vector<Box> lowest_first;
+    for (const auto& [box, c] : boxes) lowest_first.push_back(box);
+    const std::size_t lower = lower_row(lowest_first);
+    if (lower == 0) continue;
+    for (const std::uint32_t c : group) grouping.release(c);
+    for (std::size_t i = 0; i + 1 < boxes.size(); ++i) {
+      if (i + 1 != lower) grouping.join(boxes[i].second, boxes[i + 1].second);
+    }
+  }
+}
+
 }  // namespace
 
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,
                     const Components& components, const Positions& positions,
-                    const PartOverrides& overrides) {
+                    const PartOverrides& overrides, const HeadAxes& axes) {
   PartList list;
   list.shapes = component_shapes(topology, adjacency, components, positions);
   const auto count = static_cast<std::uint32_t>(list.shapes.size());
@@ -106,6 +192,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
       if (inside || beside) grouping.join(a, b);
     }
   }
+  split_jaws(positions, members, axes, eyeball, by_hand, list.classes, grouping);
 
   std::vector<std::size_t> part_of(count, SIZE_MAX);
   for (std::uint32_t c = 0; c < count; ++c) {
@@ -113,15 +200,21 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     const std::uint32_t root = grouping.root(c);
     if (part_of[root] == SIZE_MAX) {
       part_of[root] = list.parts.size();
-      list.parts.push_back({list.classes[c], false, {}, {}});
+      list.parts.push_back({list.classes[c], false, {}, {}, kNoIndex, {}});
     }
     Part& part = list.parts[part_of[root]];
     if (list.classes[c] == PartClass::kRigid) part.part_class = PartClass::kRigid;
     part.eyeball = part.eyeball || eyeball[c];
+    if (part.ball == kNoIndex || list.shapes[c].radius > list.shapes[part.ball].radius) {
+      part.ball = c;
+    }
     part.components.push_back(c);
     part.vertices.insert(part.vertices.end(), members[c].begin(), members[c].end());
   }
-  for (Part& part : list.parts) std::sort(part.vertices.begin(), part.vertices.end());
+  for (Part& part : list.parts) {
+    std::sort(part.vertices.begin(), part.vertices.end());
+    if (part.eyeball) part.surface = members[part.ball];
+  }
   return list;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/parts/component_shape.h"
+#include "crowdface/parts/head_axes.h"
 
 namespace crowdface {
 
@@ -22,6 +23,8 @@ struct Part {
   bool eyeball = false;                   ///< round, of the size of an eye
   std::vector<std::uint32_t> components;  ///< ascending
   std::vector<std::uint32_t> vertices;    ///< ascending
+  std::uint32_t ball = kNoIndex;          ///< of an eyeball: its outermost component
+  std::vector<std::uint32_t> surface;     ///< of an eyeball: the vertices of that
 };
 
 /// What a mesh consists of.
@@ -42,12 +45,13 @@ struct PartOverrides {
 /// - skin: the largest, those more than half as long as it, and vertices without faces;
 /// - bound: open strips and shells near the skin;
 /// - rigid: all else. Round ones of the size of an eye are eyeballs, and what lies inside one is a
-///   part of it; of the others, those that nearly touch are one part (gums and teeth).
+///   part of it; of the others, those that nearly touch are one part, unless it falls in two that
+///   stand one above the other: the teeth of each jaw.
 ///
 /// \param positions  #V by 3, any unit: best those of the mean head.
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,
                     const Components& components, const Positions& positions,
-                    const PartOverrides& overrides = {});
+                    const PartOverrides& overrides = {}, const HeadAxes& axes = {});
 
 /// The same components with all skin joined into one, whose number is that of its first; for
 /// whoever asks which vertices are skin. Sizes of those joined away are 0.

@@ -8,6 +8,15 @@ namespace {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
+/// Of a quaternion w + xi + yj + zk of any length.
+Matrix3 rotation_of(double w, double x, double y, double z) {
+  const double norm = w * w + x * x + y * y + z * z;
+  const double f = 2 / norm;
+  return {{{1 - f * (y * y + z * z), f * (x * y - w * z), f * (x * z + w * y)},
+           {f * (x * y + w * z), 1 - f * (x * x + z * z), f * (y * z - w * x)},
+           {f * (x * z - w * y), f * (y * z + w * x), 1 - f * (x * x + y * y)}}};
+}
+
 /// The rotation R that makes Σ w b·(R a) largest, for s[i][j] = Σ w a_i b_j: its quaternion is the
 /// eigenvector of the largest eigenvalue of Horn's matrix.
 Matrix3 best_turn(const Matrix3& s) {
@@ -23,12 +32,7 @@ Matrix3 best_turn(const Matrix3& s) {
   n(1, 3) = n(3, 1) = s[2][0] + s[0][2];
   n(2, 3) = n(3, 2) = s[1][2] + s[2][1];
   const Eigen::MatrixXd vectors = symmetric_eigen(n).vectors;
-  const double w = vectors(0, 0), x = vectors(1, 0), y = vectors(2, 0), z = vectors(3, 0);
-  const double norm = w * w + x * x + y * y + z * z;
-  const double f = 2 / norm;
-  return {{{1 - f * (y * y + z * z), f * (x * y - w * z), f * (x * z + w * y)},
-           {f * (x * y + w * z), 1 - f * (x * x + z * z), f * (y * z - w * x)},
-           {f * (x * z - w * y), f * (y * z + w * x), 1 - f * (x * x + y * y)}}};
+  return rotation_of(vectors(0, 0), vectors(1, 0), vectors(2, 0), vectors(3, 0));
 }
 
 }  // namespace
@@ -55,6 +59,25 @@ Eigen::Vector3d RigidMotion::undo(const Eigen::Vector3d& point) const {
 
 Eigen::Vector3d RigidMotion::apply(const Eigen::Vector3d& point) const {
   return to + turn(point - from);
+}
+
+RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
+                   const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, double growth) {
+  RigidMotion result = motion;
+  RigidMotion turned;
+  turned.rotation = rotation_of(1, turn.x() / 2, turn.y() / 2, turn.z() / 2);
+  turned.scale = 1 + growth;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      result.rotation[r][c] = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        result.rotation[r][c] += turned.rotation[r][k] * motion.rotation[k][c];
+      }
+    }
+  }
+  result.scale = motion.scale * turned.scale;
+  result.to = pivot + shift + turned.turn(motion.to - pivot);
+  return result;
 }
 
 RigidMotion fit_rigid_motion(const Positions& from, const Positions& to,

@@ -23,6 +23,13 @@ struct RigidMotion {
   Eigen::Vector3d turn(const Eigen::Vector3d& direction) const;
 };
 
+/// A motion after which a part is still shifted, turned and stretched a little about a place.
+/// \param pivot   where the part is after the motion
+/// \param turn    axis times angle, small
+/// \param growth  0: of the same size
+RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
+                   const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, double growth);
+
 /// The motion that carries rows of `from` nearest to the same rows of `to`, in the least-squares
 /// sense (Umeyama 1991), the rotation as the quaternion of Horn 1987.
 /// \param vertices  rows, at least three that are not on a line

@@ -39,6 +39,10 @@ std::array<double, 3> nearest_in_triangle(const Eigen::Vector3d& a, const Eigen:
   return {va / sum, vb / sum, vc / sum};
 }
 
+Eigen::Vector3d row3(const Positions& positions, std::uint32_t vertex) {
+  return positions.row(vertex).transpose();
+}
+
 }  // namespace
 
 FacesAround::FacesAround(const Topology& topology)
@@ -85,6 +89,40 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
         best = {{face[0], face[k], face[k + 1]}, shares, place, distance};
       }
     }
+  }
+  return best;
+}
+
+SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
+                          const Positions& positions, std::uint32_t start,
+                          const Eigen::Vector3d& point) {
+  constexpr int kMostSteps = 64;
+  SurfacePoint best;
+  best.corners = {start, start, start};
+  best.shares = {1, 0, 0};
+  best.position = row3(positions, start);
+  best.distance = length3(point - best.position);
+  std::uint32_t vertex = start;
+  for (int step = 0; step < kMostSteps; ++step) {
+    for (const std::uint32_t f : faces.of(vertex)) {
+      const auto face = topology.face(f);
+      const Eigen::Vector3d a = row3(positions, face[0]);
+      for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+        const Eigen::Vector3d b = row3(positions, face[k]), c = row3(positions, face[k + 1]);
+        const std::array<double, 3> shares = nearest_in_triangle(a, b, c, point);
+        const Eigen::Vector3d place = shares[0] * a + shares[1] * b + shares[2] * c;
+        const double distance = length3(point - place);
+        if (distance < best.distance || best.corners[0] == best.corners[1]) {
+          best = {{face[0], face[k], face[k + 1]}, shares, place, distance};
+        }
+      }
+    }
+    std::size_t most = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (best.shares[k] > best.shares[most]) most = k;
+    }
+    if (best.corners[most] == vertex) break;
+    vertex = best.corners[most];
   }
   return best;
 }

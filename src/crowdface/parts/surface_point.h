@@ -37,6 +37,12 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
 
+/// The same for points near a vertex already known, without memory of its own: from `start` on, from
+/// triangle to triangle for as long as that comes nearer.
+SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
+                          const Positions& positions, std::uint32_t start,
+                          const Eigen::Vector3d& point);
+
 /// Unit normal of the triangle of a place; zero if it has no area.
 Eigen::Vector3d normal_at(const Positions& positions, const SurfacePoint& place);
 

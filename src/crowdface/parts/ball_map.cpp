@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/ball_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/parts/point_grid.h"
+
+namespace crowdface {
+namespace {
+
+/// Where a ray from the centre meets the surface, by the tangent planes where it is nearest (Newton);
+/// of a surface with holes, on the plane beside the hole.
+double radius_along(const Topology& topology, const FacesAround& faces, const Positions& head,
+                    const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, double radius,
+                    std::uint32_t& nearest) {
+  constexpr int kSteps = 3;
+  constexpr double kLeastSlope = 0.3, kMostChange = 0.5;
+  double along = radius;
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::Vector3d point = centre + along * direction;
+    const SurfacePoint place = nearest_from(topology, faces, head, nearest, point);
+    nearest = place.corners[0];
+    Eigen::Vector3d outward = normal_at(head, place);
+    if (dot3(outward, place.position - centre) < 0) outward = -outward;
+    const double slope = std::max(dot3(outward, direction), kLeastSlope);
+    along -= dot3(outward, point - place.position) / slope;
+  }
+  return std::clamp(along, (1 - kMostChange) * radius, (1 + kMostChange) * radius);
+}
+
+}  // namespace
+
+BallMap::BallMap(const Topology& topology, const FacesAround& faces, const Positions& head,
+                 std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre,
+                 double radius, const HeadAxes& axes)
+    : axes_(axes),
+      side_(axes.side()),
+      centre_(centre),
+      radius_(radius),
+      radii_(kNodes * kNodes, static_cast<float>(radius)) {
+  const PointGrid grid(head, vertices);
+  for (std::size_t y = 0; y < kNodes; ++y) {
+    std::uint32_t nearest = kNoIndex;
+    for (std::size_t x = 0; x < kNodes; ++x) {
+      constexpr double kStep = 2 * kWidth / (kNodes - 1);
+      const double p = static_cast<double>(x) * kStep - kWidth;
+      const double q = static_cast<double>(y) * kStep - kWidth;
+      const double square = p * p + q * q;
+      if (square > kWidth * kWidth * 1.1) continue;
+      // From the plane back to the sphere.
+      const Eigen::Vector3d direction =
+          (2 * p * side_ + 2 * q * axes_.up + (1 - square) * axes_.front) / (1 + square);
+      if (nearest == kNoIndex) nearest = grid.nearest(centre + radius * direction).vertex;
+      radii_[y * kNodes + x] = static_cast<float>(
+          radius_along(topology, faces, head, centre, direction, radius, nearest));
+    }
+  }
+}
+
+BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
+  const double distance = length3(from);
+  if (!(distance > 0)) return {-radius_, axes_.front};
+  const Eigen::Vector3d direction = from / distance;
+  const double down = 1 / std::max(1 + dot3(direction, axes_.front), 0.1);
+  const double p = dot3(direction, side_) * down, q = dot3(direction, axes_.up) * down;
+  constexpr double kPerWidth = (kNodes - 1) / (2 * kWidth), kLast = kNodes - 1.001;
+  const double x = std::clamp((p + kWidth) * kPerWidth, 0.0, kLast);
+  const double y = std::clamp((q + kWidth) * kPerWidth, 0.0, kLast);
+  const auto i = static_cast<std::size_t>(x), j = static_cast<std::size_t>(y);
+  const double u = x - static_cast<double>(i), v = y - static_cast<double>(j);
+  const double a = at(i, j), b = at(i + 1, j), c = at(i, j + 1), d = at(i + 1, j + 1);
+  const double radius = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
+  const double by_p = ((1 - v) * (b - a) + v * (d - c)) * kPerWidth;
+  const double by_q = ((1 - u) * (c - a) + u * (d - b)) * kPerWidth;
+  // The gap is F / |∇F| of F(x) = |x| − radius(x / |x|), to the first order.
+  const Eigen::Vector3d slope =
+      down * (by_p * (side_ - p * axes_.front) + by_q * (axes_.up - q * axes_.front));
+  const Eigen::Vector3d gradient =
+      direction - (slope - dot3(slope, direction) * direction) / distance;
+  const double length = length3(gradient);
+  return {(distance - radius) / length, gradient / length};
+}
+
+}  // namespace crowdface

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/parts/vector3.h"
+
+namespace crowdface {
+
+/// Which way a head looks: unit vectors.
+struct HeadAxes {
+  Eigen::Vector3d front = {0, 0, 1}, up = {0, 1, 0};
+
+  Eigen::Vector3d side() const { return cross3(up, front); }
+};
+
+}  // namespace crowdface
