@@ -38,6 +38,40 @@ export function unpackFace(base64, mesh) {
   return { points, normals };
 }
 
+/// Eyeballs get a round iris, pixel by pixel: a reduced mesh has too few vertices for one.
+function paintEyes(material, geometry, eyes) {
+  const values = new Uint32Array(bytesOf(eyes.places).buffer);
+  geometry.setAttribute('eye',
+    new BufferAttribute(Float32Array.from(values, (value) => value / eyes.steps - 4), 3));
+  material.onBeforeCompile = (shader) => {
+    const { uniforms } = shader;
+    uniforms.eyeRadii = { value: new Vector3(eyes.pupil, eyes.iris, eyes.softness) };
+    uniforms.eyeWhite = { value: new Vector3(...eyes.white) };
+    uniforms.eyeColour = { value: new Vector3(...eyes.colour) };
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', '#include <common>\nattribute vec3 eye;\nvarying vec3 vEye;')
+      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvEye = eye;');
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', `#include <common>
+        varying vec3 vEye;
+        uniform vec3 eyeRadii, eyeWhite, eyeColour;
+        bool isEye() { return vEye.z > -1.5; }
+        float beyond(float edge, float x) {
+          return smoothstep(edge - eyeRadii.z, edge + eyeRadii.z, x);
+        }`)
+      .replace('#include <color_fragment>', `#include <color_fragment>
+        if (isEye()) {
+          float across = length(vEye.xy);
+          float rim = clamp((across - eyeRadii.x) / (eyeRadii.y - eyeRadii.x), 0.0, 1.0);
+          vec3 iris = eyeColour * (1.6 - 1.25 * rim * rim);
+          vec3 inner = mix(vec3(0.008), iris, beyond(eyeRadii.x, across));
+          diffuseColor.rgb = vEye.z > 0.0 ? mix(inner, eyeWhite, beyond(eyeRadii.y, across)) : eyeWhite;
+        }`)
+      .replace('#include <roughnessmap_fragment>', `#include <roughnessmap_fragment>
+        if (isEye()) roughnessFactor = 0.25;`);
+  };
+}
+
 export class Turntable {
   /// \throws if the browser has no WebGL.
   constructor() {
@@ -97,6 +131,7 @@ export class Turntable {
       vertexColors: true, roughness: 0.56, side: DoubleSide, sheen: 0.25, sheenRoughness: 0.6,
       sheenColor: new Color(0.9, 0.5, 0.4), specularIntensity: 0.7,
     });
+    if (mesh.eyes) paintEyes(material, geometry, mesh.eyes);
     this.object = new Mesh(geometry, material);
     this.group = new Group();
     this.group.add(this.object);

@@ -46,7 +46,7 @@ void write_masks(const Job& job, const std::filesystem::path& directory) {
   make_directories(directory);
   const auto write = [&](const std::string& name, const VertexColours& colours) {
     const std::filesystem::path path = directory / concat(name, ".png");
-    write_file(path, renders.render_png(mean, &colours));
+    write_file(path, renders.render_png(mean, colours));
     log_info(path.string());
   };
   const auto& alpha = job.inputs.regions.alpha;

@@ -11,7 +11,7 @@ namespace crowdface::cli {
 Run add_sheet(CLI::App& program) {
   struct Options {
     CommonOptions common;
-    std::string directory;
+    std::string directory, cache;
     std::vector<std::string> set;
   };
   auto options = std::make_shared<Options>();
@@ -26,10 +26,13 @@ Run add_sheet(CLI::App& program) {
       ->type_name("KEY.PATH=VALUE")
       ->expected(1)
       ->take_all();
+  command->add_option("--cache", options->cache, "Folder of prepared heads")->type_name("DIR");
   options->common.add_to(*command);
   return [options] {
     const auto threads = options->common.apply();
-    remake_sheets(options->directory, options->set);
+    remake_sheets(
+        options->directory, options->set,
+        options->cache.empty() ? cache_directory() : std::filesystem::path(options->cache));
   };
 }
 

@@ -32,6 +32,29 @@ TEST(MaterialFiles, FollowLibrariesToTextures) {
   EXPECT_THAT(found.warnings[0], HasSubstr("gone.png"));
 }
 
+TEST(MaterialFiles, TakeAllTilesOfATexture) {
+  const testing::TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl a\nmap_Kd tex/skin.<UDIM>.png\n");
+  for (const char* name : {"1001", "1012", "10x1", "old.1001"}) {
+    folder.write(std::string("tex/skin.") + name + ".png", "x");
+  }
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(names(found),
+            (std::vector<std::string>{"a.mtl", "tex/skin.1001.png", "tex/skin.1012.png"}));
+  EXPECT_TRUE(found.warnings.empty());
+}
+
+TEST(ColourTextures, AreThoseOfMapKd) {
+  const testing::TemporaryFolder folder;
+  folder.write("sub/a.mtl",
+               "newmtl the skin \nmap_Ks gloss.png\nmap_Kd -s 1 1 1 skin.<UDIM>.png\n"
+               "newmtl eye\nKd 1 1 1\nnewmtl out\nmap_Kd ../../out.png\n");
+  const ColourTextures found = find_colour_textures(folder / "head.obj", {"sub/a.mtl"});
+  ASSERT_EQ(found.of_material.size(), 1U);
+  EXPECT_EQ(found.of_material.begin()->first, "the skin");
+  EXPECT_EQ(with_tile(found.of_material.begin()->second, 1003), folder / "sub/skin.1003.png");
+}
+
 TEST(MaterialFiles, NeverLeaveTheFolder) {
   const testing::TemporaryFolder folder;
   folder.write("secret.mtl", "newmtl a\n");

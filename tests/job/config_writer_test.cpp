@@ -133,6 +133,7 @@ void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.output.contact_sheet->compare.file, b.output.contact_sheet->compare.file);
     EXPECT_EQ(a.output.contact_sheet->compare.scale_mm, b.output.contact_sheet->compare.scale_mm);
     EXPECT_EQ(a.output.contact_sheet->formats, b.output.contact_sheet->formats);
+    EXPECT_EQ(a.output.contact_sheet->texture, b.output.contact_sheet->texture);
   }
 }
 
@@ -242,7 +243,8 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "    order: plan\n"
             "    compare: none\n"
             "    compare_scale: 6 mm\n"
-            "    formats: [png]\n");
+            "    formats: [png]\n"
+            "    texture: false\n");
 }
 
 TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
@@ -285,7 +287,8 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "output: {directory: 'x y/ü#1', meshes: [], contact_sheet: {columns: 32, rows: 1, cell: 64,\n"
       "         views: [profile, front, three_quarter], labels: [nearest, id, family], order: "
       "family,\n"
-      "         compare_scale: 0.5 mm, formats: [pdf, png]}, gallery: none,\n"
+      "         compare_scale: 0.5 mm, formats: [pdf, png],\n"
+      "         texture: true}, gallery: none,\n"
       "         surfaces: {M Lash: '#A0b1ff', 'no': hidden, M_Gum: gums}}\n");
   EXPECT_THAT(written, HasSubstr("name: \"2024\""));
   EXPECT_THAT(written, HasSubstr("iterations: [0, 10000000]"));

@@ -81,6 +81,10 @@ void run(const SmallCrowdFolder& folder) {
   generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
 }
 
+int height_of(const fs::path& picture) {
+  return read_image(picture).height;
+}
+
 int width_of(const fs::path& picture) {
   return read_image(picture).width;
 }
@@ -108,6 +112,24 @@ TEST(Sheets, HeadsFamiliesAndAnIndexStandBesideTheFaces) {
   EXPECT_GT(width_of(sheets / "family_kin.png"),
             width_of(folder.out() / "renders/founders/kin.png"));
   EXPECT_THAT(read_file(sheets / "sheets.pdf"), HasSubstr("/Count 7"));
+}
+
+TEST(Sheets, MadeAnewShowFoundersInTheNewForm) {
+  SmallCrowd crowd;
+  crowd.count = 2;
+  crowd.contact_sheet = "{columns: 2, cell: 48}";
+  crowd.more = "believability: none\nfamilies: [{name: kin, members: 2, max_distance: 30 mm}]\n";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const fs::path founder = folder.out() / "renders/founders/kin.png";
+  const std::string generated = read_file(founder);
+  fs::remove(founder);
+  remake_sheets(folder.out(), {}, folder.cache());
+  EXPECT_EQ(read_file(founder), generated);
+  remake_sheets(folder.out(), {"output.contact_sheet.cell=64"}, folder.cache());
+  EXPECT_EQ(width_of(founder), 64);
+  // Founder and two members, two cells of 64 pixels a row.
+  EXPECT_GT(height_of(folder.out() / "sheets/family_kin.png"), 2 * 64);
 }
 
 TEST(Sheets, AnotherFormLeavesNothingOfTheOldOne) {

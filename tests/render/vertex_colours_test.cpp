@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/vertex_colours.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
+
+#include "render/shapes.h"
 
 namespace crowdface {
 namespace {
@@ -29,6 +33,27 @@ TEST(MaskColours, GoFromClayToTheRegionsColour) {
   EXPECT_TRUE(colours.row(2).transpose().isApprox(colour));
   EXPECT_TRUE(colours.row(1).isApprox((colours.row(0) + colours.row(2)) / 2));
   EXPECT_GT(colours(0, 2), 0.5F);
+}
+
+TEST(EyeCoordinates, AreRadiiOfEachEyeballAsSeenFromTheFront) {
+  // Two eyeballs of radius 2 and 3, and a ball of skin.
+  const Mesh eyes = join_meshes(make_sphere(2), make_sphere(3), {10, 1, 0});
+  const Mesh mesh = join_meshes(eyes, make_sphere(1), {0, 9, 0});
+  Surfaces surfaces;
+  surfaces.kinds.assign(static_cast<std::size_t>(mesh.topology.face_count()), SurfaceKind::kSkin);
+  std::fill_n(surfaces.kinds.begin(), eyes.topology.face_count(), SurfaceKind::kEye);
+  const auto found = eye_coordinates(mesh.topology, surfaces, mesh.positions, {2, 1});
+  ASSERT_TRUE(found);
+  const Eigen::Index each = mesh.positions.rows() / 3;
+  for (Eigen::Index i = 0; i < 2 * each; ++i) {
+    EXPECT_NEAR(found->row(i).norm(), 1, 0.01) << "on a ball";
+    EXPECT_NEAR((*found)(i, 2), mesh.positions(i, 2) / (i < each ? 2 : 3), 0.01);
+  }
+  EXPECT_EQ((*found)(2 * each, 2), kNoEye);
+  surfaces.paints.assign(surfaces.kinds.size(), Eigen::Array3f(1, 1, 1));
+  EXPECT_FALSE(eye_coordinates(mesh.topology, surfaces, mesh.positions, {2, 1}))
+      << "paints come first";
+  EXPECT_FALSE(eye_coordinates(mesh.topology, {}, mesh.positions, {2, 1}));
 }
 
 }  // namespace

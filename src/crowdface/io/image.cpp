@@ -123,6 +123,7 @@ Image read_image(const path& file, const ImageLimits& limits) {
   {
     const MappedFile mapped(file);
     format = image_format(mapped.bytes());
+    if (limits.jpeg && mapped.bytes().starts_with("\xFF\xD8\xFF")) format = "jpeg";
     if (format.empty()) {
       refuse(file, concat("expected a PNG, TIFF or OpenEXR image, found ",
                           mapped.bytes().empty()
@@ -138,7 +139,8 @@ Image read_image(const path& file, const ImageLimits& limits) {
   const auto input = open(file, format, spec);
   check_kind(file, spec);
   check_size(file, spec, limits);
-  Image image{spec.width, spec.height, spec.nchannels, spec.alpha_channel, {}};
+  Image image{spec.width,         spec.height, spec.nchannels,
+              spec.alpha_channel, {},          spec.format.is_floating_point()};
   image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                       static_cast<std::size_t>(spec.nchannels));
   read_pixels(*input, file, spec.format, image.pixels);

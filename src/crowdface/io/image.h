@@ -17,6 +17,7 @@ struct Image {
   int channels = 0;
   int alpha_channel = -1;     ///< which channel is alpha; −1: none
   std::vector<float> pixels;  ///< row by row, first row on top, channels of a pixel side by side
+  bool of_floats = false;     ///< the file holds floats, not integers
 
   float at(int x, int y, int channel) const {
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
@@ -30,6 +31,7 @@ struct ImageLimits {
   int max_side = 16384;  ///< pixels
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< width · height · channels
+  bool jpeg = false;                     ///< that too: for colours, never for masks
 };
 
 /// The (first) picture of a PNG, TIFF or OpenEXR file, told by its content and not by its name.

@@ -38,16 +38,63 @@ bool is_texture_statement(const std::string& word) {
          word == "refl" || word == "norm";
 }
 
+/// Calls `body` with the words of each line that has at least two, and with the line.
+template <class Body>
+void for_each_statement(std::string_view text, const Body& body) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
+    const auto words = words_of(line);
+    if (words.size() >= 2) body(words, line);
+    begin = end + 1;
+  }
+}
+
+std::string with_forward_slashes(std::string path) {
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
+
 /// The last word of each texture statement: options come before the name.
 std::vector<std::string> textures_of(const std::string& text) {
   std::vector<std::string> textures;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const auto words = words_of(std::string_view(text).substr(begin, end - begin));
-    if (words.size() >= 2 && is_texture_statement(words[0])) textures.push_back(words.back());
-    begin = end + 1;
-  }
+  for_each_statement(text, [&](const std::vector<std::string>& words, std::string_view) {
+    if (is_texture_statement(words[0])) textures.push_back(with_forward_slashes(words.back()));
+  });
   return textures;
+}
+
+/// All that stands behind a line's first word.
+std::string rest_of(std::string_view line, const std::string& first_word) {
+  const std::size_t begin = line.find(first_word) + first_word.size();
+  const std::string_view rest = line.substr(begin);
+  const std::size_t from = rest.find_first_not_of(" \t\r");
+  return std::string(rest.substr(from, rest.find_last_not_of(" \t\r") + 1 - from));
+}
+
+constexpr std::string_view kTileWord = "<UDIM>";
+
+/// The files that a name with <UDIM> stands for, sorted; the name itself if it holds none.
+std::vector<fs::path> tiles_of(const fs::path& folder, const fs::path& relative) {
+  const std::string name = relative.filename().string();
+  const std::size_t at = name.find(kTileWord);
+  if (at == name.npos) return {relative};
+  std::vector<fs::path> tiles;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder / relative.parent_path(), ignored)) {
+    const std::string found = entry.path().filename().string();
+    constexpr std::size_t kDigits = 4;
+    if (found.size() < at + kDigits) continue;
+    const std::string number = found.substr(at, kDigits);
+    const bool digits =
+        std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (digits && with_tile(name, std::stoi(number)) == fs::path(found)) {
+      tiles.push_back(relative.parent_path() / found);
+    }
+  }
+  std::sort(tiles.begin(), tiles.end());
+  if (tiles.empty()) tiles.push_back(relative);
+  return tiles;
 }
 
 class Collector {
@@ -89,12 +136,16 @@ class Collector {
 
   void take_library(const fs::path& name) {
     if (!take_file(name, "material file")) return;
+    result_.files.back().is_library = true;
     std::error_code error;
     if (fs::file_size(folder_ / name, error) > kLargestMaterialFile || error) return;
     for (const std::string& texture : textures_of(read_file(folder_ / name))) {
-      std::string forward = texture;
-      std::replace(forward.begin(), forward.end(), '\\', '/');
-      take_file(name.parent_path() / forward, "texture");
+      const fs::path relative = name.parent_path() / texture;
+      if (!stays_inside(relative)) {
+        take_file(relative, "texture");  // which says so
+        continue;
+      }
+      for (const fs::path& tile : tiles_of(folder_, relative)) take_file(tile, "texture");
     }
   }
 
@@ -108,6 +159,37 @@ MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::s
   Collector collector(mesh.parent_path());
   for (const std::string& library : libraries) collector.add_library(library);
   return collector.take();
+}
+
+fs::path with_tile(const fs::path& path, int tile) {
+  std::string text = path.string();
+  for (auto at = text.find(kTileWord); at != text.npos; at = text.find(kTileWord)) {
+    text.replace(at, kTileWord.size(), concat(tile));
+  }
+  return text;
+}
+
+ColourTextures find_colour_textures(const fs::path& mesh,
+                                    const std::vector<std::string>& libraries) {
+  ColourTextures result;
+  MaterialFiles files = find_material_files(mesh, libraries);
+  result.warnings = std::move(files.warnings);
+  for (const MaterialFile& file : files.files) {
+    std::error_code error;
+    if (!file.is_library) continue;
+    if (fs::file_size(file.from, error) > kLargestMaterialFile || error) continue;
+    std::string material;
+    for_each_statement(read_file(file.from), [&](const std::vector<std::string>& words,
+                                                 std::string_view line) {
+      if (words[0] == "newmtl") material = rest_of(line, "newmtl");
+      if (words[0] != "map_Kd") return;
+      const fs::path relative = file.relative.parent_path() / with_forward_slashes(words.back());
+      if (stays_inside(relative)) {
+        result.of_material.emplace(material, (mesh.parent_path() / relative).lexically_normal());
+      }
+    });
+  }
+  return result;
 }
 
 }  // namespace crowdface

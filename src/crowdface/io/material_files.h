@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace crowdface {
 struct MaterialFile {
   std::filesystem::path from;      ///< where it is
   std::filesystem::path relative;  ///< where it goes, below the meshes' folder
+  bool is_library = false;         ///< not a texture
 };
 
 struct MaterialFiles {
@@ -18,11 +20,26 @@ struct MaterialFiles {
   std::vector<std::string> warnings;  ///< about files that are missing or lie outside the folder
 };
 
-/// The material files that a mesh names and the textures that those name. A file that is missing is
+/// The material files that a mesh names and the textures that those name, with <UDIM> in their names
+/// all tiles that are there. A file that is missing is
 /// a warning, not an error; so is a path that leads out of the mesh's folder, which is not followed.
 /// \param mesh       path of the OBJ file.
 /// \param libraries  the arguments of its `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
                                   const std::vector<std::string>& libraries);
+
+/// The colour textures that a mesh's materials name.
+struct ColourTextures {
+  /// By material, below the mesh's folder; may hold <UDIM>, which stands for a tile's number.
+  std::map<std::string, std::filesystem::path> of_material;
+  std::vector<std::string> warnings;  ///< about libraries and paths as above
+};
+
+/// The `map_Kd` of each material; whether there is such a file is not asked.
+ColourTextures find_colour_textures(const std::filesystem::path& mesh,
+                                    const std::vector<std::string>& libraries);
+
+/// The path with a tile's number in place of each <UDIM>.
+std::filesystem::path with_tile(const std::filesystem::path& path, int tile);
 
 }  // namespace crowdface

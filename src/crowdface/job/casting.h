@@ -61,6 +61,9 @@ struct Cast {
 /// it went, and what would help.
 Cast cast(const Job& job, const Prepared& prepared);
 
+/// The founders as they stand in founders.jsonl: lines as in a plan.
+std::string format_founders(const Job& job, const std::vector<FamilyFounder>& founders);
+
 /// The casting part of the report: what was asked, what was reached, what was thrown away.
 std::string format_casting(const Job& job, const Cast& cast);
 

@@ -83,6 +83,18 @@ Json families_to_json(const Cast& cast) {
 
 }  // namespace
 
+std::string format_founders(const Job& job, const std::vector<FamilyFounder>& founders) {
+  std::vector<Recipe> recipes;
+  for (const FamilyFounder& founder : founders) {
+    Recipe recipe = founder.recipe;
+    recipe.id = concat(founder.family, "_founder");
+    recipe.family = founder.family;
+    recipe.index.reset();
+    recipes.push_back(std::move(recipe));
+  }
+  return format_plan(job, recipes);
+}
+
 std::string format_casting(const Job& job, const Cast& cast) {
   Json json;
   json["asked"] = asked_to_json(job.config.diversity);

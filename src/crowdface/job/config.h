@@ -142,6 +142,7 @@ struct Config {
     SheetOrder order = SheetOrder::kPlan;
     Comparison compare;
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< png is always among them
+    bool texture = false;  ///< surfaces in the colours of the heads' own textures
   };
   struct Output {
     std::filesystem::path directory;

@@ -92,7 +92,7 @@ void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
   }
   const MapReader map(node,
                       {"columns", "rows", "cell", "views", "labels", "order", "compare",
-                       "compare_scale", "formats"},
+                       "compare_scale", "formats", "texture"},
                       out);
   const auto read = [&](const char* key, std::uint64_t low, std::uint64_t high, int& value) {
     const YamlNode* found = map.find(key);
@@ -120,6 +120,10 @@ void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
                                          {"family", SheetOrder::kFamily},
                                          {"likeness", SheetOrder::kLikeness}};
     sheet->order = read_choice(*order, choices, out).value_or(SheetOrder::kPlan);
+  }
+  if (const YamlNode* texture = map.find("texture")) {
+    const Choices<bool> choices = {{"true", true}, {"false", false}};
+    sheet->texture = read_choice(*texture, choices, out).value_or(false);
   }
   read_comparison(map, sheet->compare, draft);
   read_words<SheetFormat>(

@@ -403,6 +403,7 @@ class Writer {
                               : kWith[static_cast<std::size_t>(sheet.compare.with)]);
     line("    compare_scale: ", sheet.compare.scale_mm, " mm");
     line("    formats: ", flow_list(formats));
+    line("    texture: ", sheet.texture ? "true" : "false");
   }
 
   void write_output() {

@@ -77,7 +77,8 @@ void remove_crowd(const CrowdDirectory& directory) {
   for (const fs::path& path :
        {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
         directory.report(), directory.casting(), directory.timings(), directory.table(),
-        directory.plan(), directory.ledger(), directory.log(), directory.config()}) {
+        directory.founders(), directory.plan(), directory.ledger(), directory.log(),
+        directory.config()}) {
     remove_file(path);
   }
 }

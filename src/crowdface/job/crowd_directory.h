@@ -16,6 +16,8 @@ struct CrowdDirectory {
 
   std::filesystem::path config() const { return root / "config.yaml"; }
   std::filesystem::path plan() const { return root / "plan.jsonl"; }
+  /// The hidden founders of families, in the form of the plan.
+  std::filesystem::path founders() const { return root / "founders.jsonl"; }
   std::filesystem::path table() const { return root / "crowd.csv"; }
   std::filesystem::path casting() const { return root / "casting.json"; }
   std::filesystem::path report() const { return root / "report.json"; }

@@ -52,6 +52,7 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
       surfaces.kinds[f] = SurfaceKind::kEye;
     }
   }
+  if (!inputs.textures.coats.empty()) surfaces.uvs = inputs.faces.uvs;
   return surfaces;
 }
 
@@ -60,7 +61,8 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
     : cameras_(fit_to_heads(config, sheet, inputs)),
       renderer_(inputs.faces.topology,
                 RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
-                surfaces_of(config, inputs), &inputs.faces.heads.front().positions) {}
+                surfaces_of(config, inputs), &inputs.faces.heads.front().positions),
+      textures_(inputs.textures) {}
 
 void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
   make_directories(directory.renders());
@@ -68,7 +70,7 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
 }
 
 WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
-                                    const Positions& positions) const {
+                                    Index target, const Positions& positions) const {
   // As every mesh file holds them, so that pictures made from those are the same.
   const Positions single =
       positions.unaryExpr([](double value) -> double { return to_single(value); });
@@ -76,7 +78,7 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
     write_file(path, bytes);
     return FileDigest{bytes.size(), hash_bytes(bytes)};
   };
-  WrittenPictures written{put(directory.render(id), render_png(single)), std::nullopt};
+  WrittenPictures written{put(directory.render(id), render_png(single, target)), std::nullopt};
   if (gallery_ != nullptr) {
     written.preview = put(directory.gallery_face(id), gallery_->face_script(id, single));
   }
@@ -88,17 +90,24 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
   return renderer_.render(positions, cameras_.front(), colours);
 }
 
-Rgb8Image CrowdRenders::render(const Positions& positions, const VertexColours* colours) const {
+std::string CrowdRenders::render_png(const Positions& positions, const VertexColours* colours,
+                                     const TextureCoat* coat) const {
   std::vector<Rgb8Image> views;
   for (const Camera& camera : cameras_) {
-    views.push_back(renderer_.render(positions, camera, colours));
+    views.push_back(renderer_.render(positions, camera, colours, coat));
   }
-  return side_by_side(views);
+  return to_png(side_by_side(views));
+}
+
+std::string CrowdRenders::render_png(const Positions& positions, Index target) const {
+  const bool textured = !textures_.coats.empty();
+  return render_png(positions, nullptr,
+                    textured ? &textures_.coats[static_cast<std::size_t>(target)] : nullptr);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions,
-                                     const VertexColours* colours) const {
-  return to_png(render(positions, colours));
+                                     const VertexColours& colours) const {
+  return render_png(positions, &colours, nullptr);
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {

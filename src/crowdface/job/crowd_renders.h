@@ -27,6 +27,7 @@ struct WrittenPictures {
 /// Pictures of one crowd: one camera a view, fitted once to the input heads, so that sizes compare.
 class CrowdRenders {
  public:
+  /// \param inputs  must outlive this object.
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs);
 
   /// From now on `write` leaves a face's mesh for the gallery, too. Must outlive this object.
@@ -35,19 +36,24 @@ class CrowdRenders {
   /// The folders that `write` needs.
   void make_folders(const CrowdDirectory& directory) const;
   /// Writes a face's picture, and what the gallery shows of it.
-  WrittenPictures write(const CrowdDirectory& directory, const std::string& id,
+  WrittenPictures write(const CrowdDirectory& directory, const std::string& id, Index target,
                         const Positions& positions) const;
 
-  /// All views of a face side by side.
-  Rgb8Image render(const Positions& positions, const VertexColours* colours = nullptr) const;
-  /// The same as a PNG file's bytes.
-  std::string render_png(const Positions& positions, const VertexColours* colours = nullptr) const;
+  /// All views of a face side by side, as a PNG file's bytes.
+  /// \param target  the head whose texture it bears, if there are textures.
+  std::string render_png(const Positions& positions, Index target) const;
+  /// The same in colours of the vertices.
+  std::string render_png(const Positions& positions, const VertexColours& colours) const;
   /// The first of the views alone.
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
  private:
+  std::string render_png(const Positions& positions, const VertexColours* colours,
+                         const TextureCoat* coat) const;
+
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;
+  const HeadTextures& textures_;
   const GalleryMeshes* gallery_ = nullptr;
 };
 

@@ -19,12 +19,26 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kItem = "sheets";  // in the ledger
-constexpr int kSheetVersion = 2;  // raised whenever a change of the code alters what is made here
+constexpr int kSheetVersion = 3;  // raised whenever a change of the code alters what is made here
 
 void record_sheets(const CrowdDirectory& directory, const Digest& key, Ledger& ledger) {
   std::vector<std::string> names;
   for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
   ledger.record(kItem, key, names);
+}
+
+/// None if the heads or the settings are no longer those that the founders were cast from.
+std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& directory) {
+  std::vector<FamilyFounder> founders;
+  if (!fs::exists(directory.founders())) return founders;
+  for (PlanLine& line : read_plan(directory.founders(), job.names)) {
+    if (line.settings != job.settings.hex()) {
+      log_info("founders of families stay as they were: heads or settings have changed since");
+      return {};
+    }
+    founders.push_back({line.recipe.family.value_or(line.recipe.id), std::move(line.recipe)});
+  }
+  return founders;
 }
 
 }  // namespace
@@ -52,7 +66,8 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
   return pages;
 }
 
-void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set) {
+void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set,
+                   const fs::path& cache) {
   const CrowdDirectory directory{crowd_directory};
   ConfigOverrides overrides;
   overrides.set = set;
@@ -72,7 +87,12 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
   const CrowdPictures pictures(job, *job.config.output.contact_sheet, directory);
   pictures.write_heads();
-  pictures.write_faces(ids);
+  pictures.write_faces(crowd);
+  const std::vector<FamilyFounder> founders = read_founders(job, directory);
+  if (!founders.empty()) {
+    const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+    pictures.write_founders(founders, FaceBuilder(job, prepared));
+  }
   const std::size_t pages = pictures.finish(crowd, likeness);
   Ledger ledger(directory.root, directory.ledger(), directory.shard_ledgers());
   record_sheets(directory, Hasher().add("made anew").digest(), ledger);

@@ -29,6 +29,7 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
     const Config::ContactSheet& sheet = *config.output.contact_sheet;
     hasher.add(sheet.cell).add(sheet.views.size());
     for (const View view : sheet.views) hasher.add(static_cast<int>(view));
+    hasher.add(job.inputs.textures.digest);
     for (const auto& [material, surface] : config.output.surfaces) {
       hasher.add(material).add(static_cast<int>(surface.kind)).add(surface.colour.has_value());
       for (const std::uint8_t value : surface.colour.value_or(std::array<std::uint8_t, 3>{})) {

@@ -95,7 +95,8 @@ class FaceOutput {
     }
     if (renders_ != nullptr) {
       const Busy busy(render_);
-      const WrittenPictures written = renders_->write(directory_, recipe.id, positions);
+      const WrittenPictures written =
+          renders_->write(directory_, recipe.id, recipe.target, positions);
       files.picture = written.picture;
       files.preview = written.preview;
     }

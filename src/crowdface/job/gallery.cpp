@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/job/crowd_renders.h"
+#include "crowdface/render/eyeballs.h"
 #include "crowdface/render/vertex_colours.h"
 
 namespace crowdface {
@@ -78,6 +79,32 @@ Json crowd_to_json(const Job& job, const std::vector<std::string>& lines,
     json["near"].push_back(others);
   }
   return json;
+}
+
+/// What the page paints irises by, finer than the reduced mesh's vertices could.
+void add_eyes(const Config& config, const Inputs& inputs, const ReducedMesh& mesh, Json& json) {
+  const auto eyes = eye_coordinates(inputs.faces.topology, surfaces_of(config, inputs),
+                                    mean_head(inputs.faces), config.faces.front);
+  if (!eyes) return;
+  constexpr float kSteps = 65536;  // to a radius
+  std::vector<std::uint32_t> values;
+  for (const std::uint32_t vertex : mesh.vertices) {
+    for (int c = 0; c < 3; ++c) {
+      const float value = std::clamp((*eyes)(vertex, c), -3.9F, 3.9F);
+      values.push_back(static_cast<std::uint32_t>(std::lround(kSteps * (value + 4))));
+    }
+  }
+  const auto colour = [](SurfaceKind kind) {
+    const Light light = albedo_of(kind);
+    return Json{light[0], light[1], light[2]};
+  };
+  json["eyes"] = {{"places", base64(little_endian(values))},
+                  {"steps", kSteps},
+                  {"pupil", kPupilRadius},
+                  {"iris", kIrisRadius},
+                  {"softness", kIrisSoftness},
+                  {"white", colour(SurfaceKind::kEye)},
+                  {"colour", colour(SurfaceKind::kIris)}};
 }
 
 /// Scripts of faces that the crowd no longer has.
@@ -167,6 +194,7 @@ std::string GalleryMeshes::shared_script() const {
   json["box"] = {to_json(low_), to_json(high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
   json["colours"] = base64(shades);
+  add_eyes(config_, inputs_, mesh_, json);
   return call("setMesh", json);
 }
 

@@ -125,6 +125,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cas
   remove_report_of_other_plan(directory, plan);
   write(directory.plan(), plan);
   write(directory.table(), format_csv(cast.crowd, job.names));
+  if (!cast.founders.empty()) write(directory.founders(), format_founders(job, cast.founders));
   write(directory.casting(), format_casting(job, cast));
 }
 

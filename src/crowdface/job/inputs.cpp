@@ -20,6 +20,7 @@ namespace {
 /// Raised whenever a change of the code alters the bytes of a mesh.
 constexpr int kBlendVersion = 3;
 constexpr double kUvTolerance = 1e-4;
+constexpr int kLeastTexture = 1024;  // pixels a side that textures keep, if they have them
 
 /// Heads that could be read; the others are problems.
 std::vector<ObjFile> read_heads(const Config& config, Problems& problems) {
@@ -146,6 +147,18 @@ void warn(Inputs& inputs, std::string text) {
   inputs.warnings.push_back(std::move(text));
 }
 
+void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
+  const auto& sheet = config.output.contact_sheet;
+  if (!sheet || !sheet->texture) return;
+  try {
+    inputs.textures =
+        load_textures(inputs.faces, inputs.files, std::max(kLeastTexture, 2 * sheet->cell));
+    for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
+  } catch (const Error& error) {
+    problems.add(error);
+  }
+}
+
 }  // namespace
 
 void check_inputs(const ConfigReading& reading, Problems& problems) {
@@ -188,6 +201,7 @@ std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
   }
   compute_digests(inputs);
   const std::size_t before = problems.size();
+  read_textures(config, inputs, problems);
   find_named_parts(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;
   return inputs;

@@ -9,6 +9,7 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/job/config_reader.h"
+#include "crowdface/job/head_textures.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
@@ -32,6 +33,7 @@ struct Inputs {
   std::vector<Digest> head_digests;   ///< #heads, of the positions used
   Digest topology_digest;
   Digest mask_digest;                 ///< of α
+  HeadTextures textures;              ///< if pictures are to show them
   std::vector<std::string> warnings;  ///< in a fixed order; also logged
 };
 

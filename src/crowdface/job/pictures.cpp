@@ -45,9 +45,11 @@ CrowdPictures::CrowdPictures(const Job& job, const Config::ContactSheet& sheet,
 
 void CrowdPictures::write_heads() const {
   make_directories(directory_.head_render("").parent_path());
-  for (const Head& head : job_.inputs.faces.heads) {
+  const std::vector<Head>& heads = job_.inputs.faces.heads;
+  for (std::size_t h = 0; h < heads.size(); ++h) {
     throw_if_interrupted();
-    write_file(directory_.head_render(head.name), renders_.render_png(head.positions));
+    write_file(directory_.head_render(heads[h].name),
+               renders_.render_png(heads[h].positions, static_cast<Index>(h)));
   }
 }
 
@@ -60,18 +62,19 @@ void CrowdPictures::write_founders(const std::vector<FamilyFounder>& founders,
     throw_if_interrupted();
     const Recipe* recipe = &founder.recipe;
     builder.build({&recipe, 1}, built);
-    write_file(directory_.founder_render(founder.family), renders_.render_png(built[0]));
+    write_file(directory_.founder_render(founder.family),
+               renders_.render_png(built[0], founder.recipe.target));
   }
 }
 
-void CrowdPictures::write_faces(const std::vector<std::string>& ids) const {
+void CrowdPictures::write_faces(const std::vector<Recipe>& crowd) const {
   renders_.make_folders(directory_);
-  Progress progress("pictures", ids.size());
-  parallel_for_each(static_cast<Index>(ids.size()), [&](Index i) {
+  Progress progress("pictures", crowd.size());
+  parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
     throw_if_interrupted();
-    const std::string& id = ids[static_cast<std::size_t>(i)];
-    renders_.write(directory_, id,
-                   read_face(directory_, id, job_.config.output.meshes,
+    const Recipe& recipe = crowd[static_cast<std::size_t>(i)];
+    renders_.write(directory_, recipe.id, recipe.target,
+                   read_face(directory_, recipe.id, job_.config.output.meshes,
                              job_.inputs.faces.topology.vertex_count));
     progress.step();
   });

@@ -25,7 +25,7 @@ class CrowdPictures {
   void write_heads() const;
   void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilder& builder) const;
   /// Each face again from its mesh.
-  void write_faces(const std::vector<std::string>& ids) const;
+  void write_faces(const std::vector<Recipe>& crowd) const;
 
   /// Sheets and gallery, from the pictures in the folder.
   /// \return how many pages of contact sheets.

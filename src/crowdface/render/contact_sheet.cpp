@@ -33,7 +33,7 @@ void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& l
   const int line_height = layout.label_height / layout.label_lines;
   LabelStyle style;
   style.paper = kPaper;
-  style.text_px = std::max(9, line_height * 11 / 20);
+  style.text_px = std::max(9, line_height * 13 / 20);
   int top = layout.top(cell) + layout.cell_height;
   for (std::size_t begin = 0; begin <= label.size(); top += line_height) {
     const std::size_t end = std::min(label.find('\n', begin), label.size());

@@ -11,11 +11,6 @@
 namespace crowdface {
 namespace {
 
-// Radii as shares of the eyeball's: about a human eye's, in dim light.
-constexpr float kPupil = 0.17F;
-constexpr float kIris = 0.42F;
-constexpr float kSoftness = 0.025F;
-
 std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
   while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
   return vertex;
@@ -23,7 +18,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) 
 
 /// 0 well inside `edge`, 1 well outside.
 float beyond(float edge, float x) {
-  const float t = std::clamp((x - edge + kSoftness) / (2 * kSoftness), 0.0F, 1.0F);
+  const float t = std::clamp((x - edge + kIrisSoftness) / (2 * kIrisSoftness), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
 }
 
@@ -81,11 +76,11 @@ Light eye_albedo(const PlacedEye& eye, const Eigen::Vector3f& gaze, const Eigen:
   if (ahead <= 0 || eye.radius <= 0) return white;
   const float radius = (from_centre - ahead * gaze).norm() / eye.radius;
   // The iris is lightest around the pupil and darkest at its rim.
-  const float rim = std::clamp((radius - kPupil) / (kIris - kPupil), 0.0F, 1.0F);
+  const float rim = std::clamp((radius - kPupilRadius) / (kIrisRadius - kPupilRadius), 0.0F, 1.0F);
   const Light iris = albedo_of(SurfaceKind::kIris) * (1.6F - 1.25F * rim * rim);
   const Light pupil = Light::Constant(0.008F);
-  const Light inner = pupil + (iris - pupil) * beyond(kPupil, radius);
-  return inner + (white - inner) * beyond(kIris, radius);
+  const Light inner = pupil + (iris - pupil) * beyond(kPupilRadius, radius);
+  return inner + (white - inner) * beyond(kIrisRadius, radius);
 }
 
 }  // namespace crowdface

@@ -23,6 +23,12 @@ struct Eyeballs {
 /// \param kinds  one a face, or empty.
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
+/// Radii as shares of the eyeball's, about a human eye's in dim light, and how far their edges are
+/// blurred to either side.
+inline constexpr float kPupilRadius = 0.17F;
+inline constexpr float kIrisRadius = 0.42F;
+inline constexpr float kIrisSoftness = 0.025F;
+
 /// One eyeball where it stands in a given head.
 struct PlacedEye {
   Eigen::Vector3f centre;

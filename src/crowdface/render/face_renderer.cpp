@@ -79,6 +79,7 @@ struct FaceRenderer::Prepared {
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
   std::vector<std::optional<Light>> quad_paints;  ///< linear; or empty
+  std::vector<TexturedQuad> quad_uvs;             ///< or empty: no texture coordinates
   Eyeballs eyeballs;
   RayDevice device;
   ScenePool scenes;
@@ -97,6 +98,27 @@ void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
   if (face.size() == 4) return quads.push_back({face[0], face[1], face[2], face[3]});
   for (std::size_t c = 1; c + 1 < face.size(); ++c) {
     quads.push_back({face[0], face[c], face[c + 1], face[c + 1]});
+  }
+}
+
+/// The same fan in texture coordinates.
+void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, Index face,
+                     std::vector<TexturedQuad>& quads) {
+  if (uvs.rows() == 0 || topology.corner_uvs.empty()) return;
+  const auto f = static_cast<std::size_t>(face);
+  const std::span<const std::uint32_t> corners(
+      topology.corner_uvs.data() + topology.face_offsets[f],
+      topology.face_offsets[f + 1] - topology.face_offsets[f]);
+  std::vector<Quad> fan;
+  add_fan(corners, fan);
+  for (const Quad& quad : fan) {
+    TexturedQuad textured{static_cast<std::uint32_t>(face), {}};
+    for (std::size_t c = 0; c < 4; ++c) {
+      // A face of which a corner has no coordinate bears no texture.
+      if (quad[c] == kNoIndex) textured.face = TextureCoat::kNone;
+      if (quad[c] != kNoIndex) textured.uvs[c] = uvs.row(quad[c]).transpose().cast<float>();
+    }
+    quads.push_back(textured);
   }
 }
 
@@ -145,6 +167,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
     const auto kind = kinds.empty() ? SurfaceKind::kSkin : kinds[static_cast<std::size_t>(f)];
     if (kind == SurfaceKind::kHidden) continue;
     add_fan(topology.face(f), prepared_->quads);
+    add_coordinates(topology, surfaces.uvs, f, prepared_->quad_uvs);
     prepared_->quad_kinds.resize(prepared_->quads.size(), kind);
     if (surfaces.paints.empty()) continue;
     const auto& paint = surfaces.paints[static_cast<std::size_t>(f)];
@@ -163,12 +186,16 @@ const RenderOptions& FaceRenderer::options() const {
 }
 
 Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
-                               const VertexColours* colours) const {
+                               const VertexColours* colours, const TextureCoat* coat) const {
   const Topology& topology = prepared_->topology;
   check_size(topology, positions);
   if (colours != nullptr && colours->rows() != topology.vertex_count) {
     throw InvalidInput(
         concat("expected ", topology.vertex_count, " vertex colours, found ", colours->rows()));
+  }
+  if (coat != nullptr && static_cast<Index>(coat->of_face.size()) != topology.face_count()) {
+    throw InvalidInput(concat("expected a texture for each of ", topology.face_count(),
+                              " faces, found ", coat->of_face.size()));
   }
   std::vector<float> points = to_camera(positions, camera);
   const Eigen::Vector3f gaze = to_camera(camera, prepared_->options.front);
@@ -182,6 +209,8 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->quads,
                     prepared_->quad_kinds,
                     prepared_->quad_paints,
+                    prepared_->quad_uvs,
+                    coat,
                     prepared_->eyeballs,
                     std::move(eyes),
                     gaze,

@@ -8,6 +8,7 @@
 #include "crowdface/render/camera.h"
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/surface_kind.h"
+#include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
 
 namespace crowdface {
@@ -38,9 +39,10 @@ class FaceRenderer {
   /// \param positions  #V by 3, in the camera's unit. If the whole mesh is wound inside out (as a
   ///                   mirrored one is), it is turned.
   /// \param colours    #V by 3 instead of the surfaces' own, or nullptr.
+  /// \param coat       textures for the faces they cover, or nullptr.
   /// \throws InvalidInput if a size does not fit or a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
-                   const VertexColours* colours = nullptr) const;
+                   const VertexColours* colours = nullptr, const TextureCoat* coat = nullptr) const;
 
   const RenderOptions& options() const;
 

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "crowdface/mesh/topology.h"
+
 namespace crowdface {
 
 /// What a face of the mesh is made of, as far as a render without textures needs to know.
@@ -25,6 +27,8 @@ struct Surfaces {
   std::vector<SurfaceKind> kinds;  ///< #F, or empty: all skin
   /// #F colours (sRGB) in place of those of the kinds, or empty: none has any.
   std::vector<std::optional<Eigen::Array3f>> paints = {};
+  /// #T by 2 texture coordinates of the topology's corners, or empty: no textures.
+  TextureCoordinates uvs = {};
 };
 
 /// The kind that a material's (or group's) name speaks of, in any case and anywhere in the name:

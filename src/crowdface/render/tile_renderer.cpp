@@ -26,7 +26,22 @@ Eigen::Vector4f shares(const Quad& quad, float u, float v) {
   return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
 }
 
-Light own_albedo(const Stage& stage, std::uint32_t primitive, const Vector& point) {
+/// The texture's colour, if there is one.
+std::optional<Light> texture_albedo(const Stage& stage, std::uint32_t primitive,
+                                    const Eigen::Vector4f& weights) {
+  if (stage.coat == nullptr || stage.uvs.empty()) return std::nullopt;
+  const TexturedQuad& quad = stage.uvs[primitive];
+  if (quad.face == TextureCoat::kNone) return std::nullopt;
+  const std::uint32_t texture = stage.coat->of_face[quad.face];
+  if (texture == TextureCoat::kNone) return std::nullopt;
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
+  return colour_at(*stage.coat->textures[texture], uv);
+}
+
+Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
+                 const Vector& point) {
+  if (const auto colour = texture_albedo(stage, primitive, weights)) return *colour;
   if (!stage.paints.empty() && stage.paints[primitive]) return *stage.paints[primitive];
   const SurfaceKind kind = stage.kinds[primitive];
   if (kind != SurfaceKind::kEye) return albedo_of(kind);
@@ -59,7 +74,7 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction, std
   }
   meeting.surface.albedo = stage.colours != nullptr
                                ? from_srgb(colour.array())
-                               : own_albedo(stage, hit.primitive, meeting.point);
+                               : own_albedo(stage, hit.primitive, weights, meeting.point);
   // The side that is seen is told by the vertices' normals, which winding() has turned outwards.
   const Vector geometric = hit.normal.dot(normal) < 0 ? Vector(-hit.normal) : hit.normal;
   meeting.surface.inside = geometric.dot(direction) > 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,9 +14,16 @@
 #include "crowdface/render/sampling_pattern.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/surface_kind.h"
+#include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
 
 namespace crowdface {
+
+/// Where a primitive lies on its texture.
+struct TexturedQuad {
+  std::uint32_t face;  ///< of the topology, or TextureCoat::kNone
+  std::array<Eigen::Vector2f, 4> uvs;
+};
 
 /// A head as the camera sees it: x right, y up, z towards the camera, target at the origin, half
 /// the image's side as unit.
@@ -25,6 +34,8 @@ struct Stage {
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;            ///< #quads
   const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
+  const std::vector<TexturedQuad>& uvs;             ///< #quads, or empty
+  const TextureCoat* coat;                          ///< or nullptr
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Eigen::Vector3f gaze;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "crowdface/render/eyeballs.h"
+#include "crowdface/render/perpendicular.h"
 #include "crowdface/render/shading.h"
 
 namespace crowdface {
@@ -17,6 +18,21 @@ constexpr std::array<std::array<float, 3>, 6> kPalette = {{{0.84F, 0.37F, 0.00F}
                                                            {0.80F, 0.47F, 0.65F},
                                                            {0.90F, 0.62F, 0.00F},
                                                            {0.34F, 0.71F, 0.91F}}};
+
+Eigen::Vector3f gaze_of(Axis front) {
+  return static_cast<float>(front.sign) * Eigen::Vector3f::Unit(front.index);
+}
+
+std::vector<float> in_single(const Positions& positions) {
+  std::vector<float> points(static_cast<std::size_t>(positions.size()));
+  std::transform(positions.data(), positions.data() + positions.size(), points.begin(),
+                 [](double value) { return static_cast<float>(value); });
+  return points;
+}
+
+bool is_painted(const Surfaces& surfaces, Eigen::Index face) {
+  return !surfaces.paints.empty() && surfaces.paints[static_cast<std::size_t>(face)];
+}
 
 }  // namespace
 
@@ -41,15 +57,13 @@ VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces
   VertexColours colours = paint(albedo_of(SurfaceKind::kSkin)).replicate(positions.rows(), 1);
   const std::vector<SurfaceKind>& kinds = surfaces.kinds;
   if (kinds.empty()) return colours;
-  const Eigen::Vector3f gaze = static_cast<float>(front.sign) * Eigen::Vector3f::Unit(front.index);
-  std::vector<float> points(static_cast<std::size_t>(positions.size()));
-  std::transform(positions.data(), positions.data() + positions.size(), points.begin(),
-                 [](double value) { return static_cast<float>(value); });
+  const Eigen::Vector3f gaze = gaze_of(front);
+  const std::vector<float> points = in_single(positions);
   const Eyeballs eyeballs = find_eyeballs(topology, kinds);
   const std::vector<PlacedEye> eyes = place_eyes(eyeballs, points, gaze);
   for (Eigen::Index f = 0; f < topology.face_count(); ++f) {
     const SurfaceKind kind = kinds[static_cast<std::size_t>(f)];
-    if (!surfaces.paints.empty() && surfaces.paints[static_cast<std::size_t>(f)]) {
+    if (is_painted(surfaces, f)) {
       const Eigen::RowVector3f paint_of_face =
           surfaces.paints[static_cast<std::size_t>(f)]->matrix().transpose();
       for (const std::uint32_t vertex : topology.face(f)) colours.row(vertex) = paint_of_face;
@@ -65,6 +79,32 @@ VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces
     }
   }
   return colours;
+}
+
+std::optional<EyeCoordinates> eye_coordinates(const Topology& topology, const Surfaces& surfaces,
+                                              const Positions& positions, Axis front) {
+  const Eyeballs eyeballs = find_eyeballs(topology, surfaces.kinds);
+  if (eyeballs.count == 0) return std::nullopt;
+  const Eigen::Vector3f gaze = gaze_of(front);
+  const auto [across, along] = perpendicular(gaze);
+  const std::vector<PlacedEye> eyes = place_eyes(eyeballs, in_single(positions), gaze);
+  EyeCoordinates coordinates(positions.rows(), 3);
+  coordinates.rowwise() = Eigen::RowVector3f(0, 0, kNoEye);
+  bool any = false;
+  for (Eigen::Index f = 0; f < topology.face_count(); ++f) {
+    const bool eye = surfaces.kinds[static_cast<std::size_t>(f)] == SurfaceKind::kEye;
+    if (!eye || is_painted(surfaces, f)) continue;
+    for (const std::uint32_t vertex : topology.face(f)) {
+      const PlacedEye& placed = eyes[eyeballs.of_vertex[vertex]];
+      if (placed.radius <= 0) continue;
+      const Eigen::Vector3f from =
+          (positions.row(vertex).cast<float>().transpose() - placed.centre) / placed.radius;
+      coordinates.row(vertex) << from.dot(across), from.dot(along), from.dot(gaze);
+      any = true;
+    }
+  }
+  if (!any) return std::nullopt;
+  return coordinates;
 }
 
 VertexColours mask_colours(const Eigen::Ref<const Eigen::VectorXd>& mask,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,16 @@ VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha);
 /// \param front  where the face looks.
 VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
                               const Positions& positions, Axis front);
+
+/// #V by 3: where a vertex of an eyeball lies as seen from where the eye looks, in radii of the
+/// eyeball: across, along and ahead of its middle. They are linear in the position, so that an iris
+/// painted by them is round on the coarsest mesh.
+using EyeCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+inline constexpr float kNoEye = -2;  ///< stands in the last column of all other vertices
+
+/// \return nothing if there are no eyeballs, or they all have paints of their own.
+std::optional<EyeCoordinates> eye_coordinates(const Topology& topology, const Surfaces& surfaces,
+                                              const Positions& positions, Axis front);
 
 /// One region's mask: its colour where it is 1, pale clay where it is 0.
 /// \param mask  #V, in [0, 1].

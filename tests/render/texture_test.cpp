@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/texture.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/render/face_renderer.h"
+
+namespace crowdface {
+namespace {
+
+/// 2 by 1: red, then blue.
+Texture red_and_blue() {
+  return {2, 1, {Light(1, 0, 0), Light(0, 0, 1)}};
+}
+
+TEST(ColourAt, IsATexelAtItsCentreAndTheMeanBetweenTwo) {
+  const Texture texture = red_and_blue();
+  EXPECT_TRUE(colour_at(texture, {0.25F, 0.5F}).isApprox(Light(1, 0, 0)));
+  EXPECT_TRUE(colour_at(texture, {0.75F, 0.1F}).isApprox(Light(0, 0, 1)));
+  EXPECT_TRUE(colour_at(texture, {0.5F, 0.9F}).isApprox(Light(0.5F, 0, 0.5F)));
+}
+
+TEST(ColourAt, ClampsAtTheEdgeAndIsTheSameInEveryTile) {
+  const Texture texture = red_and_blue();
+  EXPECT_TRUE(colour_at(texture, {0.01F, 0.5F}).isApprox(Light(1, 0, 0)));
+  EXPECT_TRUE(colour_at(texture, {3.01F, 7.5F}).isApprox(Light(1, 0, 0)));
+  EXPECT_TRUE(colour_at(texture, {-0.01F, 0.5F}).isApprox(Light(0, 0, 1)));
+}
+
+TEST(ColourAt, TheFirstRowIsOnTop) {
+  const Texture texture{1, 2, {Light(1, 1, 1), Light(0, 0, 0)}};
+  EXPECT_GT(colour_at(texture, {0.5F, 0.8F})[0], colour_at(texture, {0.5F, 0.2F})[0]);
+}
+
+TEST(ShrunkTexture, KeepsTheMeanAndWhatIsSmallAlready) {
+  Texture texture{8, 4, {}};
+  for (int i = 0; i < 32; ++i) texture.texels.push_back(Light::Constant(static_cast<float>(i)));
+  const Texture small = shrunk(texture, 4);
+  EXPECT_EQ(small.width, 4);
+  EXPECT_EQ(small.height, 2);
+  EXPECT_FLOAT_EQ(small.texels[0][0], (0 + 1 + 8 + 9) / 4.0F);
+  Light sum = Light::Zero();
+  for (const Light& texel : small.texels) sum += texel;
+  EXPECT_FLOAT_EQ(sum[0] / 8, 15.5F);
+  EXPECT_EQ(shrunk(texture, 8).texels.size(), texture.texels.size());
+  EXPECT_EQ(shrunk({5, 1, std::vector<Light>(5, Light::Ones())}, 4).width, 2);
+}
+
+/// Two squares side by side, facing the camera, each over the whole of its texture.
+struct TwoSquares {
+  Topology topology = {6, {0, 1, 4, 3, 1, 2, 5, 4}, {0, 1, 3, 2, 0, 1, 3, 2}, {0, 4, 8}};
+  Positions positions{6, 3};
+  TextureCoordinates uvs{4, 2};
+  Camera camera;
+
+  TwoSquares() {
+    positions << -1, -0.5, 0, 0, -0.5, 0, 1, -0.5, 0, -1, 0.5, 0, 0, 0.5, 0, 1, 0.5, 0;
+    uvs << 0, 0, 1, 0, 0, 1, 1, 1;
+    const Positions* heads[] = {&positions};
+    camera = fit_camera(heads, {}, View::kFront);
+  }
+};
+
+TEST(FaceRenderer, TexturesColourTheFacesTheyCover) {
+  const TwoSquares squares;
+  Surfaces surfaces;
+  surfaces.uvs = squares.uvs;
+  const FaceRenderer renderer(squares.topology, {.size_px = 64}, surfaces);
+  TextureCoat coat{{std::make_shared<const Texture>(red_and_blue())}, {0, TextureCoat::kNone}};
+  const Rgb8Image plain = renderer.render(squares.positions, squares.camera);
+  const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &coat);
+  EXPECT_GT(image.at(8, 32)[0], image.at(8, 32)[2] + 60) << "red on the left";
+  EXPECT_GT(image.at(28, 32)[2], image.at(28, 32)[0] + 60) << "blue right of it";
+  for (int x = 40; x < 56; ++x) {
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(x, 32)[c], plain.at(x, 32)[c]) << x;
+  }
+  coat.of_face.pop_back();
+  EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &coat), InvalidInput);
+}
+
+}  // namespace
+}  // namespace crowdface
