@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Our version of the paper's figures, from configs/paper/, for any set of at least six heads. Pictures
-# go to out/paper/NAME/figures; docs/paper.md shows those of the synthetic heads.
+# go to out/paper/NAME/figures; docs/paper.md shows those of synthetic and of ICT heads.
 #
 #   scripts/paper_figures.sh                            synthetic heads, 40,000 vertices
 #   scripts/paper_figures.sh NAME HEADS_DIR [MASK]      yours (OBJ, centimetres, +Y up, facing +Z);

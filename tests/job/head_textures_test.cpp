@@ -26,8 +26,8 @@ constexpr const char* kHead =
 
 void write_png(const TemporaryFolder& folder, const std::string& name, int side,
                std::array<std::uint8_t, 3> colour) {
-  std::vector<std::uint8_t> pixels;
-  for (int i = 0; i < side * side; ++i) pixels.insert(pixels.end(), colour.begin(), colour.end());
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(3 * side * side));
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = colour[i % 3];
   folder.write(name, encode_png(side, side, 3, pixels));
 }
 
