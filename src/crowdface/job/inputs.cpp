@@ -18,7 +18,7 @@ namespace crowdface {
 namespace {
 
 /// Raised whenever a change of the code alters the bytes of a mesh.
-constexpr int kBlendVersion = 3;
+constexpr int kBlendVersion = 2;
 constexpr double kUvTolerance = 1e-4;
 
 /// Heads that could be read; the others are problems.
