@@ -1,20 +1,50 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # How eyes and teeth sit in heads, in a crowd whose parts follow and in the same crowd blended as skin:
-# builds what it needs, makes both crowds, prints the table of docs/parts.md.
+# builds what it needs, paints a mask of three bands, makes both crowds, prints the table of docs/parts.md
+# and how long blending took in each.
 #
-#   scripts/measure_parts.sh CONFIG HEADS_DIR [WORK_DIR]
+#   scripts/measure_parts.sh HEADS_DIR [WORK_DIR]
 #
-# CONFIG names the heads of HEADS_DIR (OBJ files in centimetres, +Y up, facing +Z), without a key
-# `parts`. Meshes and pictures of both crowds stay in WORK_DIR (default out/measure_parts).
+# HEADS_DIR holds OBJ files in centimetres, +Y up, facing +Z, with eyes and teeth. Masks, config, meshes and
+# a sheet of eight faces of each crowd stay in WORK_DIR (default out/measure_parts).
 set -euo pipefail
 
-[ $# -ge 2 ] || { sed -n '/^#   scripts/s/^#   //p' "$0" >&2; exit 64; }
-config=$1 heads=$2 work=${3:-out/measure_parts}
+[ $# -ge 1 ] || { sed -n '/^#   scripts/s/^#   //p' "$0" >&2; exit 64; }
 root=$(cd "$(dirname "$0")/.." && pwd)
+heads=$(cd "$1" && pwd)
+work=${2:-$root/out/measure_parts}
+mkdir -p "$work"
+work=$(cd "$work" && pwd)
 "$root/scripts/build.sh" release crowdface crowdface_measure_parts
+bin=$root/build/release/bin
+
+"$bin/crowdface_measure_parts" --bands "$heads" "$work/bands"
+cat >"$work/crowd.yaml" <<END
+schema: 1
+crowd: {name: ict, count: 100, seed: 20261121}
+faces: {directory: $heads, units: cm}
+regions: {names: [top, middle, bottom], mask: bands.<UDIM>.png}
+sampling: {smoothness: [0.1, 0.6], extrapolation: [0.9, 1.2], max_sources: 4}
+believability: {meshes: none}
+output:
+  directory: crowd
+  meshes: [obj]
+  contact_sheet: {columns: 4, rows: 2, cell: 360}
+  gallery: none
+END
+
+"$bin/crowdface" prepare "$work/crowd.yaml" --quiet
 for parts in none auto; do
-  "$root/build/release/bin/crowdface" generate "$config" --force --quiet --set "parts=$parts" \
-    --out "$work/$parts"
+  for sheet in sheet none; do
+    options=(--set "parts=$parts" --force --quiet)
+    if [ "$sheet" = none ]; then
+      options+=(--set output.contact_sheet=none --out "$work/$parts")
+    else
+      options+=(--set crowd.count=8 --out "$work/sheet_$parts")
+    fi
+    "$bin/crowdface" generate "$work/crowd.yaml" "${options[@]}"
+  done
+  echo "parts: $parts: $(tr -d '\n' <"$work/$parts/timings.json" | grep -o '"blend[^,}]*' | head -n 1)"
 done
-"$root/build/release/bin/crowdface_measure_parts" "$heads" "$work/none" "$work/auto"
+"$bin/crowdface_measure_parts" "$heads" "$work/none" "$work/auto"

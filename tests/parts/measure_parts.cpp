@@ -3,6 +3,8 @@
 // what of them passes through the other, teeth and gums that pass through lips or cheeks. A table in
 // Markdown, a column for the heads and one for each crowd. Heads look along +z, +y is up, in cm.
 //   crowdface_measure_parts HEADS_FOLDER CROWD_FOLDER…
+//   crowdface_measure_parts --bands HEADS_FOLDER PREFIX
+//       paints a mask in three bands to PREFIX.1001.png and so on
 //   crowdface_measure_parts --follow HEADS_FOLDER CROWD_FOLDER
 //       of a crowd with `parts: none`: lets the parts follow here, and times it
 #include <algorithm>
@@ -16,9 +18,12 @@
 #include <vector>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/morph/band_masks.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/parts/point_grid.h"
@@ -366,6 +371,7 @@ FaceSet read_heads(const std::filesystem::path& folder) {
   for (const std::filesystem::path& file : files) {
     ObjFile obj = read_obj(file);
     faces.topology = std::move(obj.topology);
+    faces.uvs = std::move(obj.uvs);
     faces.heads.push_back({file.stem().string(), std::move(obj.positions)});
   }
   return faces;
@@ -391,6 +397,26 @@ std::vector<Face> read_plan(const std::filesystem::path& crowd, const FaceSet& f
     result.push_back(face);
   }
   return result;
+}
+
+/// Bands by the heights of eyes and teeth.
+void paint_bands(const std::filesystem::path& folder, const std::string& prefix) {
+  constexpr int kSize = 512;
+  FaceSet faces = read_heads(folder);
+  const Watch watch(faces);
+  const auto height_of = [&](bool eyeball) {
+    double sum = 0, count = 0;
+    for (const Part& part : watch.parts().parts) {
+      if (part.part_class != PartClass::kRigid || part.eyeball != eyeball) continue;
+      for (const std::uint32_t v : part.vertices) sum += faces.heads[0].positions(v, 1);
+      count += static_cast<double>(part.vertices.size());
+    }
+    return sum / count;
+  };
+  const Mesh first = {faces.topology, faces.heads[0].positions, faces.uvs};
+  for (const auto& [tile, pixels] : band_masks(first, {height_of(true), height_of(false)}, kSize)) {
+    write_file(concat(prefix, '.', tile, ".png"), encode_png(kSize, kSize, 3, pixels));
+  }
 }
 
 void measure(const std::filesystem::path& folder, const std::vector<std::string>& crowds,
@@ -438,13 +464,19 @@ void measure(const std::filesystem::path& folder, const std::vector<std::string>
 
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
+  const bool bands = !words.empty() && words[0] == "--bands";
   const bool follow = !words.empty() && words[0] == "--follow";
-  if (follow) words.erase(words.begin());
+  if (follow || bands) words.erase(words.begin());
   if (words.size() < 2) {
-    std::cerr << "usage: crowdface_measure_parts [--follow] HEADS_FOLDER CROWD_FOLDER…\n";
+    std::cerr << "usage: crowdface_measure_parts [--follow] HEADS_FOLDER CROWD_FOLDER…\n"
+                 "       crowdface_measure_parts --bands HEADS_FOLDER PREFIX\n";
     return 64;
   }
   try {
+    if (bands) {
+      crowdface::paint_bands(words[0], words[1]);
+      return 0;
+    }
     crowdface::measure(words[0], {words.begin() + 1, words.end()}, follow);
     return 0;
   } catch (const crowdface::Error& error) {

@@ -18,7 +18,7 @@ namespace crowdface {
 namespace {
 
 /// Raised whenever a change of the code alters the bytes of a mesh.
-constexpr int kBlendVersion = 3;
+constexpr int kBlendVersion = 2;
 constexpr double kUvTolerance = 1e-4;
 constexpr int kLeastTexture = 1024;  // pixels a side that textures keep, if they have them
 

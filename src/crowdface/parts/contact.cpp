@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kMostVertices = 6000;
 /// Shares of the reach (some 4 mm): nearer than this by a rough measure a vertex is measured exactly;
 /// and what counts as free.
-constexpr double kNear = 0.4, kFree = -0.005;
+constexpr double kNear = 0.22, kFree = -0.005;
 /// What is farther off after that is left out of further steps; and how much may be missing at last.
-constexpr double kFar = 0.25, kDone = 0.002;
+constexpr double kFar = 0.15, kDone = 0.002;
 /// What a turn and a change of size cost, as against a shift that moves as much.
 constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
