@@ -26,10 +26,16 @@ table() {
     for i in $(seq 1 "$heads"); do
       ln -s "../heads/$(printf 'synth_%02d' "$i").obj" "$folder/heads_$heads/"
     done
-    "$program" generate configs/paper/table1.yaml --quiet --force \
-      --set "faces.directory=$PWD/$folder/heads_$heads" --out "$folder/crowd"
-    sed -n 's/.*"blend": *\([0-9.]*\).*/\1/p' "$folder/crowd/timings.json" | head -n 1 |
-      sed "s/.*/$separator\"$heads\": &/" >>"$folder/times.json"
+    # The least of three runs: whatever else the machine does only adds.
+    local least=''
+    for _ in 1 2 3; do
+      "$program" generate configs/paper/table1.yaml --quiet --force \
+        --set "faces.directory=$PWD/$folder/heads_$heads" --out "$folder/crowd"
+      rm -f "$folder/crowd/ledger.jsonl"
+      least=$(sed -n 's/.*"blend": *\([0-9.]*\).*/\1/p' "$folder/crowd/timings.json" | head -n 1 |
+        awk -v least="$least" '{ print least == "" || $1 < least ? $1 : least }')
+    done
+    echo "$separator\"$heads\": $least" >>"$folder/times.json"
     separator=,
   done
   echo '}}' >>"$folder/times.json"
