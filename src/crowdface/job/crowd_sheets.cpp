@@ -21,10 +21,10 @@ namespace {
 constexpr const char* kItem = "sheets";  // in the ledger
 constexpr int kSheetVersion = 3;  // raised whenever a change of the code alters what is made here
 
-void record_sheets(const CrowdDirectory& directory, const Digest& key, Ledger& ledger) {
+std::vector<std::string> sheet_files(const CrowdDirectory& directory) {
   std::vector<std::string> names;
   for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
-  ledger.record(kItem, key, names);
+  return names;
 }
 
 /// None if the heads or the settings are no longer those that the founders were cast from.
@@ -62,7 +62,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
   pictures.get().write_heads();
   pictures.get().write_founders(cast.founders, FaceBuilder(job, prepared));
   const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast));
-  record_sheets(directory, key, ledger);
+  ledger.record(kItem, key, sheet_files(directory));
   return pages;
 }
 
@@ -95,8 +95,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   }
   const std::size_t pages = pictures.finish(crowd, likeness);
   Ledger ledger(directory.root, directory.ledger(), directory.shard_ledgers());
-  record_sheets(directory, Hasher().add("made anew").digest(), ledger);
-  ledger.adopt({"renders", "gallery"});
+  ledger.adopt(kItem, sheet_files(directory), {"renders", "gallery"});
   log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
 }
 

@@ -175,9 +175,13 @@ void Ledger::record(LedgerEntry entry) {
 
 void Ledger::record(const std::string& item, const Digest& key,
                     const std::vector<std::string>& names) {
-  LedgerEntry entry{item, key, {}, {}};
-  for (const std::string& name : names) entry.files.push_back({name, hash_file(root_ / name)});
-  record(std::move(entry));
+  record({item, key, files_now(names), {}});
+}
+
+std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>& names) const {
+  std::vector<LedgerEntry::File> files;
+  for (const std::string& name : names) files.push_back({name, hash_file(root_ / name)});
+  return files;
 }
 
 void Ledger::write(const std::string& name, std::string_view bytes) {
@@ -188,24 +192,32 @@ void Ledger::write(const std::string& name, std::string_view bytes) {
   record(entry);
 }
 
-void Ledger::adopt(const std::vector<std::string>& folders) {
+void Ledger::adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files) {
+  if (files == entry.files) return;
+  entry.files = std::move(files);
+  entry.key = Hasher().add(entry.key).add("made anew").digest();
+  record(std::move(entry));
+}
+
+void Ledger::adopt(const std::string& item, const std::vector<std::string>& names,
+                   const std::vector<std::string>& folders) {
   const auto is_in_them = [&](const std::string& name) {
     return std::any_of(folders.begin(), folders.end(),
                        [&](const std::string& folder) { return name.starts_with(folder + '/'); });
   };
   const std::map<std::string, LedgerEntry> before = entries_;
-  for (const auto& [item, known] : before) {
-    LedgerEntry entry = known;
-    bool altered = false;
-    for (LedgerEntry::File& file : entry.files) {
-      if (!is_in_them(file.name)) continue;
-      const FileDigest content = hash_file(root_ / file.name);
-      altered = altered || content != file.content;
-      file.content = content;
+  const auto known = before.find(item);
+  adopt_entry(known == before.end() ? LedgerEntry{item, {}, {}, {}} : known->second,
+              files_now(names));
+  for (const auto& [other, entry] : before) {
+    if (other == item) continue;
+    std::vector<LedgerEntry::File> files = entry.files;
+    for (LedgerEntry::File& file : files) {
+      std::error_code ignored;
+      if (!is_in_them(file.name) || !fs::exists(root_ / file.name, ignored)) continue;
+      file.content = hash_file(root_ / file.name);
     }
-    if (!altered) continue;
-    entry.key = Hasher().add(entry.key).add("made anew").digest();
-    record(std::move(entry));
+    adopt_entry(entry, std::move(files));
   }
 }
 

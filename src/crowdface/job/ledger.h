@@ -22,6 +22,7 @@ struct LedgerEntry {
   struct File {
     std::string name;  ///< relative to the crowd's folder, '/' between its parts
     FileDigest content;
+    bool operator==(const File&) const = default;
   };
   std::string item;         ///< "faces/market_0001", "report.json"
   Digest key;               ///< of everything that determines the files
@@ -69,16 +70,22 @@ class Ledger {
   /// Writes a file determined by nothing but its bytes, unless it is there, and records it.
   void write(const std::string& name, std::string_view bytes);
 
-  /// Takes over files that were made anew in another form than the config's: an item of which one
-  /// has other bytes now is recorded with them under another key, so that the next run makes it as
-  /// the config says. \param folders  only files in these are looked at.
-  void adopt(const std::vector<std::string>& folders);
+  /// Takes over files that were made anew, maybe in another form than the config's. What has other
+  /// bytes now is recorded under another key, so that the next run makes it as the config says;
+  /// what is as it was keeps its line.
+  /// \param item, names  an item and the files that it has now
+  /// \param folders      files of other items are looked at if they lie in one of these
+  void adopt(const std::string& item, const std::vector<std::string>& names,
+             const std::vector<std::string>& folders);
 
   /// Puts the ledger in order: what this run found proven or recorded, sorted by item, and nothing
   /// else; the others are removed.
   void settle();
 
  private:
+  std::vector<LedgerEntry::File> files_now(const std::vector<std::string>& names) const;
+  void adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
+
   std::filesystem::path root_, own_;
   std::vector<std::filesystem::path> others_;
   std::map<std::string, LedgerEntry> entries_;  ///< the last of each item
