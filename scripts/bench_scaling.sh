@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # How the main job's cost grows with faces, vertices and heads: runs scripts/bench_crowd.sh over
-# three series, each twice as large as the last, and prints its table. Heads are prepared anew for
+# three series, each point twice as large as the last, and prints its table. Heads are prepared anew for
 # each, into a cache that is removed at the end.
 #
 #   scripts/bench_scaling.sh
@@ -16,6 +16,6 @@ run() {
   scripts/bench_crowd.sh "$@" --cache "$cache" -q 2>/dev/null | tail -n $((1 + header))
   [ $header -eq 0 ] || header=0
 }
-for faces in 125 250 500 1000; do run 15 26000 $faces; done
-for vertices in 50000 100000 200000 400000; do run 15 $vertices 200; done
-for heads in 4 8 16 32; do run $heads 26000 250; done
+for faces in 125 250 500; do run 15 26000 $faces; done
+for vertices in 50000 100000 200000; do run 15 $vertices 100; done
+for heads in 4 8 16 32; do run $heads 26000 100; done

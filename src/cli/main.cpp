@@ -14,6 +14,7 @@
 #include "crowdface/core/instruction_set.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 
@@ -71,6 +72,7 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
 }  // namespace
 
 int main(int argc, char** argv) {
+  crowdface::give_back_large_blocks();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
   program.set_version_flag("--version", std::string("crowdface ") + crowdface::kVersion);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -30,6 +31,12 @@ std::uint64_t machine_memory() {
     if (const auto limit = group_limit(file)) bytes = std::min(bytes, *limit);
   }
   return bytes;
+}
+
+void give_back_large_blocks() {
+  // glibc raises this by itself whenever such a block is freed, up to 32 MiB; once set it stays.
+  constexpr int kLarge = 1 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, kLarge);  // NOLINT(concurrency-mt-unsafe): before any thread
 }
 
 std::uint64_t peak_memory() {

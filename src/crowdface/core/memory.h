@@ -14,6 +14,11 @@ std::uint64_t machine_memory();
 /// The most memory this process has held so far, in bytes.
 std::uint64_t peak_memory();
 
+/// From now on blocks of a megabyte or more go back to the system when they are freed. Else a long run
+/// grows from face to face: what is large and short-lived shares the heap with what is small and
+/// stays, and leaves holes that no later block fits in. For programs, at their start.
+void give_back_large_blocks();
+
 /// "4 GiB", "512 MiB", "3 GB" as bytes; nothing if it is no such size.
 std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
