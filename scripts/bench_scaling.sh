@@ -16,6 +16,6 @@ run() {
   scripts/bench_crowd.sh "$@" --cache "$cache" -q 2>/dev/null | tail -n $((1 + header))
   [ $header -eq 0 ] || header=0
 }
-for faces in 125 250 500; do run 15 26000 $faces; done
-for vertices in 50000 100000 200000; do run 15 $vertices 100; done
-for heads in 4 8 16 32; do run $heads 26000 100; done
+for faces in 50 100 200 400; do run 15 26000 $faces; done
+for vertices in 50000 100000 200000 400000; do run 15 $vertices 32; done
+for heads in 4 8 16 32; do run $heads 26000 50; done
