@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/io/tile_files.h"
+
 #include "support/temporary_folder.h"
 
 namespace crowdface {

@@ -38,7 +38,7 @@ TEST(ReadObj, KeepsQuadsNgonsOrderAndGroups) {
   EXPECT_EQ(file.positions.row(4), Eigen::RowVector3d(2, 0.5, 0));
   EXPECT_EQ(file.uvs.row(4), Eigen::RowVector2d(0.5, 0));
   EXPECT_EQ(file.material_libraries, (std::vector<std::string>{"a.mtl"}));
-  EXPECT_EQ(face_materials(file),
+  EXPECT_EQ(face_materials(file.materials, file.topology.face_count()),
             (std::vector<std::string>{"skin", "lips of rose", "lips of rose"}));
 }
 

@@ -6,6 +6,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/crowd_sheets.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

@@ -5,6 +5,7 @@
 #include "crowdface/core/hash.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/crowd_sheets.h"
 #include "crowdface/job/generate.h"
 
 #include "support/crowd_files.h"

@@ -7,6 +7,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
+#include "crowdface/job/crowd_sheets.h"
 #include "crowdface/job/generate.h"
 #include "crowdface/job/likeness_file.h"
 #include "crowdface/job/verify.h"

@@ -28,7 +28,8 @@ struct Scene {
   Contact contact(const std::vector<Head>& heads) const {
     std::vector<std::uint32_t> wall(static_cast<std::size_t>(skin));
     std::iota(wall.begin(), wall.end(), 0U);
-    return {mesh.topology, faces, mesh.positions, wall, front, 0.6, heads};
+    return {mesh.topology, faces, mesh.positions, PointGrid(mesh.positions, wall), wall,
+            front,         0.6,   heads};
   }
   Contact contact() const { return contact({{"ann", mesh.positions}}); }
   /// The wall pushed back, and tilted about the up axis.

@@ -7,6 +7,7 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/tile_files.h"
 
 namespace crowdface {
 namespace {
@@ -72,31 +73,6 @@ std::string rest_of(std::string_view line, const std::string& first_word) {
   return std::string(rest.substr(from, rest.find_last_not_of(" \t\r") + 1 - from));
 }
 
-constexpr std::string_view kTileWord = "<UDIM>";
-
-/// The files that a name with <UDIM> stands for, sorted; the name itself if it holds none.
-std::vector<fs::path> tiles_of(const fs::path& folder, const fs::path& relative) {
-  const std::string name = relative.filename().string();
-  const std::size_t at = name.find(kTileWord);
-  if (at == name.npos) return {relative};
-  std::vector<fs::path> tiles;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder / relative.parent_path(), ignored)) {
-    const std::string found = entry.path().filename().string();
-    constexpr std::size_t kDigits = 4;
-    if (found.size() < at + kDigits) continue;
-    const std::string number = found.substr(at, kDigits);
-    const bool digits =
-        std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (digits && with_tile(name, std::stoi(number)) == fs::path(found)) {
-      tiles.push_back(relative.parent_path() / found);
-    }
-  }
-  std::sort(tiles.begin(), tiles.end());
-  if (tiles.empty()) tiles.push_back(relative);
-  return tiles;
-}
-
 class Collector {
  public:
   explicit Collector(fs::path folder) : folder_(std::move(folder)) {}
@@ -145,7 +121,11 @@ class Collector {
         take_file(relative, "texture");  // which says so
         continue;
       }
-      for (const fs::path& tile : tiles_of(folder_, relative)) take_file(tile, "texture");
+      const std::vector<fs::path> tiles = find_tiles(folder_ / relative);
+      for (const fs::path& tile : tiles) {
+        take_file(relative.parent_path() / tile.filename(), "texture");
+      }
+      if (tiles.empty()) take_file(relative, "texture");
     }
   }
 
@@ -159,14 +139,6 @@ MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::s
   Collector collector(mesh.parent_path());
   for (const std::string& library : libraries) collector.add_library(library);
   return collector.take();
-}
-
-fs::path with_tile(const fs::path& path, int tile) {
-  std::string text = path.string();
-  for (auto at = text.find(kTileWord); at != text.npos; at = text.find(kTileWord)) {
-    text.replace(at, kTileWord.size(), concat(tile));
-  }
-  return text;
 }
 
 ColourTextures find_colour_textures(const fs::path& mesh,

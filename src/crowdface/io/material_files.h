@@ -21,8 +21,8 @@ struct MaterialFiles {
 };
 
 /// The material files that a mesh names and the textures that those name, with <UDIM> in their names
-/// all tiles that are there. A file that is missing is
-/// a warning, not an error; so is a path that leads out of the mesh's folder, which is not followed.
+/// all tiles that are there. A file that is missing is a warning, not an error; so is a path that
+/// leads out of the mesh's folder, which is not followed.
 /// \param mesh       path of the OBJ file.
 /// \param libraries  the arguments of its `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
@@ -38,8 +38,5 @@ struct ColourTextures {
 /// The `map_Kd` of each material; whether there is such a file is not asked.
 ColourTextures find_colour_textures(const std::filesystem::path& mesh,
                                     const std::vector<std::string>& libraries);
-
-/// The path with a tile's number in place of each <UDIM>.
-std::filesystem::path with_tile(const std::filesystem::path& path, int tile);
 
 }  // namespace crowdface

@@ -111,14 +111,14 @@ ObjFile read_obj(const std::filesystem::path& path) {
   return result;
 }
 
-std::vector<std::string> face_materials(const ObjFile& file) {
-  std::vector<std::string> names(static_cast<std::size_t>(file.topology.face_count()));
-  for (std::size_t m = 0; m < file.materials.size(); ++m) {
-    const auto begin = static_cast<std::size_t>(file.materials[m].first_face);
-    const auto end = m + 1 < file.materials.size()
-                         ? static_cast<std::size_t>(file.materials[m + 1].first_face)
-                         : names.size();
-    for (std::size_t f = begin; f < end; ++f) names[f] = file.materials[m].name;
+std::vector<std::string> face_materials(const std::vector<MaterialRange>& ranges,
+                                        Index face_count) {
+  std::vector<std::string> names(static_cast<std::size_t>(face_count));
+  for (std::size_t m = 0; m < ranges.size(); ++m) {
+    const auto begin = static_cast<std::size_t>(ranges[m].first_face);
+    const auto end =
+        m + 1 < ranges.size() ? static_cast<std::size_t>(ranges[m + 1].first_face) : names.size();
+    for (std::size_t f = begin; f < end; ++f) names[f] = ranges[m].name;
   }
   return names;
 }

@@ -33,6 +33,7 @@ struct ObjFile {
 ObjFile read_obj(const std::filesystem::path& path);
 
 /// The material of every face, #F; empty text where none is named.
-std::vector<std::string> face_materials(const ObjFile& file);
+/// \param ranges  an OBJ file's materials
+std::vector<std::string> face_materials(const std::vector<MaterialRange>& ranges, Index face_count);
 
 }  // namespace crowdface

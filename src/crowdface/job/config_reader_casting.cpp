@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/tile_files.h"
 #include "crowdface/job/config_sections.h"
 
 namespace crowdface {
@@ -36,7 +37,7 @@ void read_mask_path(const YamlNode& node, ConfigDraft& draft) {
   const auto text = read_text(node, "an image file", draft.complaints);
   if (!text) return;
   const std::string path = resolve(draft.folder, *text).string();
-  if (path.find("<UDIM>") == path.npos && !file_exists(path)) {
+  if (path.find(kTileWord) == path.npos && !file_exists(path)) {
     draft.complaints.about(node, concat("the file ", quoted(path), " is missing"),
                            ExitCode::kMissingInput);
   }

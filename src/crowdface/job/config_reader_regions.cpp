@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/tile_files.h"
 #include "crowdface/job/config_sections.h"
 
 namespace crowdface {
@@ -14,42 +15,21 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostRegions = 16;
 
-constexpr std::string_view kUdim = "<UDIM>";
-
-bool has_tile(const fs::path& mask) {
-  const std::string name = mask.filename().string();
-  const std::size_t at = name.find(kUdim);
-  const std::string_view before = std::string_view(name).substr(0, at);
-  const std::string_view behind = std::string_view(name).substr(at + kUdim.size());
-  const fs::path folder = mask.has_parent_path() ? mask.parent_path() : fs::path(".");
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    const std::string file = it->path().filename().string();
-    constexpr std::size_t kDigits = 4;
-    if (file.size() == before.size() + kDigits + behind.size() && file.starts_with(before) &&
-        file.ends_with(behind) &&
-        parse_unsigned(std::string_view(file).substr(before.size(), kDigits))) {
-      return true;
-    }
-  }
-  return false;
-}
-
 void read_mask(const YamlNode& node, ConfigDraft& draft) {
   const auto text = read_text(node, "an image file", draft.complaints);
   if (!text) return;
   const fs::path mask = resolve(draft.folder, *text);
   const std::string name = mask.filename().string();
-  const std::size_t tiles = mask.string().find(kUdim);
+  const std::size_t tiles = mask.string().find(kTileWord);
   if (tiles == std::string::npos) {
     if (!file_exists(mask)) {
       draft.complaints.about(node, concat("the mask ", quoted(mask.string()), " is missing"),
                              ExitCode::kMissingInput);
     }
-  } else if (name.find(kUdim) == std::string::npos ||
-             mask.string().find(kUdim, tiles + 1) != std::string::npos) {
+  } else if (name.find(kTileWord) == std::string::npos ||
+             mask.string().find(kTileWord, tiles + 1) != std::string::npos) {
     draft.complaints.about(node, "<UDIM> can stand once, in the name of the file");
-  } else if (!has_tile(mask)) {
+  } else if (find_tiles(mask).empty()) {
     draft.complaints.about(node,
                            concat("no tile of the mask ", quoted(mask.string()),
                                   " is there, such as 1001 in place of <UDIM>"),

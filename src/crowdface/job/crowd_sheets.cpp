@@ -8,7 +8,6 @@
 #include "crowdface/job/crowd_lock.h"
 #include "crowdface/job/face_builder.h"
 #include "crowdface/job/face_ledger.h"
-#include "crowdface/job/generate.h"
 #include "crowdface/job/likeness_file.h"
 #include "crowdface/job/resume.h"
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "crowdface/job/casting.h"
+#include "crowdface/job/head_cache.h"
 #include "crowdface/job/ledger.h"
 #include "crowdface/job/pictures.h"
 #include "crowdface/job/report.h"
@@ -39,5 +42,13 @@ class LazyPictures {
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
                         const Cast& cast, const std::vector<FaceFiles>& files,
                         LazyPictures& pictures, Ledger& ledger);
+
+/// The contact sheets of a finished crowd again, from its meshes; only founders of families, who
+/// have none, are blended.
+/// \param set    changes to the crowd's own config, such as "output.contact_sheet.columns=8".
+/// \param cache  folder of prepared heads, which founders are made of.
+void remake_sheets(const std::filesystem::path& crowd_directory,
+                   const std::vector<std::string>& set,
+                   const std::filesystem::path& cache = cache_directory());
 
 }  // namespace crowdface

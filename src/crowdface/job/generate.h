@@ -37,12 +37,4 @@ void gather(const std::filesystem::path& crowd_directory, const std::filesystem:
 void plan(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options);
 
-/// The contact sheets of a finished crowd again, from its meshes; only founders of families, who
-/// have none, are blended.
-/// \param set    changes to the crowd's own config, such as "output.contact_sheet.columns=8".
-/// \param cache  folder of prepared heads, which founders are made of.
-void remake_sheets(const std::filesystem::path& crowd_directory,
-                   const std::vector<std::string>& set,
-                   const std::filesystem::path& cache = cache_directory());
-
 }  // namespace crowdface

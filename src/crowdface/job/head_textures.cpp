@@ -14,6 +14,8 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/io/tile_files.h"
+#include "crowdface/region/uv_samples.h"
 
 namespace crowdface {
 namespace {
@@ -85,20 +87,7 @@ int tile_of(const FaceSet& faces, Index face) {
   }
   const Eigen::RowVector2d middle = sum / corners;
   if (!(middle.minCoeff() >= 0 && middle.x() < 10 && middle.y() < 900)) return 1001;
-  return 1001 + static_cast<int>(middle.x()) + 10 * static_cast<int>(middle.y());
-}
-
-/// The material of every face of a head; the ranges were read with the file.
-std::vector<std::string> materials_of(const ObjFile& file, std::size_t faces) {
-  std::vector<std::string> names(faces);
-  for (std::size_t m = 0; m < file.materials.size(); ++m) {
-    const bool last = m + 1 == file.materials.size();
-    const auto end = last ? faces : static_cast<std::size_t>(file.materials[m + 1].first_face);
-    for (auto f = static_cast<std::size_t>(file.materials[m].first_face); f < end; ++f) {
-      names[f] = file.materials[m].name;
-    }
-  }
-  return names;
+  return tile_number(std::floor(middle.x()), std::floor(middle.y()));
 }
 
 }  // namespace
@@ -115,7 +104,8 @@ HeadTextures load_textures(const FaceSet& faces, std::span<const ObjFile> files,
   for (const ObjFile& file : files) {
     const ColourTextures named = find_colour_textures(file.path, file.material_libraries);
     for (const std::string& text : named.warnings) result.warnings.push_back(text);
-    const std::vector<std::string> materials = materials_of(file, face_count);
+    const std::vector<std::string> materials =
+        face_materials(file.materials, faces.topology.face_count());
     TextureCoat coat;
     coat.of_face.assign(face_count, TextureCoat::kNone);
     std::map<fs::path, std::uint32_t> rows;

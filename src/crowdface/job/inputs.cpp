@@ -175,7 +175,8 @@ std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
     return std::nullopt;
   }
 
-  inputs.materials = face_materials(inputs.files[0]);
+  inputs.materials =
+      face_materials(inputs.files[0].materials, inputs.files[0].topology.face_count());
   inputs.faces = take_faces(config, inputs.files);
   inputs.adjacency = build_adjacency(inputs.faces.topology);
   inputs.components = find_components(inputs.adjacency);

@@ -30,8 +30,8 @@ enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepS
 }  // namespace
 
 Contact::Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
-                 std::span<const std::uint32_t> skin, std::span<const std::uint32_t> part,
-                 double reach, const std::vector<Head>& heads)
+                 const PointGrid& grid, std::span<const std::uint32_t> skin,
+                 std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads)
     : topology_(&topology), faces_(&faces), reach_(reach), part_(part.begin(), part.end()) {
   for (const std::uint32_t v : part_) middle_ += positions.row(v).transpose();
   middle_ /= static_cast<double>(part_.size());
@@ -41,9 +41,7 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
   }
   radius_ = std::max(std::sqrt(radius_ / static_cast<double>(part_.size())), 1e-3 * reach);
 
-  const PointGrid grid(positions, skin);
   const std::size_t count = std::min(part.size(), kMostVertices);
-  std::vector<double> heights;
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = part[i * part.size() / count];
@@ -54,8 +52,7 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
     if (place.distance > reach) continue;
     const std::uint32_t start = place.corners[0];
     pairs_.push_back({v, place.corners, place.shares, {start, start, start}, 1e300});
-    heights.push_back(height(pairs_.size() - 1, point, positions).height);
-    sum += heights.back() > 0 ? 1 : -1;
+    sum += height(pairs_.size() - 1, point, positions).height > 0 ? 1 : -1;
   }
   // Most lie on the free side; roots that reach into the flesh may.
   side_ = sum < 0 ? -1 : 1;

@@ -19,11 +19,12 @@ class Contact {
  public:
   Contact() = default;
   /// \param positions  of the head on which the pairs are looked for
+  /// \param grid       of the skin at these positions
   /// \param reach      how near
   /// Topology and faces must outlive it.
   Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
-          std::span<const std::uint32_t> skin, std::span<const std::uint32_t> part, double reach,
-          const std::vector<Head>& heads);
+          const PointGrid& grid, std::span<const std::uint32_t> skin,
+          std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
 
   /// How far a pair's vertex, wherever it is, is off the skin of a head; negative: through it.
   struct Height {

@@ -124,7 +124,7 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
       bound_part.eye = bind_eye(faces, around, part, ball, axes, mean,
                                 find_lids(mean, grid, ball.centre, ball.radius, axes, skin));
     } else {
-      bound_part.contact = Contact(faces.topology, around, mean, skin, part.vertices,
+      bound_part.contact = Contact(faces.topology, around, mean, skin_grid, skin, part.vertices,
                                    kContactReach * extent, faces.heads);
     }
   };

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/region/mask_source.h"
 
-#include <string_view>
 #include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/tile_files.h"
 
 namespace crowdface {
 namespace {
-
-constexpr std::string_view kTile = "<UDIM>";
 
 void check_not_negative(const std::string& file, const Image& image) {
   const auto channels = mask_channels(image);
@@ -34,16 +32,11 @@ MaskSource::MaskSource(std::string name, Image image)
     : path_(std::move(name)), image_(std::move(image)) {}
 
 bool MaskSource::tiled() const {
-  return !image_ && path_.find(kTile) != std::string::npos;
+  return !image_ && path_.find(kTileWord) != std::string::npos;
 }
 
 std::string MaskSource::file_of(int tile) const {
-  std::string file = path_;
-  if (!tiled()) return file;
-  for (auto at = file.find(kTile); at != std::string::npos; at = file.find(kTile)) {
-    file.replace(at, kTile.size(), concat(tile));
-  }
-  return file;
+  return tiled() ? with_tile(path_, tile).string() : path_;
 }
 
 Image MaskSource::read(int tile) const {

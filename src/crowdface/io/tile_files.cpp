@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/tile_files.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+namespace fs = std::filesystem;
+
+fs::path with_tile(const fs::path& path, int tile) {
+  std::string text = path.string();
+  for (auto at = text.find(kTileWord); at != text.npos; at = text.find(kTileWord)) {
+    text.replace(at, kTileWord.size(), concat(tile));
+  }
+  return text;
+}
+
+std::vector<fs::path> find_tiles(const fs::path& path) {
+  constexpr std::size_t kDigits = 4;
+  const fs::path name = path.filename();
+  const std::size_t at = name.string().find(kTileWord);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::vector<fs::path> tiles;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string found = it->path().filename().string();
+    if (at == std::string::npos || found.size() < at + kDigits) continue;
+    const std::string number = found.substr(at, kDigits);
+    const bool digits =
+        std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (digits && with_tile(name, std::stoi(number)) == fs::path(found)) {
+      tiles.push_back(path.parent_path() / found);
+    }
+  }
+  std::sort(tiles.begin(), tiles.end());
+  return tiles;
+}
+
+}  // namespace crowdface

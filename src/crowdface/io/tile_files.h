@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace crowdface {
+
+/// Stands in a file's name for the number of a UDIM tile, four digits.
+constexpr std::string_view kTileWord = "<UDIM>";
+
+/// The path with a tile's number in place of each kTileWord.
+std::filesystem::path with_tile(const std::filesystem::path& path, int tile);
+
+/// The tiles that are there, sorted by name, of a path whose last part holds kTileWord.
+std::vector<std::filesystem::path> find_tiles(const std::filesystem::path& path);
+
+}  // namespace crowdface
