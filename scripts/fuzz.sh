@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Fuzzes the parsers, one after the other, with AddressSanitizer and UBSan, and says how much of
-# each parser's own code its inputs and the tests of its module reach. What is found stays in build/fuzz/found; once mended it
-# belongs into tests/fuzz/corpus, where a test reads it for ever.
+# each parser's own code its inputs and the tests of its module reach. What is found stays in
+# build/fuzz/found; once mended it belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
-#   scripts/fuzz.sh [SECONDS [PARSER …]]    by default 1200 s each of obj mask yaml review plan cache
-#                                           ledger. 0 s: coverage of what is there
+#   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of obj mask yaml
+#                                           review plan cache ledger. 0 s: coverage of what is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-1200}
@@ -44,13 +44,18 @@ more_seeds() {
   esac
 }
 
+# Until the parser has had its time of a processor, however busy the machine is with other things.
 fuzz() {
-  local parser=$1 dictionary=()
+  local parser=$1 dictionary=() left=$seconds TIMEFORMAT='%U %S'
   case $parser in yaml | review | plan) dictionary=(-dict="$out/words.dict") ;; esac
-  "$out/bin/crowdface_${parser}_fuzz" "$out/corpus/$parser" "tests/fuzz/corpus/$parser" \
-    $(more_seeds "$parser") -max_total_time="$seconds" -max_len=65536 -rss_limit_mb=4096 \
-    -timeout=20 -print_final_stats=1 "${dictionary[@]}" -artifact_prefix="$out/found/$parser-" \
-    >"$out/$parser.log" 2>&1
+  : >"$out/$parser.log"
+  while [ "$left" -gt 0 ]; do
+    { time "$out/bin/crowdface_${parser}_fuzz" "$out/corpus/$parser" "tests/fuzz/corpus/$parser" \
+      $(more_seeds "$parser") -max_total_time="$left" -max_len=65536 -rss_limit_mb=4096 \
+      -timeout=60 -print_final_stats=1 "${dictionary[@]}" -artifact_prefix="$out/found/$parser-" \
+      >>"$out/$parser.log" 2>&1; } 2>"$out/$parser.time" || return 1
+    left=$((left - $(awk '{print int($1 + $2) + 1}' "$out/$parser.time")))
+  done
 }
 
 # What the tests of a module reach, once.
@@ -92,10 +97,11 @@ status=0
 for parser in "${parsers[@]}"; do
   mkdir -p "$out/corpus/$parser"
   start=$SECONDS
+  touch "$out/$parser.log"
   if [ "$seconds" -eq 0 ] || fuzz "$parser"; then
     printf '%-8s %6d s %12s runs, nothing found, %s lines reached\n' "$parser" \
       $((SECONDS - start)) \
-      "$(awk '/number_of_executed_units/ {print $2}' "$out/$parser.log" 2>/dev/null || echo 0)" \
+      "$(awk '/number_of_executed_units/ {runs += $2} END {print runs + 0}' "$out/$parser.log")" \
       "$(coverage "$parser")"
   else
     printf '%-8s %6d s FOUND, see %s\n' "$parser" $((SECONDS - start)) "build/fuzz/$parser.log"

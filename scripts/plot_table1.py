@@ -46,8 +46,8 @@ def main():
             x, y = at(n, ms)
             out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{colour}"/>')
         y = 20 + 16 * row
-        out.append(f'<circle cx="{WIDTH - 370}" cy="{y - 4}" r="4" fill="{colour}"/>'
-                   f'<text x="{WIDTH - 360}" y="{y}">{title}</text>')
+        out.append(f'<circle cx="{WIDTH - 350}" cy="{y - 4}" r="4" fill="{colour}"/>'
+                   f'<text x="{WIDTH - 340}" y="{y}">{title}</text>')
     open(sys.argv[2], 'w').write('\n'.join(out + ['</svg>\n']))
 
 

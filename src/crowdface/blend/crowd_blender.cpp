@@ -47,10 +47,16 @@ void CrowdBlender::cut_into_blocks() {
   }
   for (const auto& [regions, vertices] : by_regions) {
     for (std::size_t begin = 0; begin < vertices.size(); begin += kBlockVertices) {
-      const std::size_t count = std::min(kBlockVertices, vertices.size() - begin);
-      blocks_.push_back({vertices_.size() + begin, count, regions});
+      Block block{{}, std::min(kBlockVertices, vertices.size() - begin), regions};
+      for (std::size_t i = begin; i < begin + block.count; ++i) {
+        if (block.runs.empty() ||
+            vertices[i] != block.runs.back().first + block.runs.back().count) {
+          block.runs.push_back({vertices[i], 0});
+        }
+        ++block.runs.back().count;
+      }
+      blocks_.push_back(std::move(block));
     }
-    vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
   }
 }
 
@@ -96,20 +102,24 @@ CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recip
   return factors;
 }
 
-/// The block's values of all fields: #chunks by #fields.
+/// The block's values of all fields: #chunks by #fields; what is past its last vertex is any number.
 void CrowdBlender::pack(const Block& block, std::vector<Chunk>& packed) const {
   packed.resize(kBlockChunks * field_count_);
-  std::array<float, kBlockValues> values{};
   std::size_t field = 0;
   for (const HeadLevels& head : levels_) {
     for (Index p = 0; p < head.rank; ++p, ++field) {
       const float* from = head.fields.data() + 3 * p * faces_.topology.vertex_count;
-      for (std::size_t i = 0; i < block.count; ++i) {
-        std::copy_n(from + std::size_t{3} * vertices_[block.first + i], 3, values.data() + 3 * i);
-      }
-      for (std::size_t chunk = 0; chunk < kBlockChunks; ++chunk) {
-        std::copy_n(values.data() + chunk * kChunkValues, kChunkValues,
-                    packed[chunk * field_count_ + field].values);
+      std::size_t to = 0;
+      for (const Run& run : block.runs) {
+        const float* value = from + std::size_t{3} * run.first;
+        for (const std::size_t end = to + std::size_t{3} * run.count; to < end;) {
+          const std::size_t in_chunk = to % kChunkValues;
+          const std::size_t count = std::min(kChunkValues - in_chunk, end - to);
+          std::copy_n(value, count,
+                      packed[to / kChunkValues * field_count_ + field].values + in_chunk);
+          value += count;
+          to += count;
+        }
       }
     }
   }
@@ -119,10 +129,11 @@ void CrowdBlender::pack(const Block& block, std::vector<Chunk>& packed) const {
 void CrowdBlender::spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const {
   alpha.assign(block.regions.size(), BlockValues{});
   for (std::size_t k = 0; k < block.regions.size(); ++k) {
-    for (std::size_t i = 0; i < block.count; ++i) {
-      const auto share =
-          static_cast<float>(regions_.alpha(vertices_[block.first + i], block.regions[k]));
-      std::fill_n(alpha[k].begin() + static_cast<std::ptrdiff_t>(3 * i), 3, share);
+    auto to = alpha[k].begin();
+    for (const Run& run : block.runs) {
+      for (std::uint32_t v = run.first; v < run.first + run.count; ++v, to += 3) {
+        std::fill_n(to, 3, static_cast<float>(regions_.alpha(v, block.regions[k])));
+      }
     }
   }
 }
@@ -147,14 +158,11 @@ void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& p
 /// The face at the block's vertices: the target's positions and what is added to them.
 void CrowdBlender::write(const Block& block, const Positions& target, const BlockValues& added,
                          Positions& result) const {
-  for (std::size_t begin = 0, end = 0; begin < block.count; begin = end) {
-    const std::uint32_t first = vertices_[block.first + begin];
-    do {
-      ++end;
-    } while (end < block.count && vertices_[block.first + end] == first + (end - begin));
-    const std::size_t from = std::size_t{3} * first;
-    write_sums(target.data() + from, added.data() + 3 * begin, 3 * (end - begin),
-               result.data() + from);
+  const float* more = added.data();
+  for (const Run& run : block.runs) {
+    const std::size_t at = std::size_t{3} * run.first, count = std::size_t{3} * run.count;
+    write_sums(target.data() + at, more, count, result.data() + at);
+    more += count;
   }
 }
 

@@ -50,9 +50,15 @@ class CrowdBlender {
   static constexpr std::size_t kBlockChunks = kBlockValues / kChunkValues;
   static_assert(kBlockValues % kChunkValues == 0);
 
+  /// Vertices that follow each other in the mesh.
+  struct Run {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+  };
   /// Up to kBlockVertices vertices that the same regions act on.
   struct Block {
-    std::size_t first = 0, count = 0;    ///< in vertices_
+    std::vector<Run> runs;               ///< ascending
+    std::size_t count = 0;               ///< of all runs
     std::vector<std::uint32_t> regions;  ///< those with a weight there
   };
   /// The coefficients of up to kChunkFaces faces in one region.
@@ -81,7 +87,6 @@ class CrowdBlender {
   std::vector<HeadLevels> levels_;
   const RegionWeights& regions_;
   std::size_t field_count_ = 0;
-  std::vector<std::uint32_t> vertices_;  ///< #V, in the order of the blocks
   std::vector<Block> blocks_;
 };
 

@@ -56,6 +56,7 @@ BallMap::BallMap(const Topology& topology, const FacesAround& faces, const Posit
           radius_along(topology, faces, head, centre, direction, radius, nearest));
     }
   }
+  farthest_ = static_cast<double>(*std::max_element(radii_.begin(), radii_.end()));
 }
 
 BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {

@@ -30,6 +30,8 @@ class BallMap {
 
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
+  /// The largest distance of the surface from the centre.
+  double farthest() const { return farthest_; }
   std::uint64_t memory_bytes() const { return radii_.size() * sizeof(float); }
 
  private:
@@ -42,7 +44,7 @@ class BallMap {
 
   HeadAxes axes_;
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
-  double radius_ = 0;
+  double radius_ = 0, farthest_ = 0;
   std::vector<float> radii_;  ///< kNodes by kNodes, x along the side axis first
 };
 

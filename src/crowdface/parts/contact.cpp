@@ -6,6 +6,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/parts/small_program.h"
+#include "crowdface/parts/some_of.h"
 #include "crowdface/parts/vector3.h"
 
 namespace crowdface {
@@ -13,6 +14,10 @@ namespace {
 
 /// More pairs than this change nothing but the time.
 constexpr std::size_t kMostVertices = 6000;
+/// Pairs of a cluster at most, and how much more than in the heads their distances from the skin may
+/// differ in a face.
+constexpr std::size_t kClusterPairs = 16;
+constexpr double kMoreSlack = 1.5;
 /// Shares of the reach (some 4 mm): nearer than this by a rough measure a vertex is measured exactly;
 /// and what counts as free.
 constexpr double kNear = 0.22, kFree = -0.005;
@@ -41,10 +46,8 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
   }
   radius_ = std::max(std::sqrt(radius_ / static_cast<double>(part_.size())), 1e-3 * reach);
 
-  const std::size_t count = std::min(part.size(), kMostVertices);
   double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t v = part[i * part.size() / count];
+  for (const std::uint32_t v : some_of(part, kMostVertices)) {
     const Eigen::Vector3d point = positions.row(v).transpose();
     const auto nearest = grid.nearest(point, 2 * reach);
     if (nearest.vertex == kNoIndex) continue;
@@ -57,6 +60,7 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
   // Most lie on the free side; roots that reach into the flesh may.
   side_ = sum < 0 ? -1 : 1;
   find_starts(positions, skin, heads);
+  find_clusters(positions, heads);
   parallel_blocks(static_cast<std::ptrdiff_t>(pairs_.size()), 64, [&](auto begin, auto end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       for (const Head& head : heads) {
@@ -97,6 +101,45 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
   }
 }
 
+void Contact::find_clusters(const Positions& positions, const std::vector<Head>& heads) {
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, pairs_.size()}};
+  while (!open.empty()) {
+    const auto [begin, end] = open.back();
+    open.pop_back();
+    if (end - begin <= kClusterPairs) {
+      if (begin < end) clusters_.push_back({begin, end, 0});
+      continue;
+    }
+    Eigen::RowVector3d low = positions.row(pairs_[begin].vertex), high = low;
+    for (std::size_t i = begin; i < end; ++i) {
+      low = low.cwiseMin(positions.row(pairs_[i].vertex));
+      high = high.cwiseMax(positions.row(pairs_[i].vertex));
+    }
+    Index axis = 0;
+    (high - low).maxCoeff(&axis);
+    std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin),
+              pairs_.begin() + static_cast<std::ptrdiff_t>(end), [&](const Pair& a, const Pair& b) {
+                const double at = positions(a.vertex, axis), bt = positions(b.vertex, axis);
+                return at != bt ? at < bt : a.vertex < b.vertex;
+              });
+    const std::size_t middle = begin + (end - begin) / 2;
+    open.emplace_back(middle, end);
+    open.emplace_back(begin, middle);
+  }
+  for (Cluster& cluster : clusters_) {
+    for (const Head& head : heads) {
+      const auto rough = [&](std::size_t i) {
+        const Eigen::Vector3d point = head.positions.row(pairs_[i].vertex).transpose();
+        return rough_height(pairs_[i], point, head.positions);
+      };
+      const double here = rough(cluster.middle());
+      for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
+        cluster.slack = std::max(cluster.slack, kMoreSlack * (here - rough(i)));
+      }
+    }
+  }
+}
+
 double Contact::rough_height(const Pair& pair, const Eigen::Vector3d& point,
                              const Positions& skin) const {
   const Eigen::Vector3d a = skin.row(pair.corners[0]).transpose();
@@ -126,11 +169,21 @@ Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions&
 
 Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
                                 const Positions& skin) const {
-  const auto& starts = pairs_[pair].starts;
-  SurfacePoint place = nearest_from(*topology_, *faces_, skin, starts[0], point);
-  for (std::size_t s = 1; s < kStarts && starts[s] != starts[0]; ++s) {
-    const SurfacePoint other = nearest_from(*topology_, *faces_, skin, starts[s], point);
-    if (other.distance < place.distance) place = other;
+  std::uint32_t nearest = 0;
+  return height(pairs_[pair].starts, point, skin, nearest);
+}
+
+Contact::Height Contact::height(const Starts& starts, const Eigen::Vector3d& point,
+                                const Positions& skin, std::uint32_t& nearest) const {
+  Starts ends;
+  SurfacePoint place;
+  for (std::size_t s = 0; s < kStarts && (s == 0 || starts[s] != starts[0]); ++s) {
+    ends[s] = descend(*topology_, *faces_, skin, starts[s], point);
+    if (std::find(ends.begin(), ends.begin() + s, ends[s]) != ends.begin() + s) continue;
+    const SurfacePoint other = nearest_from(*topology_, *faces_, skin, ends[s], point);
+    if (s > 0 && other.distance >= place.distance) continue;
+    place = other;
+    nearest = ends[s];
   }
   const Eigen::Vector3d normal = normal_near(place, skin);
   const Eigen::Vector3d from = point - place.position;
@@ -143,10 +196,17 @@ RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
                            const Positions& after, double margin) const {
   constexpr int kSteps = 4;
   RigidMotion cleared = motion;
-  std::vector<std::uint32_t> near;
-  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
-    const Eigen::Vector3d point = motion.apply(target.row(pairs_[i].vertex).transpose());
-    if (rough_height(pairs_[i], point, after) < kNear * reach_) near.push_back(i);
+  const auto rough = [&](const Pair& pair) {
+    const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
+    return rough_height(pair, point, after);
+  };
+  std::vector<Near> near;
+  for (const Cluster& cluster : clusters_) {
+    if (rough(pairs_[cluster.middle()]) - cluster.slack >= kNear * reach_) continue;
+    for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
+      if (rough(pairs_[i]) >= kNear * reach_) continue;
+      near.push_back({static_cast<std::uint32_t>(i), pairs_[i].starts});
+    }
   }
   for (int k = 0; k < kSteps; ++k) {
     if (!step(target, motion, after, margin, near, cleared)) break;
@@ -155,7 +215,7 @@ RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
 }
 
 bool Contact::step(const Positions& target, const RigidMotion& start, const Positions& after,
-                   double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const {
+                   double margin, std::vector<Near>& near, RigidMotion& motion) const {
   const Eigen::Vector3d middle = motion.apply(middle_);
   const Eigen::Vector3d shifted = middle - start.apply(middle_);
   const double radius = motion.scale * radius_;
@@ -163,12 +223,14 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
   SmallProgram program(kUnknowns);
   bool missing = false;
   std::size_t kept = 0;
-  for (const std::uint32_t i : near) {
-    const Pair& pair = pairs_[i];
+  for (const Near& seen : near) {
+    const Pair& pair = pairs_[seen.pair];
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
-    const Height now = height(i, point, after);
+    std::uint32_t nearest = 0;
+    const Height now = height(seen.starts, point, after, nearest);
     if (now.height > kFar * reach_) continue;
-    near[kept++] = i;
+    // What was nearest is where further steps start from.
+    near[kept++] = {seen.pair, {nearest, nearest, nearest}};
     const Eigen::Vector3d from = point - middle;
     const Eigen::Vector3d arm = cross3(from, now.outward) / radius;
     const bool never = pair.least > kFree * reach_;

@@ -45,22 +45,37 @@ class Contact {
 
  private:
   static constexpr std::size_t kStarts = 3;
+  using Starts = std::array<std::uint32_t, kStarts>;
   struct Pair {
     std::uint32_t vertex;
     std::array<std::uint32_t, 3> corners;
     std::array<double, 3> shares;
     /// Vertices to start from when the nearest skin is looked for: of both lips, where both are near.
-    std::array<std::uint32_t, kStarts> starts;
+    Starts starts;
     double least;  ///< height in all heads
+  };
+  /// Pairs close together, and by how much one of them may be farther off the skin than another is.
+  struct Cluster {
+    std::size_t begin, end;  ///< of pairs_; the one that stands for all is in the middle
+    double slack;
+    std::size_t middle() const { return begin + (end - begin) / 2; }
+  };
+  /// A pair to look at, and where to start looking for the skin nearest to it.
+  struct Near {
+    std::uint32_t pair;
+    Starts starts;
   };
   void find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                    const std::vector<Head>& heads);
+  void find_clusters(const Positions& positions, const std::vector<Head>& heads);
+  Height height(const Starts& starts, const Eigen::Vector3d& point, const Positions& skin,
+                std::uint32_t& nearest) const;
   double rough_height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   /// \param near  the pairs to look at; those that turn out to be far are taken out
   /// \return false if nothing is missing
   bool step(const Positions& target, const RigidMotion& start, const Positions& after,
-            double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
+            double margin, std::vector<Near>& near, RigidMotion& motion) const;
 
   const Topology* topology_ = nullptr;
   const FacesAround* faces_ = nullptr;
@@ -69,7 +84,8 @@ class Contact {
   double radius_ = 0;  ///< of the part: root mean square about its middle
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< of the part where the pairs were found
   std::vector<std::uint32_t> part_;
-  std::vector<Pair> pairs_;
+  std::vector<Pair> pairs_;  ///< by cluster
+  std::vector<Cluster> clusters_;
 };
 
 }  // namespace crowdface

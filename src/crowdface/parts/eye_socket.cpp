@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "crowdface/parts/small_program.h"
+#include "crowdface/parts/some_of.h"
 #include "crowdface/parts/vector3.h"
 
 namespace crowdface {
@@ -15,6 +17,8 @@ namespace {
 constexpr double kLidReach = 0.3;
 constexpr double kLeastFront = 0.35;  // cosine of the angle to the axis, at the lids' corners
 constexpr std::size_t kDirections = 60;
+/// More vertices than this lie closer together than a tenth of a millimetre matters.
+constexpr std::size_t kMostLids = 6000;
 
 /// What the mean gap of a lid counts beside the mean square of all gaps of the rim, and how far it may be
 /// off: a share of the radius, 0.05 mm.
@@ -26,8 +30,11 @@ constexpr double kSmaller = 0.08, kLarger = 0.03;
 /// Shares of the radius: what is kept free where no head has a lid inside, and what still counts as
 /// free: 0.025 and 0.04 mm.
 constexpr double kMargin = 0.002, kFree = -0.003;
+/// Lids that are this far off in the first step, and in those after it, are not met by what is still to
+/// come: shares of the radius.
+constexpr double kFarFirst = 0.1, kFar = 0.04;
 /// A shift, as a share of the radius, after which another step changes nothing that can be seen.
-constexpr double kDone = 5e-4;
+constexpr double kDone = 1e-3;
 /// Prices, as multiples of the radius, of what cannot be had: that no lid enters where none does comes
 /// first, then the mean gaps, then that none enters farther than in any head.
 constexpr double kNewPrice = 100, kMeanPrice = 10, kDeepPrice = 1;
@@ -50,30 +57,35 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
   const double reach = kLidReach * radius;
   const Eigen::Vector3d side = axes.side();
   struct Innermost {
-    std::uint32_t number = kNoIndex;
+    std::uint32_t vertex = kNoIndex;
     double cosine = kLeastFront;
   };
   std::array<Innermost, kDirections> innermost;
-  Lids lids;
+  std::vector<std::uint32_t> near;
   for (const std::uint32_t v : skin) {
     const Eigen::Vector3d point = positions.row(v).transpose();
     const Eigen::Vector3d from = point - centre;
     const double distance = length3(from);
     if (distance > radius + 2 * reach || dot3(from, axes.front) < -reach) continue;
     if (eyeball.nearest(point, reach).vertex == kNoIndex) continue;
-    const auto number = static_cast<std::uint32_t>(lids.vertices.size());
-    lids.vertices.push_back(v);
+    near.push_back(v);
     const double cosine = dot3(from, axes.front) / distance;
     Innermost& best = innermost[sector(dot3(from, side), dot3(from, axes.up))];
-    if (cosine > best.cosine) best = {number, cosine};
+    if (cosine > best.cosine) best = {v, cosine};
   }
+  Lids lids;
+  std::vector<std::uint32_t> rim;
   for (const Innermost& best : innermost) {
-    if (best.number != kNoIndex) lids.rim.push_back(best.number);
+    if (best.vertex != kNoIndex) rim.push_back(best.vertex);
   }
-  std::sort(lids.rim.begin(), lids.rim.end());
-  for (const std::uint32_t number : lids.rim) {
-    const Eigen::Vector3d point = positions.row(lids.vertices[number]).transpose();
-    lids.upper.push_back(dot3(point - centre, axes.up) > 0);
+  std::sort(rim.begin(), rim.end());
+  const std::vector<std::uint32_t> some = some_of<std::uint32_t>(near, kMostLids);
+  std::set_union(some.begin(), some.end(), rim.begin(), rim.end(),
+                 std::back_inserter(lids.vertices));
+  for (const std::uint32_t v : rim) {
+    const auto at = std::lower_bound(lids.vertices.begin(), lids.vertices.end(), v);
+    lids.rim.push_back(static_cast<std::uint32_t>(at - lids.vertices.begin()));
+    lids.upper.push_back(dot3(positions.row(v).transpose() - centre, axes.up) > 0);
   }
   return lids;
 }
@@ -108,7 +120,7 @@ RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
   }
   RigidMotion fitted = motion;
   for (int k = 0; k < kSteps; ++k) {
-    const RigidMotion next = step(target, motion, fitted, lids);
+    const RigidMotion next = step(target, motion, fitted, k == 0 ? kFarFirst : kFar, lids);
     const double change = length3(next.to - fitted.to);
     fitted = next;
     if (change < kDone * maps_[target].radius()) break;
@@ -117,11 +129,11 @@ RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
 }
 
 RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                            std::vector<Lid>& lids) const {
-  // Lids that are this far off, as a share of the radius, are not met by what is still to come.
-  constexpr double kFar = 0.1;
+                            double far, std::vector<Lid>& lids) const {
   const BallMap& map = maps_[target];
   const double radius = motion.scale * map.radius();
+  // A gap is measured along the surface's normal: it is a little less than the distance beyond.
+  const double outside = motion.scale * map.farthest() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
   const Eigen::Vector3d shifted = centre - start.apply(map.centre());
   const double grown = (motion.scale / start.scale - 1) * radius;
@@ -135,9 +147,11 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   std::size_t kept = 0;
   for (const Lid& lid : lids) {
     const std::uint32_t r = rim_of_[lid.number];
+    const Eigen::Vector3d from = lid.point - centre;
+    if (r == kNoIndex && dot3(from, from) > outside * outside) continue;
     BallMap::Gap gap = map.gap_at(motion.undo(lid.point) - map.centre());
     gap.gap *= motion.scale;
-    if (r == kNoIndex && gap.gap > kFar * radius) continue;
+    if (r == kNoIndex && gap.gap > far * radius) continue;
     lids[kept++] = lid;
     const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
     // A shift by x changes the gap by −x · normal.

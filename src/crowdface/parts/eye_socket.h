@@ -51,8 +51,9 @@ class EyeSocket {
     Eigen::Vector3d point;
     std::uint32_t number;
   };
+  /// \param far  lids farther off than this share of the radius are taken out
   RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                   std::vector<Lid>& lids) const;
+                   double far, std::vector<Lid>& lids) const;
 
   Lids lids_;
   std::vector<BallMap> maps_;              ///< #heads

@@ -53,18 +53,21 @@ std::size_t PointGrid::number_of(const Cell& cell) const {
   return static_cast<std::size_t>((cell[2] * cells_[1] + cell[1]) * cells_[0] + cell[0]);
 }
 
-PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach) const {
-  const Cell middle = cell_of(point);
-  Nearest best;
-  best.distance = reach;
-  // Most points asked for are far from the whole grid.
+bool PointGrid::in_reach(const Eigen::Vector3d& point, double reach) const {
   double outside = 0;
   for (Index c = 0; c < 3; ++c) {
     const double high = low_(c) + static_cast<double>(cells_[static_cast<std::size_t>(c)]) * width_;
     const double gap = std::max({low_(c) - point(c), point(c) - high, 0.0});
     outside += gap * gap;
   }
-  if (std::sqrt(outside) > reach + width_) return best;
+  return std::sqrt(outside) <= reach + width_;
+}
+
+PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach) const {
+  const Cell middle = cell_of(point);
+  Nearest best;
+  best.distance = reach;
+  if (!in_reach(point, reach)) return best;
   const Index farthest = std::max({cells_[0], cells_[1], cells_[2]});
   // Shells of cells around the point's own; a cell of shell s is at least (s − 1) cells away from a
   // point inside the grid, and no nearer to one outside.

@@ -16,6 +16,9 @@ class PointGrid {
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
+  /// False if a point is farther than `reach` from all of them for certain.
+  bool in_reach(const Eigen::Vector3d& point, double reach) const;
+
   struct Nearest {
     std::uint32_t vertex = kNoIndex;  ///< kNoIndex: none within the reach
     double distance = 0;

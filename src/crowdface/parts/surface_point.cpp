@@ -93,10 +93,33 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
   return best;
 }
 
+std::uint32_t descend(const Topology& topology, const FacesAround& faces,
+                      const Positions& positions, std::uint32_t start,
+                      const Eigen::Vector3d& point) {
+  const auto square_to = [&](std::uint32_t vertex) {
+    const Eigen::Vector3d from = row3(positions, vertex) - point;
+    return dot3(from, from);
+  };
+  double least = square_to(start);
+  for (std::uint32_t vertex = start;;) {
+    for (const std::uint32_t f : faces.of(vertex)) {
+      for (const std::uint32_t v : topology.face(f)) {
+        const double square = square_to(v);
+        if (square >= least) continue;
+        least = square;
+        start = v;
+      }
+    }
+    if (start == vertex) return vertex;
+    vertex = start;
+  }
+}
+
 SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point) {
   constexpr int kMostSteps = 64;
+  start = descend(topology, faces, positions, start, point);
   SurfacePoint best;
   best.corners = {start, start, start};
   best.shares = {1, 0, 0};

@@ -37,8 +37,13 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
 
-/// The same for points near a vertex already known, without memory of its own: from `start` on, from
-/// triangle to triangle for as long as that comes nearer.
+/// From `start` on along the mesh for as long as a vertex of a face around comes nearer to the point.
+std::uint32_t descend(const Topology& topology, const FacesAround& faces,
+                      const Positions& positions, std::uint32_t start,
+                      const Eigen::Vector3d& point);
+
+/// The same for points near a vertex already known, without memory of its own: down to the vertex
+/// where `descend` ends, then from triangle to triangle for as long as that comes nearer.
 SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point);
