@@ -10,6 +10,7 @@
 #include "crowdface/parts/contact.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/parts/socket.h"
+#include "crowdface/parts/some_of.h"
 #include "crowdface/parts/ties.h"
 
 namespace crowdface {
@@ -18,6 +19,8 @@ namespace {
 /// How far a rigid part's socket reaches: a share of an eyeball's radius (some 12 mm), and of the
 /// skin's extent (some 43 cm) for all else.
 constexpr double kEyeReach = 1, kReach = 0.03;
+/// Vertices of a part that stand for all of it when its socket is found.
+constexpr std::size_t kMostRough = 4000;
 /// How near to the skin a part may come to pass through it, and how much of a clearance is kept at
 /// least: shares of the skin's extent.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
@@ -114,10 +117,12 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
     bound_part.ones.assign(part.vertices.size(), 1.0);
     const PointGrid grid(mean, part.vertices);
     const ComponentShape& ball = parts.shapes[part.ball];
+    // How far skin is from a part need not be known better than the part's points lie apart.
+    const PointGrid rough_grid(mean, some_of<std::uint32_t>(part.vertices, kMostRough));
     // A part that floats far from the skin follows what is nearest to it.
     double reach = part.eyeball ? kEyeReach * ball.radius : kReach * extent;
     for (int tries = 0; tries < 8 && bound_part.socket.vertices.size() < 12; ++tries, reach *= 2) {
-      bound_part.socket = find_socket(mean, grid, skin, areas, reach);
+      bound_part.socket = find_socket(mean, rough_grid, skin, areas, reach);
     }
     if (part.eyeball) {
       bound_part.eyeball = true;
