@@ -38,7 +38,7 @@ def main():
         x, y = at(heads, 0)
         out.append(f'<text x="{x:.1f}" y="{y + 18}" text-anchor="middle">{heads}</text>')
     series = [(PAPER, '#9a9a9a', 'the paper: 1.2 million vertices, graphics card'),
-              (ours, '#c0392b', f'crowdface: {vertices:,} vertices, this machine\'s processor')]
+              (ours, '#c0392b', f'crowdface: {vertices:,} vertices, processor')]
     for row, (points, colour, title) in enumerate(series):
         line = ' '.join('%.1f,%.1f' % at(n, ms) for n, ms in sorted(points.items()))
         out.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="2"/>')
