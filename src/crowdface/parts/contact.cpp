@@ -20,7 +20,7 @@ constexpr std::size_t kClusterPairs = 16;
 constexpr double kMoreSlack = 1.5;
 /// Shares of the reach (some 4 mm): nearer than this by a rough measure a vertex is measured exactly;
 /// and what counts as free.
-constexpr double kNear = 0.22, kFree = -0.005;
+constexpr double kNear = 0.5, kFree = -0.005;
 /// What is farther off after that is left out of further steps; and how much may be missing at last.
 constexpr double kFar = 0.15, kDone = 0.002;
 /// What a turn and a change of size cost, as against a shift that moves as much.
@@ -169,21 +169,14 @@ Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions&
 
 Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
                                 const Positions& skin) const {
-  std::uint32_t nearest = 0;
-  return height(pairs_[pair].starts, point, skin, nearest);
-}
-
-Contact::Height Contact::height(const Starts& starts, const Eigen::Vector3d& point,
-                                const Positions& skin, std::uint32_t& nearest) const {
-  Starts ends;
+  const Starts& starts = pairs_[pair].starts;
+  Starts ends = {};
   SurfacePoint place;
   for (std::size_t s = 0; s < kStarts && (s == 0 || starts[s] != starts[0]); ++s) {
     ends[s] = descend(*topology_, *faces_, skin, starts[s], point);
     if (std::find(ends.begin(), ends.begin() + s, ends[s]) != ends.begin() + s) continue;
     const SurfacePoint other = nearest_from(*topology_, *faces_, skin, ends[s], point);
-    if (s > 0 && other.distance >= place.distance) continue;
-    place = other;
-    nearest = ends[s];
+    if (s == 0 || other.distance < place.distance) place = other;
   }
   const Eigen::Vector3d normal = normal_near(place, skin);
   const Eigen::Vector3d from = point - place.position;
@@ -200,12 +193,12 @@ RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
     return rough_height(pair, point, after);
   };
-  std::vector<Near> near;
+  std::vector<std::uint32_t> near;
   for (const Cluster& cluster : clusters_) {
     if (rough(pairs_[cluster.middle()]) - cluster.slack >= kNear * reach_) continue;
     for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
       if (rough(pairs_[i]) >= kNear * reach_) continue;
-      near.push_back({static_cast<std::uint32_t>(i), pairs_[i].starts});
+      near.push_back(static_cast<std::uint32_t>(i));
     }
   }
   for (int k = 0; k < kSteps; ++k) {
@@ -215,7 +208,7 @@ RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
 }
 
 bool Contact::step(const Positions& target, const RigidMotion& start, const Positions& after,
-                   double margin, std::vector<Near>& near, RigidMotion& motion) const {
+                   double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const {
   const Eigen::Vector3d middle = motion.apply(middle_);
   const Eigen::Vector3d shifted = middle - start.apply(middle_);
   const double radius = motion.scale * radius_;
@@ -223,14 +216,12 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
   SmallProgram program(kUnknowns);
   bool missing = false;
   std::size_t kept = 0;
-  for (const Near& seen : near) {
-    const Pair& pair = pairs_[seen.pair];
+  for (const std::uint32_t i : near) {
+    const Pair& pair = pairs_[i];
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
-    std::uint32_t nearest = 0;
-    const Height now = height(seen.starts, point, after, nearest);
+    const Height now = height(i, point, after);
     if (now.height > kFar * reach_) continue;
-    // What was nearest is where further steps start from.
-    near[kept++] = {seen.pair, {nearest, nearest, nearest}};
+    near[kept++] = i;
     const Eigen::Vector3d from = point - middle;
     const Eigen::Vector3d arm = cross3(from, now.outward) / radius;
     const bool never = pair.least > kFree * reach_;

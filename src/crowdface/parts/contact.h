@@ -60,22 +60,15 @@ class Contact {
     double slack;
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
-  /// A pair to look at, and where to start looking for the skin nearest to it.
-  struct Near {
-    std::uint32_t pair;
-    Starts starts;
-  };
   void find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                    const std::vector<Head>& heads);
   void find_clusters(const Positions& positions, const std::vector<Head>& heads);
-  Height height(const Starts& starts, const Eigen::Vector3d& point, const Positions& skin,
-                std::uint32_t& nearest) const;
   double rough_height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   /// \param near  the pairs to look at; those that turn out to be far are taken out
   /// \return false if nothing is missing
   bool step(const Positions& target, const RigidMotion& start, const Positions& after,
-            double margin, std::vector<Near>& near, RigidMotion& motion) const;
+            double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
   const Topology* topology_ = nullptr;
   const FacesAround* faces_ = nullptr;

@@ -55,6 +55,7 @@ void keep_pairs(void* user, RTCCollision* collisions, unsigned int count) {
     if (a >= b || share_vertex(query.triangles[a], query.triangles[b])) continue;
     kept.emplace_back(a, b);
   }
+  if (kept.empty()) return;  // most are neighbours
   const std::lock_guard<std::mutex> guard(query.lock);
   query.found.insert(query.found.end(), kept.begin(), kept.end());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <vector>
@@ -26,6 +27,10 @@ class SkinCheck {
   /// \param target  one of those named to the constructor.
   SkinDefects compare(const Positions& positions, Index target) const;
   Index triangle_count() const { return static_cast<Index>(triangles_.size()); }
+
+  std::uint64_t memory_bytes() const;
+  /// What one `compare` takes while it runs, at most: boxes, a tree of them and pairs.
+  std::uint64_t compare_bytes() const;
 
  private:
   struct Target {

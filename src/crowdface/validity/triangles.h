@@ -31,6 +31,7 @@ class TargetTriangles {
   TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target);
   /// \param positions  #V by 3, in the same frame.
   LocalDefects compare(const Positions& positions) const;
+  std::uint64_t memory_bytes() const { return frames_.size() * sizeof(Frame); }
 
  private:
   /// A triangle in an orthonormal frame of its plane: (0, 0), (length, 0), (shift, height).
