@@ -35,6 +35,7 @@ output:
 END
 
 "$bin/crowdface" prepare "$work/crowd.yaml" --quiet
+rm -rf "$work"/{,sheet_}{none,auto} # an earlier program may have made them
 for parts in none auto; do
   for sheet in sheet none; do
     options=(--set "parts=$parts" --force --quiet)
