@@ -12,8 +12,8 @@
 namespace crowdface {
 namespace {
 
-/// More pairs than this change nothing but the time.
-constexpr std::size_t kMostVertices = 6000;
+/// Of a part with more vertices than this some are chosen evenly.
+constexpr std::size_t kMostVertices = 2500;
 /// Pairs of a cluster at most, and how much more than in the heads their distances from the skin may
 /// differ in a face.
 constexpr std::size_t kClusterPairs = 16;

@@ -17,8 +17,8 @@ namespace {
 constexpr double kLidReach = 0.3;
 constexpr double kLeastFront = 0.35;  // cosine of the angle to the axis, at the lids' corners
 constexpr std::size_t kDirections = 60;
-/// More vertices than this lie closer together than a tenth of a millimetre matters.
-constexpr std::size_t kMostLids = 6000;
+/// Of more vertices than this some are chosen evenly.
+constexpr std::size_t kMostLids = 2500;
 
 /// What the mean gap of a lid counts beside the mean square of all gaps of the rim, and how far it may be
 /// off: a share of the radius, 0.05 mm.
