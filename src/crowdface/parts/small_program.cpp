@@ -129,13 +129,13 @@ class Table {
         stretch_(count_) {
     std::vector<double> before(count_, 0.0), after(count_, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-      double* column = &normals_[i * count_];
+      double* column = normals_.data() + i * count_;
       for (std::size_t b = 0; b < count_; ++b) {
         column[b] = bounds[b].a[i];
         before[b] += column[b] * column[b];
       }
       for (std::size_t j = 0; j < i; ++j) {  // L⁻¹ a
-        const double* solved = &normals_[j * count_];
+        const double* solved = normals_.data() + j * count_;
         for (std::size_t b = 0; b < count_; ++b) column[b] -= l[i][j] * solved[b];
       }
       for (std::size_t b = 0; b < count_; ++b) {
@@ -155,7 +155,7 @@ class Table {
   void missing(const Vector& y, std::vector<double>& result) const {
     result = least_;
     for (std::size_t i = 0; i < unknowns_; ++i) {
-      const double* column = &normals_[i * count_];
+      const double* column = normals_.data() + i * count_;
       for (std::size_t b = 0; b < count_; ++b) result[b] -= column[b] * y[i];
     }
     for (std::size_t b = 0; b < count_; ++b) result[b] *= stretch_[b];
