@@ -18,8 +18,7 @@ enum class PartShape {
 };
 
 /// Lets the parts of a head go along with its skin after blending. How they hang on the skin is found
-/// once, on the mean head, and measured once on each head; a face then costs a small share of its
-/// blending.
+/// once, on the mean head, and measured once on each head (docs/parts.md says what a face then costs).
 ///
 /// - A rigid part moves by the best rotation, translation and uniform scale that carries the skin
 ///   around it from the target to the result; an eyeball is then shifted until its gaps to the

@@ -119,7 +119,6 @@ SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point) {
   constexpr int kMostSteps = 64;
-  start = descend(topology, faces, positions, start, point);
   SurfacePoint best;
   best.corners = {start, start, start};
   best.shares = {1, 0, 0};

@@ -37,13 +37,14 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
 
-/// From `start` on along the mesh for as long as a vertex of a face around comes nearer to the point.
+/// From `start` on along the mesh for as long as a vertex of a face around comes nearer to the point: a
+/// cheaper way to where nearest_from may start.
 std::uint32_t descend(const Topology& topology, const FacesAround& faces,
                       const Positions& positions, std::uint32_t start,
                       const Eigen::Vector3d& point);
 
-/// The same for points near a vertex already known, without memory of its own: down to the vertex
-/// where `descend` ends, then from triangle to triangle for as long as that comes nearer.
+/// The same for points near a vertex already known, without memory of its own: from `start` on, from
+/// triangle to triangle for as long as that comes nearer.
 SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point);
