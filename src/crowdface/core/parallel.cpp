@@ -21,54 +21,53 @@
 namespace crowdface {
 namespace {
 
+// Debian's TBB is built without ThreadSanitizer, which therefore has to be told that one thread goes
+// on where another has left.
 #ifdef __SANITIZE_THREAD__
-/// Debian's TBB is built without ThreadSanitizer, which therefore cannot see that the items of a
-/// loop happen after what stands before it and before what follows it. The items themselves stay
-/// unordered, so that a race between two of them is reported.
-class LoopOrder {
- public:
-  LoopOrder() { __tsan_release(&before_); }
-  ~LoopOrder() { __tsan_acquire(&after_); }
-
-  class Item {
-   public:
-    explicit Item(LoopOrder& order) : order_(order) { __tsan_acquire(&order_.before_); }
-    ~Item() { __tsan_release(&order_.after_); }
-
-   private:
-    LoopOrder& order_;
-  };
-
- private:
-  char before_ = 0, after_ = 0;
-};
+void hand_over(char& at) {
+  __tsan_release(&at);
+}
+void take_over(char& at) {
+  __tsan_acquire(&at);
+}
 #else
-struct LoopOrder {
-  struct Item {
-    explicit Item(LoopOrder&) {}
-  };
-};
+void hand_over(char&) {}
+void take_over(char&) {}
 #endif
 
-/// Keeps the first exception of a loop's items until the loop is over; items not begun by then are
-/// left out. An exception that TBB sees would cancel loops inside other items, ours as well as
-/// Embree's, and these would return half done as if all were well.
-class FirstError {
+/// What the items of a loop share: they happen after what stands before the loop and before what
+/// follows it, but stay unordered among themselves, so that a race between two of them is reported.
+/// The first exception of an item is kept until the loop is over; items not begun by then are left
+/// out. An exception that TBB sees would cancel loops inside other items, ours as well as Embree's,
+/// and these would return half done as if all were well.
+class LoopItems {
  public:
+  ~LoopItems() { take_over(after_); }
+
+  /// Once before the loop; of tasks that are added one by one, before each.
+  void begin() { hand_over(before_); }
+
   template <class Body>
-  void guard(const Body& body) {
-    if (failed_) return;
-    try {
-      body();
-    } catch (...) {
-      if (!failed_.exchange(true)) error_ = std::current_exception();
+  void run(const Body& body) {
+    take_over(before_);
+    if (!failed_) {
+      try {
+        body();
+      } catch (...) {
+        if (!failed_.exchange(true)) error_ = std::current_exception();
+      }
     }
+    hand_over(after_);
   }
-  void rethrow() const {
+
+  /// After the loop. \throws the first exception of an item.
+  void end() {
+    take_over(after_);
     if (error_) std::rethrow_exception(error_);
   }
 
  private:
+  char before_ = 0, after_ = 0;
   std::atomic<bool> failed_ = false;
   std::exception_ptr error_;
 };
@@ -98,42 +97,39 @@ void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   if (count <= 0) return;
   const std::ptrdiff_t blocks = (count + block - 1) / block;
   if (blocks == 1) return body(0, count);
-  LoopOrder order;
-  FirstError error;
+  LoopItems items;
+  items.begin();
   // Isolated: a thread that waits for this loop must not begin another heavy item of an outer one.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
-      const LoopOrder::Item item(order);
-      error.guard([&] {
+      items.run([&] {
         throw_if_interrupted();
         body(b * block, std::min(count, (b + 1) * block));
       });
     });
   });
-  error.rethrow();
+  items.end();
 }
 
 void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body) {
-  const tbb::blocked_range<std::ptrdiff_t> items(0, std::max<std::ptrdiff_t>(count, 0), 1);
-  LoopOrder order;
-  FirstError error;
+  const tbb::blocked_range<std::ptrdiff_t> all(0, std::max<std::ptrdiff_t>(count, 0), 1);
+  LoopItems items;
+  items.begin();
   const auto run = [&](const tbb::blocked_range<std::ptrdiff_t>& range) {
-    const LoopOrder::Item item(order);
     for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) {
-      error.guard([&] {
+      items.run([&] {
         throw_if_interrupted();
         body(i);
       });
     }
   };
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(items, run, tbb::simple_partitioner()); });
-  error.rethrow();
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(all, run, tbb::simple_partitioner()); });
+  items.end();
 }
 
 struct BackgroundTasks::Group {
   tbb::task_group tasks;
-  FirstError error;
-  LoopOrder order;
+  LoopItems items;
 };
 
 BackgroundTasks::BackgroundTasks() : group_(std::make_unique<Group>()) {}
@@ -143,16 +139,14 @@ BackgroundTasks::~BackgroundTasks() {
 }
 
 void BackgroundTasks::run(std::function<void()> task) {
-  group_->tasks.run([group = group_.get(), task = std::move(task)] {
-    const LoopOrder::Item item(group->order);
-    group->error.guard(task);
-  });
+  group_->items.begin();
+  group_->tasks.run([group = group_.get(), task = std::move(task)] { group->items.run(task); });
 }
 
 void BackgroundTasks::wait() {
   group_->tasks.wait();
   const std::unique_ptr<Group> done = std::exchange(group_, std::make_unique<Group>());
-  done->error.rethrow();
+  done->items.end();
 }
 
 double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,
