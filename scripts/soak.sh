@@ -21,9 +21,12 @@ table=()
 status=0
 
 run_tests() {
-  local name start result=passed
-  for name in $("$bin/crowdface_reliability_test" --gtest_filter="$filter" --gtest_list_tests |
-    awk '/^[^ ]/ {suite = $1} /^ / {print suite $1}'); do
+  local name names start result=passed
+  "$bin/crowdface_reliability_test" --gtest_filter="$filter" --gtest_list_tests >"$work/tests" ||
+    { echo "crowdface_reliability_test cannot list its tests" >&2; exit 1; }
+  names=$(awk '/^[^ ]/ {suite = $1} /^ / {print suite $1}' "$work/tests")
+  [ -n "$names" ] || { echo "no test matches $filter" >&2; exit 1; }
+  for name in $names; do
     start=$SECONDS result=passed
     CROWDFACE_SOAK=1 "$bin/crowdface_reliability_test" --gtest_filter="$name" >"$work/log" 2>&1 ||
       { result=FAILED status=1; tail -n 40 "$work/log"; }

@@ -51,13 +51,8 @@ class ImageCorpus : public ::testing::Test {
     }
   }
 
-  TemporaryFolder folder_;
-};
-
-// The decoder would take two gigabytes before it looks.
-TEST_F(ImageCorpus, AnExrHeaderThatClaimsTooMuchIsRefusedBeforeItIsDecoded) {
-  const std::string whole = picture("a.exr", OIIO::TypeDesc::FLOAT, 0.5F);
-  const auto refusal = [&](const std::string& bytes) -> std::string {
+  /// \return why it was refused.
+  std::string refusal(const std::string& bytes) const {
     const fs::path file = folder_.write("mask.bin", bytes);
     try {
       read_image(file);
@@ -65,7 +60,48 @@ TEST_F(ImageCorpus, AnExrHeaderThatClaimsTooMuchIsRefusedBeforeItIsDecoded) {
       return error.what();
     }
     return "none";
-  };
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::string big_endian(std::uint32_t number) {
+  std::string bytes;
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) bytes += static_cast<char>(number >> shift);
+  return bytes;
+}
+
+/// The checksum of a PNG's chunks.
+std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = ~0U;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1U ^ ((crc & 1U) != 0 ? 0xedb88320U : 0U);
+  }
+  return ~crc;
+}
+
+std::string png_chunk(const std::string& type, const std::string& content) {
+  return big_endian(static_cast<std::uint32_t>(content.size())) + type + content +
+         big_endian(crc32(type + content));
+}
+
+struct PngHeader {
+  std::uint32_t width, height;
+  char depth, colour_type;
+};
+
+/// A PNG of 100 bytes in which all is sound but that it holds no such picture.
+std::string png_that_claims(const PngHeader& header) {
+  return "\x89PNG\r\n\x1a\n" +
+         png_chunk("IHDR", big_endian(header.width) + big_endian(header.height) + header.depth +
+                               header.colour_type + "\0\0\0"s) +
+         png_chunk("IDAT", std::string(43, '\0')) + png_chunk("IEND", "");
+}
+
+// The decoder would take two gigabytes before it looks.
+TEST_F(ImageCorpus, AnExrHeaderThatClaimsTooMuchIsRefusedBeforeItIsDecoded) {
+  const std::string whole = picture("a.exr", OIIO::TypeDesc::FLOAT, 0.5F);
   for (const std::string& attribute :
        {"channels\0chlist"s, "compression\0compression"s, "displayWindow\0box2i"s}) {
     const std::size_t at = whole.find(attribute) + attribute.size() + 1;
@@ -75,6 +111,15 @@ TEST_F(ImageCorpus, AnExrHeaderThatClaimsTooMuchIsRefusedBeforeItIsDecoded) {
       bytes.replace(at, 4, size, 4);
       EXPECT_THAT(refusal(bytes), ::testing::HasSubstr("header runs beyond the file's end"));
     }
+  }
+  // A value of another size than its type's: the decoder would go on from another place than we do.
+  for (const std::string& attribute :
+       {"channels\0chlist"s, "compression\0compression"s, "displayWindow\0box2i"s}) {
+    std::string bytes = whole;
+    const std::size_t size = whole.find(attribute) + attribute.size() + 1;
+    bytes[size] = static_cast<char>(bytes[size] - 1);
+    bytes.erase(size + 4, 1);
+    EXPECT_THAT(refusal(bytes), ::testing::HasSubstr("are no")) << attribute;
   }
   const std::string window = "dataWindow\0box2i"s;
   for (const int axis : {0, 1}) {
@@ -128,18 +173,43 @@ TEST_F(ImageCorpus, WhatIsNoNumberIsRefused) {
   }
 }
 
-// A header may claim any size; nothing is allocated for it.
+// Every checksum is right, so it is the sizes that are refused.
 TEST_F(ImageCorpus, HugeClaimsAreRefused) {
-  const std::string png = picture("a.png", OIIO::TypeDesc::UINT8, 0.5F);
-  for (const std::uint32_t side : {0x7fffffffU, 0xffffffffU, 0x80000000U, 1000000U, 0U}) {
-    for (const std::size_t at : {16U, 20U}) {
-      std::string mutant = png;
-      for (std::size_t b = 0; b < 4; ++b) {
-        mutant[at + b] = static_cast<char>(side >> (24 - 8 * b));
-      }
-      EXPECT_FALSE(read(mutant)) << side;
-    }
+  for (const std::uint32_t side : {0x7fffffffU, 0xffffffffU, 0x80000000U, 0U}) {
+    EXPECT_THAT(refusal(png_that_claims({side, 1, 8, 2})), ::testing::HasSubstr("read as png"));
+    EXPECT_THAT(refusal(png_that_claims({1, side, 8, 2})), ::testing::HasSubstr("read as png"));
   }
+  for (const std::uint32_t side : {16385U, 1000000U}) {
+    const auto told = ::testing::HasSubstr("expected at most 16384 pixels a side");
+    EXPECT_THAT(refusal(png_that_claims({side, 1, 8, 2})), told);
+    EXPECT_THAT(refusal(png_that_claims({1, side, 8, 2})), told);
+  }
+}
+
+// The limits allow them, and six gigabytes would be taken before the first byte is decoded.
+TEST_F(ImageCorpus, APngTooShortForWhatItClaimsIsRefusedBeforeItIsDecoded) {
+  const std::string png = png_that_claims({16384, 16384, 16, 6});
+  ASSERT_EQ(png.size(), 100U);
+  EXPECT_THAT(refusal(png),
+              ::testing::AllOf(::testing::HasSubstr("mask.bin: is too short for the 16384 x 16384 "
+                                                    "pixels of 64 bits that it claims to hold"),
+                               ::testing::HasSubstr("found 100 (cut short?)")));
+  for (const PngHeader& header : {PngHeader{16384, 16384, 1, 0}, PngHeader{16384, 16384, 8, 2},
+                                  PngHeader{4096, 1024, 8, 4}}) {
+    EXPECT_THAT(refusal(png_that_claims(header)), ::testing::HasSubstr("is too short"));
+  }
+  // 250 bytes of rows may come from 100: the decoder finds that they do not.
+  EXPECT_THAT(refusal(png_that_claims({50, 40, 1, 0})),
+              ::testing::HasSubstr("is damaged or cut short"));
+}
+
+// Nothing compresses better, to a 1,024th.
+TEST_F(ImageCorpus, AUniformPngIsRead) {
+  constexpr int kSide = 2048;
+  const std::vector<std::uint8_t> pixels(std::size_t{4} * kSide * kSide, 0);
+  const std::string bytes = encode_png(kSide, kSide, 4, pixels);
+  EXPECT_GT(pixels.size(), 1000 * bytes.size());
+  EXPECT_EQ(refusal(bytes), "none");
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/material_files.h"
 
+#include <ctime>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,6 +46,92 @@ TEST(MaterialFiles, TakeAllTilesOfATexture) {
   EXPECT_EQ(names(found),
             (std::vector<std::string>{"a.mtl", "tex/skin.1001.png", "tex/skin.1012.png"}));
   EXPECT_TRUE(found.warnings.empty());
+}
+
+TEST(MaterialFiles, HaveNoTilesWithoutTheWord) {
+  const testing::TemporaryFolder folder;
+  folder.write("skin.1001.png", "x");
+  EXPECT_TRUE(find_tiles(folder / "skin.1001.png").empty());
+  EXPECT_EQ(find_tiles(folder / "skin.<UDIM>.png").size(), 1U);
+}
+
+// Each statement listed the folder, however often it stood there and whatever it named.
+TEST(MaterialFiles, LookForEachNameOnce) {
+  const testing::TemporaryFolder folder;
+  for (int i = 0; i < 300; ++i) folder.write("file" + std::to_string(i), "");
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += "map_Kd skin.<UDIM>.png\nmap_Ks none.png\n";
+  folder.write("a.mtl", text);
+  folder.write("skin.1001.png", "x");
+  const std::clock_t start = std::clock();
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl", "a.mtl"});
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.0);
+  EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl", "skin.1001.png"}));
+  ASSERT_EQ(found.warnings.size(), 1U);
+  EXPECT_THAT(found.warnings[0], HasSubstr("none.png"));
+}
+
+TEST(MaterialFiles, TakeSoManyTexturesAndNoMore) {
+  const testing::TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 1200; ++i) {
+    const std::string number = std::to_string(i);
+    text += "newmtl m" + number + "\nmap_Kd t" + number + ".png\n";
+  }
+  folder.write("a.mtl", text + "newmtl again\nmap_Kd t7.png\n");
+  folder.write("t999.png", "x");
+  folder.write("t1000.png", "x");
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl", "t999.png"}));
+  ASSERT_EQ(found.warnings.size(), 1000U) << "999 are missing, and one warning for the others";
+  for (const std::string part : {"a.mtl", "1000 textures", "t1000.png", "--limit textures"}) {
+    EXPECT_THAT(found.warnings.back(), HasSubstr(part));
+  }
+  const ColourTextures colours = find_colour_textures(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(colours.of_material.size(), 1001U);
+  EXPECT_TRUE(colours.of_material.contains("again"));
+}
+
+TEST(MaterialFiles, TakeSoManyLibrariesAndNoMore) {
+  const testing::TemporaryFolder folder;
+  const std::vector<std::string> line(3, "a.mtl b.mtl");
+  EXPECT_EQ(find_material_files(folder / "head.obj", line).warnings.size(), 2U) << "each once";
+  std::string all;
+  for (int i = 0; i < 1200; ++i) all += "m" + std::to_string(i) + ".mtl ";
+  const MaterialFiles found = find_material_files(folder / "head.obj", {all});
+  EXPECT_EQ(found.warnings.size(), 1001U);
+  EXPECT_THAT(found.warnings.back(), HasSubstr("head.obj: names more than 1000 material files"));
+}
+
+TEST(MaterialFiles, NeverTakeTheNameOfAMesh) {
+  const testing::TemporaryFolder folder;
+  const std::vector<std::string> refused = {
+      "mob_0001.obj", "mob_0001.PLY", "mob_0001.glb",         "mob_0001.npy",       "tex/a.obj",
+      "b.ply/c.png",  "topology",     "topology/corners.png", "x/../topology/d.png"};
+  std::string text;
+  for (const std::string& name : refused) {
+    if (name != "topology") folder.write(name, "x");
+    text += "map_Kd " + name + "\n";
+  }
+  folder.write("x/topology/skin.obj.png", "x");
+  folder.write("a.mtl", text + "map_Kd x/topology/skin.obj.png\n");
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl", "mob_0001.obj"});
+  EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl", "x/topology/skin.obj.png"}));
+  ASSERT_EQ(found.warnings.size(), refused.size() + 1);
+  for (const std::string& warning : found.warnings) {
+    EXPECT_THAT(warning, HasSubstr("belongs to crowdface's own files and is not copied"));
+  }
+}
+
+// The system reads a name up to its NUL: the mesh of that name was written over.
+TEST(MaterialFiles, NeverTakeANameWithANul) {
+  const testing::TemporaryFolder folder;
+  folder.write("mob_0001.obj", "x");
+  folder.write("a.mtl", std::string("map_Kd mob_0001.obj\0.png\n", 27));
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl"}));
+  EXPECT_EQ(found.warnings.size(), 1U);
+  EXPECT_TRUE(find_colour_textures(folder / "head.obj", {"a.mtl"}).of_material.empty());
 }
 
 TEST(ColourTextures, AreThoseOfMapKd) {

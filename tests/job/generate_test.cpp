@@ -98,7 +98,7 @@ TEST(Generate, MemoryChangesNothingButTheSpeedAndTooLittleIsRefused) {
       generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false, memory});
     };
     testing::expect_error(ExitCode::kUsage, {"needs", "--memory"}, [&] { run(20'000); });
-    EXPECT_FALSE(std::filesystem::exists(folder.out() / "meshes"));
+    EXPECT_FALSE(std::filesystem::exists(folder.out()));
     run(0);
     const auto first = testing::crowd_files(folder.out());
     std::uint64_t tight = 20'000;  // the least that will do: one face at a time

@@ -5,6 +5,7 @@
 // runs this program with CROWDFACE_UPDATE_GOLDEN=1.
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +81,13 @@ struct Golden {
 class GoldenCrowd : public ::testing::TestWithParam<Golden> {
  protected:
   GoldenCrowd() : folder_(GetParam().crowd()) {}
+
+  // Which sets are compared depends on the processor: scripts/bits.sh shows this line.
+  static void SetUpTestSuite() {
+    const std::string sets = join(instruction_sets(), " ");
+    RecordProperty("instruction_sets", sets);
+    std::cout << "instruction sets: " << sets << std::endl;
+  }
 
   std::string run(int threads, const std::string& instruction_set, const Shard& shard = {}) {
     const ThreadLimit limit(threads);

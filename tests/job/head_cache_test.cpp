@@ -125,6 +125,35 @@ TEST(HeadCache, FolderThatCannotBeWrittenOnlyWarns) {
   EXPECT_THAT(differing_files(crowd_files(folder.out()), first), ::testing::IsEmpty());
 }
 
+TEST(HeadCache, ItsHistoryChangesNoMesh) {
+  SmallCrowd crowd;
+  crowd.levels = "basis";
+  const SmallCrowdFolder folder(crowd);
+  run(folder, folder.cache());
+  ConfigOverrides other_order;
+  other_order.set = {
+      "faces={files: [heads/dan.obj, heads/bob.obj, heads/ann.obj, heads/cyd.obj], units: cm, "
+      "align: none}"};
+  const auto made = [&](const fs::path& cache) {
+    generate(folder.config(), other_order, {cache, Replace::kForce, false});
+    return crowd_files(folder.out());
+  };
+  const auto warm = made(folder.cache());
+  EXPECT_EQ(from_cache(folder), 0) << "another head comes first, and a basis depends on it";
+  fs::remove_all(folder.out());
+  EXPECT_THAT(differing_files(warm, made(folder / "cold")), ::testing::IsEmpty());
+}
+
+TEST(HeadCache, LeftoversOfAKilledRunAreRemoved) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const fs::path leftover = folder.folder().write("cache/.crowdface-9999999-0.tmp", "half a head");
+  run(folder, folder.cache());
+  EXPECT_FALSE(fs::exists(leftover));
+  folder.folder().write("cache/.crowdface-9999999-0.tmp", "half a head");
+  EXPECT_EQ(clear_cache(folder.cache()), 5U);
+  EXPECT_FALSE(fs::exists(leftover));
+}
+
 TEST(HeadCache, ClearRemovesEntriesAndNothingElse) {
   const SmallCrowdFolder folder(SmallCrowd{});
   run(folder, folder.cache());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/head_textures.h"
 
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,6 +94,57 @@ TEST(HeadTextures, ADamagedOneIsRefusedByName) {
   folder.write("left.png", "no picture");
   const Read head = read(folder, "newmtl skin left\nmap_Kd left.png\n");
   expect_error(ExitCode::kBadData, {"left.png"}, [&] { load_textures(head.faces, head.files, 8); });
+}
+
+/// Two heads, each with its own material file.
+Digest digest_of(const TemporaryFolder& folder, const std::string& first,
+                 const std::string& second) {
+  Read both = read(folder, first);
+  std::string text = kHead;
+  folder.write("other.mtl", second);
+  both.files.push_back(
+      read_obj(folder.write("other.obj", text.replace(text.find("head.mtl"), 8, "other.mtl"))));
+  return load_textures(both.faces, both.files, 8).digest;
+}
+
+// It held the files' names and contents in the order in which they were met, and nothing else.
+TEST(HeadTextures, DigestKnowsWhichFaceOfWhichHeadWearsWhich) {
+  const TemporaryFolder folder;
+  write_png(folder, "red.png", 1, {200, 0, 0});
+  write_png(folder, "blue.png", 1, {0, 0, 200});
+  const std::string red_blue = "newmtl skin left\nmap_Kd red.png\nnewmtl right\nmap_Kd blue.png\n";
+  const std::string blue_red = "newmtl skin left\nmap_Kd blue.png\nnewmtl right\nmap_Kd red.png\n";
+  const std::string red = "newmtl skin left\nmap_Kd red.png\nnewmtl right\n";
+  const std::string right_red = "newmtl skin left\nnewmtl right\nmap_Kd red.png\n";
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {red_blue, red_blue}, {red_blue, blue_red}, {blue_red, red_blue}, {red_blue, red},
+      {red_blue, ""},       {red, red},           {red, right_red},     {red, ""}};
+  std::set<std::string> digests;
+  for (const auto& [first, second] : all) {
+    digests.insert(digest_of(folder, first, second).hex());
+    EXPECT_EQ(digest_of(folder, first, second), digest_of(folder, first, second));
+  }
+  EXPECT_EQ(digests.size(), all.size());
+}
+
+TEST(HeadTextures, ANameTooLongForTheSystemIsThatOfNoFile) {
+  const TemporaryFolder folder;
+  write_png(folder, "left.png", 1, {9, 9, 9});
+  const Read head = read(folder, "newmtl skin left\nmap_Kd left.png\nnewmtl right\nmap_Kd " +
+                                     std::string(300, 'x') + ".png\n");
+  const HeadTextures textures = load_textures(head.faces, head.files, 8);
+  EXPECT_EQ(textures.coats[0].of_face, (std::vector<std::uint32_t>{0, TextureCoat::kNone}));
+  EXPECT_FALSE(textures.warnings.empty());
+}
+
+TEST(HeadTextures, WarningsOfASharedMaterialFileAreToldOnce) {
+  const TemporaryFolder folder;
+  write_png(folder, "left.png", 1, {9, 9, 9});
+  Read heads = read(folder, "newmtl skin left\nmap_Kd left.png\nmap_Ks gone.png\n");
+  heads.files.push_back(read_obj(folder.write("second.obj", kHead)));
+  const HeadTextures textures = load_textures(heads.faces, heads.files, 8);
+  EXPECT_EQ(textures.coats[0].of_face, textures.coats[1].of_face);
+  EXPECT_EQ(textures.warnings.size(), 1U);
 }
 
 TEST(HeadTextures, PicturesOfACrowdBearThem) {

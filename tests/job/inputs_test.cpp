@@ -208,6 +208,9 @@ TEST(Inputs, SettingsHashTellsWhatMeshesDependOn) {
         "smoothing.levels=basis", "regions=none", "regions.names=[region_2, region_1, region_3]"}) {
     EXPECT_NE(settings({other}), plain) << other;
   }
+  const std::vector<std::string> basis = {"smoothing.levels=basis"};
+  EXPECT_NE(settings({"smoothing.levels=basis", "faces.units=mm"}), settings(basis))
+      << "the tolerance is a length";
   edit(folder, "bob", [](Lines& lines) { lines[first_line(lines, "v ")] = "v -7 -8 1.5"; });
   EXPECT_NE(settings({}), plain);
 }

@@ -138,5 +138,32 @@ TEST_F(LedgerOfAFolder, SettledHoldsWhatThisRunUsedInOneOrder) {
   EXPECT_THAT(items, ::testing::ElementsAre("a", "b", "c"));
 }
 
+TEST_F(LedgerOfAFolder, NoLineOutdoesAnotherOfTheSameItem) {
+  const Digest newer = hash_bytes("newer");
+  const fs::path shard = folder_ / "ledger-1of2.jsonl";
+  folder_.write("a", "old bytes");
+  open().record("a", key_, {"a"});
+  folder_.write("a", "new bytes");
+  Ledger(folder_.path(), shard, {path()}).record("a", newer, {"a"});
+  {
+    Ledger ledger(folder_.path(), path(), {shard, path()});
+    EXPECT_FALSE(ledger.proven("a", key_)) << "its bytes are gone";
+    EXPECT_TRUE(ledger.proven("a", newer)) << "the shard's";
+    EXPECT_TRUE(ledger.proven("a", newer)) << "again";
+  }
+  folder_.write("a", "old bytes");
+  EXPECT_TRUE(Ledger(folder_.path(), shard, {path()}).proven("a", key_)) << "the whole run's";
+}
+
+TEST(LedgerLine, DeepValuesAreLeftOut) {
+  LedgerEntry entry = some_entry();
+  entry.note.clear();
+  std::string body = format_ledger_line(entry);
+  body.resize(body.find(",\"sum\":"));
+  constexpr std::size_t kDepth = 1'000'000;
+  body += concat(",\"note\":", std::string(kDepth, '['), std::string(kDepth, ']'));
+  EXPECT_TRUE(parse_ledger_line(concat(body, ",\"sum\":\"", hash_bytes(body).hex(), "\"}")));
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -5,6 +5,7 @@
 #include "crowdface/core/hash.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/job/crowd_sheets.h"
 #include "crowdface/job/generate.h"
 
@@ -143,6 +144,17 @@ TEST(MeshFormats, PointsHaveTheirTopologyOnceBeside) {
   EXPECT_TRUE(fs::exists(arrays / "uvs.npy"));
   EXPECT_TRUE(fs::exists(arrays / "corner_uvs.npy"));
   EXPECT_FALSE(fs::exists(folder.out() / "meshes/mob_0001.obj"));
+}
+
+// A head could name a face's own file as its texture, which was then copied over the face.
+TEST(MeshFormats, HaveNamesThatNoTextureMayHave) {
+  const testing::TemporaryFolder folder;
+  for (const MeshFormat format : all_mesh_formats()) {
+    const std::string name = concat("face_0001", extension_of(format));
+    folder.write(name, "x");
+    folder.write("a.mtl", concat("map_Kd ", name, "\n"));
+    EXPECT_EQ(find_material_files(folder / "head.obj", {"a.mtl"}).files.size(), 1U) << name;
+  }
 }
 
 TEST(MeshFormats, HaveTheSameBytesForAnyNumberOfThreads) {

@@ -79,6 +79,8 @@ TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
     std::string line = good;
     return line.replace(line.find(from), from.size(), to);
   };
+  constexpr std::size_t kDepth = 1'000'000;
+  const std::string deep = std::string(kDepth, '[') + std::string(kDepth, ']');
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "line"},
       {"nonsense", "line"},
@@ -98,9 +100,11 @@ TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
       {with("\"id\":\"mob_0007\",", ""), "id"},
       {with("\"settings\"", "\"setting\""), "settings"},
       {with("\"attempt\":0", "\"attempt\":4294967296"), "attempt"},
+      {with("\"attempt\":0", concat("\"attempt\":", deep)), "attempt"},
+      {with("\"regions\":{", concat("\"regions\":", deep, ",\"other\":{")), "regions"},
   };
   for (const auto& [line, field] : cases) {
-    SCOPED_TRACE(line);
+    SCOPED_TRACE(line.substr(0, 1000));
     testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", field},
                           [&, &text = line] { parse_recipe(text, kNames, "plan.jsonl:12"); });
   }

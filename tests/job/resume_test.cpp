@@ -133,6 +133,37 @@ TEST_F(Resume, ShardsAndGatherGiveWhatOneRunGives) {
   testing::expect_error(ExitCode::kUsage, {"--force"}, [&] { run({1, 2}, Replace::kForce); });
 }
 
+TEST_F(Resume, ShardsGoOnWithWhatAWholeRunHasDone) {
+  fs::remove(folder_.out() / "meshes/mob_0002.obj");
+  for (const auto& [name, bytes] : whole_) {
+    if (name != "meshes/mob_0002.obj") {
+      fs::last_write_time(folder_.out() / name, fs::file_time_type());
+    }
+  }
+  run({1, 2});
+  run({2, 2});
+  for (const auto& [name, bytes] : whole_) {
+    if (!name.starts_with("meshes/mob_") || name.find("mob_0002") != name.npos) continue;
+    EXPECT_EQ(fs::last_write_time(folder_.out() / name), fs::file_time_type()) << name;
+  }
+  gather(folder_.out(), folder_.cache());
+  expect_whole("a whole run, then shards");
+}
+
+TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {
+  std::string head = testing::read_text(folder_.head("bob"));
+  folder_.folder().write("heads/bob.obj", "# edited\n" + head);
+  run({1, 2});
+  run({2, 2});
+  EXPECT_THAT(verify_crowd(folder_.out()).altered, IsEmpty());
+  gather(folder_.out(), folder_.cache());
+  const auto gathered = crowd_files(folder_.out());
+  EXPECT_FALSE(differing_files(whole_, gathered).empty());
+  fs::remove_all(folder_.out());
+  run();
+  EXPECT_THAT(differing_files(gathered, crowd_files(folder_.out())), IsEmpty());
+}
+
 TEST_F(Resume, GatherNamesAnAlteredFaceAndAnyRunMendsIt) {
   fs::remove_all(folder_.out());
   run({1, 2});

@@ -182,6 +182,38 @@ TEST(Sheets, CompareShowsADistanceMapBesideEachFace) {
   });
 }
 
+TEST(Sheets, WhatTheyCompareWithIsCheckedBeforeTheWork) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, rows: 2, cell: 48, compare: other.obj}";
+  const SmallCrowdFolder folder(crowd);
+  const auto refused = [&](ExitCode code, const std::string& phrase) {
+    testing::expect_error(code, {phrase}, [&] { run(folder); });
+    EXPECT_FALSE(fs::exists(folder.out()));
+  };
+  folder.folder().write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  refused(ExitCode::kBadData, "found 3");
+  fs::remove(folder / "other.obj");
+  fs::create_directory(folder / "other.obj");
+  refused(ExitCode::kMissingInput, "mob_0001");
+}
+
+TEST(Sheets, FollowTheDistanceMask) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, rows: 2, cell: 48}";
+  crowd.more = "distance: {mask: seen.png}\nbelievability: none\n";
+  const SmallCrowdFolder folder(crowd);
+  const auto made = [&](std::uint32_t seed) {
+    testing::write_mask(folder / "seen.png", testing::mask_picture(13, 9, seed), false);
+    run(folder);
+    return testing::crowd_files(folder.out());
+  };
+  const auto first = made(1);
+  const auto second = made(2);
+  EXPECT_NE(first.at("likeness.json"), second.at("likeness.json"));
+  fs::remove_all(folder.out());
+  EXPECT_THAT(testing::differing_files(second, made(2)), ::testing::IsEmpty());
+}
+
 TEST(Sheets, ReplacingACrowdRemovesItsPictures) {
   SmallCrowd crowd;
   crowd.contact_sheet = "{columns: 1, rows: 1, cell: 48, formats: [png, exr, pdf]}";

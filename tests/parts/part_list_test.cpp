@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/parts/part_list.h"
 
+#include <ctime>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -103,6 +105,28 @@ TEST(Parts, HaveClosednessOfAnyResolution) {
     EXPECT_EQ(list.shapes[0].openness, 0);
     EXPECT_NEAR(list.shapes[1].openness, 10.0 * 10 / (4 * 3.14159265 * 4), 0.4) << n;
   }
+}
+
+// Each component was compared with each other one.
+TEST(Parts, OfVeryManyComponentsAreFoundInNoTime) {
+  constexpr int kSide = 28;  // 21,952 components
+  testing::Shapes shapes;
+  shapes.ball({0, 0, 0}, 10, 32);
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const Eigen::Vector3d cell(i % kSide, i / kSide % kSide, i / kSide / kSide);
+    if (i % 2 == 0) {
+      shapes.tetrahedron({20 + cell.x(), cell.y(), cell.z()}, 0.01);  // by itself
+    } else {
+      shapes.tetrahedron({-20 + 1e-4 * cell.x(), 1e-4 * cell.y(), 1e-4 * cell.z()}, 0.01);
+    }
+  }
+  const Mesh mesh = shapes.mesh();
+  const std::clock_t start = std::clock();
+  const PartList list = parts_of(mesh);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 3.0);
+  ASSERT_EQ(list.parts.size(), 1U + kSide * kSide * kSide / 2);
+  EXPECT_THAT(list.parts[0].components, ElementsAre(1));
+  EXPECT_EQ(list.parts[1].components.size(), kSide * kSide * kSide / 2U);
 }
 
 TEST(JoinSkin, MakesOneOfAllSkin) {

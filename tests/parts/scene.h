@@ -73,6 +73,16 @@ class Shapes {
     return *this;
   }
 
+  /// A closed tetrahedron, a corner and the three beside it along the axes.
+  Shapes& tetrahedron(const Eigen::Vector3d& corner, double size) {
+    const auto first = static_cast<std::uint32_t>(points_.size());
+    points_.push_back(corner);
+    for (Index c = 0; c < 3; ++c) points_.push_back(corner + size * Eigen::Vector3d::Unit(c));
+    constexpr std::uint32_t sides[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    for (const auto& s : sides) face({first + s[0], first + s[1], first + s[2]});
+    return *this;
+  }
+
   Shapes& vertex(const Eigen::Vector3d& point) {
     points_.push_back(point);
     return *this;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test 15 of docs/reliability.md: what surrounds a run does not show in its files.
-#include <clocale>
+#include <cstdio>
 #include <cstdlib>
 #include <locale>
+#include <stdexcept>
 
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/job/head_cache.h"
 
 #include "reliability/crowd_under_test.h"
 
@@ -43,11 +45,6 @@ const std::vector<Surroundings>& all_surroundings() {
       {"TZ nonsense", [] { set_zone("nonsense/zone"); }},
       {"strange numbers",
        [] { std::locale::global(std::locale(std::locale::classic(), new StrangeNumbers)); }},
-      {"LC_ALL de_DE",
-       [] {
-         ::setenv("LC_ALL", "de_DE.UTF-8", 1);  // NOLINT(concurrency-mt-unsafe)
-         std::setlocale(LC_ALL, "");            // NOLINT(concurrency-mt-unsafe)
-       }},
       {"umask 077", [] { ::umask(077); }},
       {"umask 0", [] { ::umask(0); }},
       {"working directory /", [] { fs::current_path("/"); }},
@@ -56,19 +53,45 @@ const std::vector<Surroundings>& all_surroundings() {
          const TemporaryFolder gone;
          fs::current_path(gone.path());
        }},
-      {"no HOME, no TMPDIR",
-       [] {
-         ::unsetenv("HOME");    // NOLINT(concurrency-mt-unsafe)
-         ::unsetenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe)
-       }},
+      {"no environment", [] { ::clearenv(); }},  // NOLINT(concurrency-mt-unsafe)
   };
   return all;
+}
+
+/// Writes "comma/LC_NUMERIC" below the folder: numbers as Germans write them. Needs localedef, which
+/// every Debian has, and no other locale; it complains about all else that a locale defines.
+void make_comma_locale(const TemporaryFolder& folder) {
+  const fs::path source = folder.write("comma.txt",
+                                       "LC_NUMERIC\ndecimal_point \",\"\nthousands_sep \".\"\n"
+                                       "grouping 3;3\nEND LC_NUMERIC\n");
+  const fs::path characters = folder.write("characters.txt",
+                                           "<code_set_name> ASCII\n<escape_char> /\nCHARMAP\n"
+                                           "<U002C> /x2c COMMA\n<U002E> /x2e FULL STOP\n"
+                                           "END CHARMAP\n");
+  const std::string command =
+      concat("localedef -c -i '", source.string(), "' -f '", characters.string(), "' '",
+             (folder / "comma").string(), "' >/dev/null 2>&1");
+  // NOLINTNEXTLINE(concurrency-mt-unsafe)
+  [[maybe_unused]] const int complains = std::system(command.c_str());
+}
+
+/// For C's functions and for streams. \throws unless it really is in force.
+void enter_comma_locale(const fs::path& locales) {
+  // NOLINTBEGIN(concurrency-mt-unsafe): before any thread
+  ::unsetenv("LC_ALL");
+  ::setenv("LC_NUMERIC", "comma", 1);
+  ::setenv("LOCPATH", locales.c_str(), 1);
+  // NOLINTEND(concurrency-mt-unsafe)
+  std::locale::global(std::locale(std::locale::classic(), "comma", std::locale::numeric));
+  char text[8];
+  std::snprintf(text, sizeof text, "%.1f", 1.5);
+  if (std::string_view(text) != "1,5") throw std::runtime_error(concat("1.5 is written ", text));
 }
 
 class AnySurroundings : public DisturbedCrowd {};
 
 TEST_F(AnySurroundings, GiveTheSameFiles) {
-  EXPECT_GE(all_surroundings().size(), 12U);
+  EXPECT_GE(all_surroundings().size(), 11U);
   for (const Surroundings& surroundings : all_surroundings()) {
     fs::remove_all(folder_.out());
     fs::remove_all(folder_.cache());
@@ -78,6 +101,47 @@ TEST_F(AnySurroundings, GiveTheSameFiles) {
     });
     EXPECT_EQ(outcome.code, 0) << surroundings.name << ": " << outcome.message;
     EXPECT_THAT(differences(), ::testing::IsEmpty()) << surroundings.name;
+  }
+}
+
+TEST_F(AnySurroundings, ALocaleWithCommasGivesTheSameFiles) {
+  const TemporaryFolder locales;
+  make_comma_locale(locales);
+  if (!fs::exists(locales / "comma/LC_NUMERIC")) {
+    ASSERT_EQ(std::getenv("CI"), nullptr) << "localedef made no locale";
+    GTEST_SKIP() << "localedef made no locale";
+  }
+  fs::remove_all(folder_.cache());
+  const ChildOutcome outcome = run_with_fault(folder_.out(), {}, [&] {
+    enter_comma_locale(locales.path());
+    generate_here();
+  });
+  EXPECT_EQ(outcome.code, 0) << outcome.message;
+  EXPECT_THAT(differences(), ::testing::IsEmpty());
+}
+
+struct CachePlace {
+  const char* variable;
+  const char* below;  ///< where the cache is in the folder that the variable names
+};
+
+TEST_F(AnySurroundings, WithoutHomeTheCacheIsWhereItIsPromised) {
+  constexpr CachePlace kPlaces[] = {
+      {"XDG_CACHE_HOME", "crowdface"}, {"HOME", ".cache/crowdface"}, {"TMPDIR", "crowdface-cache"}};
+  for (const auto& [variable, below] : kPlaces) {
+    const TemporaryFolder place;
+    fs::remove_all(folder_.out());
+    const ChildOutcome outcome = run_with_fault(folder_.out(), {}, [&] {
+      // NOLINTBEGIN(concurrency-mt-unsafe): before any thread
+      ::clearenv();
+      ::setenv(variable, place.path().c_str(), 1);
+      // NOLINTEND(concurrency-mt-unsafe)
+      const ThreadLimit limit(2);
+      generate(folder_.config(), {}, {cache_directory(), Replace::kRefuse, false});
+    });
+    EXPECT_EQ(outcome.code, 0) << variable << ": " << outcome.message;
+    EXPECT_THAT(differences(), ::testing::IsEmpty()) << variable;
+    EXPECT_TRUE(fs::is_directory(place / below) && !fs::is_empty(place / below)) << variable;
   }
 }
 

@@ -121,15 +121,25 @@ TEST_F(Refusals, MaterialFilesNeverLeadOutOfTheFolder) {
 
 TEST_F(Refusals, LinksNeverLeadOutOfTheFolder) {
   fs::create_directories(folder_ / "elsewhere");
-  for (const char* name : {"meshes", "renders", "sheets", "gallery"}) {
+  for (const char* name : {"meshes", "meshes/topology", "renders", "renders/heads",
+                           "renders/founders", "sheets", "gallery", "gallery/data/faces"}) {
     fs::remove_all(folder_.out());
-    fs::create_directories(folder_.out());
+    fs::create_directories((folder_.out() / name).parent_path());
     fs::create_directory_symlink(folder_ / "elsewhere", folder_.out() / name);
     const ChildOutcome outcome = run({});
     EXPECT_EQ(outcome.code, 73) << name;
     EXPECT_NE(outcome.message.find("link"), std::string::npos) << outcome.message;
   }
   EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
+  // What grows is not written through one either.
+  for (const char* name : {"ledger.jsonl", "crowdface.log"}) {
+    fs::remove_all(folder_.out());
+    fs::create_directories(folder_.out());
+    const fs::path mine = folder_.folder().write("elsewhere/mine", "");
+    fs::create_symlink(mine, folder_.out() / name);
+    EXPECT_EQ(run({}).code, 73) << name;
+    EXPECT_EQ(read_text(mine), "") << name;
+  }
   // A file that is a link is replaced, not written through.
   fs::remove_all(folder_.out());
   folder_.folder().write("elsewhere/mine.obj", "mine");

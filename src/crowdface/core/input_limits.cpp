@@ -11,11 +11,10 @@ struct Named {
   std::string_view name;
   std::uint64_t InputLimits::*limit;
 };
-constexpr Named kNamed[] = {{"vertices", &InputLimits::vertices},
-                            {"faces", &InputLimits::faces},
-                            {"image_pixels", &InputLimits::image_pixels},
-                            {"yaml_bytes", &InputLimits::yaml_bytes},
-                            {"yaml_depth", &InputLimits::yaml_depth}};
+constexpr Named kNamed[] = {
+    {"vertices", &InputLimits::vertices},         {"faces", &InputLimits::faces},
+    {"image_pixels", &InputLimits::image_pixels}, {"textures", &InputLimits::textures},
+    {"yaml_bytes", &InputLimits::yaml_bytes},     {"yaml_depth", &InputLimits::yaml_depth}};
 
 InputLimits& in_force() {
   static InputLimits limits;

@@ -1,39 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/parallel.h"
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-#ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
-#endif
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <utility>
 #include <vector>
 
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include "crowdface/core/hand_over.h"
 #include "crowdface/core/interrupt.h"
 
 namespace crowdface {
 namespace {
-
-// Debian's TBB is built without ThreadSanitizer, which therefore has to be told that one thread goes
-// on where another has left.
-#ifdef __SANITIZE_THREAD__
-void hand_over(char& at) {
-  __tsan_release(&at);
-}
-void take_over(char& at) {
-  __tsan_acquire(&at);
-}
-#else
-void hand_over(char&) {}
-void take_over(char&) {}
-#endif
 
 /// What the items of a loop share: they happen after what stands before the loop and before what
 /// follows it, but stay unordered among themselves, so that a race between two of them is reported.
@@ -42,14 +26,14 @@ void take_over(char&) {}
 /// and these would return half done as if all were well.
 class LoopItems {
  public:
-  ~LoopItems() { take_over(after_); }
+  ~LoopItems() { after_.take(); }
 
   /// Once before the loop; of tasks that are added one by one, before each.
-  void begin() { hand_over(before_); }
+  void begin() { before_.give(); }
 
   template <class Body>
   void run(const Body& body) {
-    take_over(before_);
+    before_.take();
     if (!failed_) {
       try {
         body();
@@ -57,17 +41,17 @@ class LoopItems {
         if (!failed_.exchange(true)) error_ = std::current_exception();
       }
     }
-    hand_over(after_);
+    after_.give();
   }
 
   /// After the loop. \throws the first exception of an item.
   void end() {
-    take_over(after_);
+    after_.take();
     if (error_) std::rethrow_exception(error_);
   }
 
  private:
-  char before_ = 0, after_ = 0;
+  HandOver before_, after_;
   std::atomic<bool> failed_ = false;
   std::exception_ptr error_;
 };

@@ -24,6 +24,21 @@ using std::filesystem::path;
   throw InvalidInput(concat(file.string(), ": ", what));
 }
 
+/// \return the format's name in OpenImageIO; files that no decoder should see are refused.
+std::string checked_format(const path& file, std::string_view bytes, const ImageLimits& limits) {
+  std::string format = image_format(bytes);
+  if (limits.jpeg && bytes.starts_with("\xFF\xD8\xFF")) format = "jpeg";
+  if (format.empty()) {
+    refuse(file, concat("expected a PNG, TIFF or OpenEXR image, found ",
+                        bytes.empty() ? "an empty file"
+                                      : "a file that begins with " + quoted(bytes.substr(0, 8))));
+  }
+  if (const std::string defect = container_defect(format, bytes, limits); !defect.empty()) {
+    refuse(file, defect);
+  }
+  return format;
+}
+
 std::unique_ptr<OIIO::ImageInput> open(const path& file, const std::string& format,
                                        OIIO::ImageSpec& spec) {
   auto input = OIIO::ImageInput::create(format);
@@ -56,6 +71,27 @@ void check_size(const path& file, const OIIO::ImageSpec& spec, const ImageLimits
   if (std::int64_t{spec.width} * spec.height * spec.nchannels > limits.max_values) {
     refuse(file, concat("expected at most ", limits.max_values, " values in all, found ", size));
   }
+}
+
+/// Of a PNG that libpng has opened, whose header is sound; before its palette is resolved.
+std::uint64_t png_bits_per_pixel(std::string_view bytes) {
+  constexpr std::uint64_t kSamples[8] = {1, 0, 3, 1, 2, 0, 4, 0};  // of each colour type
+  const auto depth = static_cast<unsigned char>(bytes[24]);
+  return depth * kSamples[static_cast<unsigned char>(bytes[25]) & 7U];
+}
+
+/// Memory is taken for all pixels before the first is decoded, so a header may not claim more than
+/// the file can hold. Only for PNG: TIFF and OpenEXR have compressions without such a bound, and of
+/// a cut JPEG the rest is made up.
+void check_png_claim(const path& file, std::string_view bytes, const OIIO::ImageSpec& spec) {
+  constexpr std::uint64_t kMostOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
+  const std::uint64_t bits = png_bits_per_pixel(bytes);
+  const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
+  const std::uint64_t claimed = row * static_cast<std::uint64_t>(spec.height);
+  if (claimed <= kMostOfOneByte * bytes.size() + row) return;
+  refuse(file, concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
+                      " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
+                      " bytes, found ", bytes.size(), " (cut short?)"));
 }
 
 void check_kind(const path& file, const OIIO::ImageSpec& spec) {
@@ -119,26 +155,13 @@ void check_finite(const path& file, const Image& image) {
 }  // namespace
 
 Image read_image(const path& file, const ImageLimits& limits) {
-  std::string format;
-  {
-    const MappedFile mapped(file);
-    format = image_format(mapped.bytes());
-    if (limits.jpeg && mapped.bytes().starts_with("\xFF\xD8\xFF")) format = "jpeg";
-    if (format.empty()) {
-      refuse(file, concat("expected a PNG, TIFF or OpenEXR image, found ",
-                          mapped.bytes().empty()
-                              ? "an empty file"
-                              : "a file that begins with " + quoted(mapped.bytes().substr(0, 8))));
-    }
-    if (const std::string defect = container_defect(format, mapped.bytes(), limits);
-        !defect.empty()) {
-      refuse(file, defect);
-    }
-  }
+  const MappedFile mapped(file);
+  const std::string format = checked_format(file, mapped.bytes(), limits);
   OIIO::ImageSpec spec;
   const auto input = open(file, format, spec);
   check_kind(file, spec);
   check_size(file, spec, limits);
+  if (format == "png") check_png_claim(file, mapped.bytes(), spec);
   Image image{spec.width,         spec.height, spec.nchannels,
               spec.alpha_channel, {},          spec.format.is_floating_point()};
   image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *

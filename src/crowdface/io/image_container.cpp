@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
@@ -73,6 +74,62 @@ class ExrHeader {
   std::size_t at_;
 };
 
+/// Bytes of the types whose size is fixed.
+constexpr std::pair<std::string_view, std::size_t> kFixedTypes[] = {
+    {"box2f", 16},      {"box2i", 16},    {"chromaticities", 32},
+    {"compression", 1}, {"double", 8},    {"envmap", 1},
+    {"float", 4},       {"int", 4},       {"m33d", 72},
+    {"m33f", 36},       {"m44d", 128},    {"m44f", 64},
+    {"v2d", 16},        {"v2f", 8},       {"v2i", 8},
+    {"v3d", 24},        {"v3f", 12},      {"v3i", 12},
+    {"keycode", 28},    {"lineOrder", 1}, {"timecode", 8},
+    {"rational", 8},    {"tiledesc", 9},  {"deepImageState", 1}};
+
+/// Channels one after the other, each a name ended by a zero and 16 bytes; an empty name ends them.
+bool is_channel_list(std::string_view value) {
+  constexpr std::size_t kOfChannel = 16;
+  while (!value.empty() && value.front() != '\0') {
+    const std::size_t end = value.find('\0');
+    if (end == value.npos || value.size() - end - 1 < kOfChannel) return false;
+    value.remove_prefix(end + 1 + kOfChannel);
+  }
+  return value.size() == 1;
+}
+
+/// Width and height, and four bytes a pixel.
+bool is_preview(std::string_view value) {
+  if (value.size() < 8) return false;
+  const std::uint64_t width = number_at<std::uint32_t>(value.data());
+  const std::uint64_t height = number_at<std::uint32_t>(value.data() + 4);
+  const std::size_t pixels = (value.size() - 8) / 4;
+  return value.size() % 4 == 0 && (height == 0 ? pixels == 0 : width <= pixels) &&
+         width * height == pixels;
+}
+
+/// Texts one after the other, each after its length.
+bool is_list_of_texts(std::string_view value) {
+  while (value.size() >= 4) {
+    const auto length = number_at<std::uint32_t>(value.data());
+    value.remove_prefix(4);
+    if (length > value.size()) return false;
+    value.remove_prefix(length);
+  }
+  return value.empty();
+}
+
+/// Whether a value has the size that its attribute says. The decoder goes by one or the other, as
+/// its type has it, and would read what follows from another place than we do.
+bool has_its_size(const Attribute& attribute) {
+  for (const auto& [type, size] : kFixedTypes) {
+    if (attribute.type == type) return attribute.value.size() == size;
+  }
+  if (attribute.type == "chlist") return is_channel_list(attribute.value);
+  if (attribute.type == "preview") return is_preview(attribute.value);
+  if (attribute.type == "stringvector") return is_list_of_texts(attribute.value);
+  if (attribute.type == "floatvector") return attribute.value.size() % 4 == 0;
+  return true;
+}
+
 /// The decoder makes a table of all lines of the window, and lines of its width.
 std::string window_defect(const Attribute& attribute, const ImageLimits& limits) {
   if (attribute.type != "box2i" || attribute.value.size() != 16) return {};
@@ -96,6 +153,10 @@ std::string exr_defect(std::string_view bytes, const ImageLimits& limits) {
     while (!header.at_end()) {
       const auto attribute = header.next();
       if (!attribute) return "is damaged or cut short: its header runs beyond the file's end";
+      if (!has_its_size(*attribute)) {
+        return concat("is damaged: the ", attribute->value.size(), " bytes of its attribute ",
+                      quoted(attribute->name), " are no ", quoted(attribute->type));
+      }
       if (attribute->name != "dataWindow") continue;
       if (std::string defect = window_defect(*attribute, limits); !defect.empty()) return defect;
     }

@@ -2,10 +2,15 @@
 #include "crowdface/io/material_files.h"
 
 #include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/input_limits.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/tile_files.h"
 
@@ -28,8 +33,9 @@ std::vector<std::string> words_of(std::string_view line) {
   return words;
 }
 
-/// Stays below the folder it starts from.
+/// Stays below the folder it starts from. (The system would cut a name short at a NUL.)
 bool stays_inside(const fs::path& relative) {
+  if (relative.native().find('\0') != std::string::npos) return false;
   const fs::path normal = relative.lexically_normal();
   return !normal.empty() && normal.is_relative() && *normal.begin() != "..";
 }
@@ -51,18 +57,16 @@ void for_each_statement(std::string_view text, const Body& body) {
   }
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
 std::string with_forward_slashes(std::string path) {
   std::replace(path.begin(), path.end(), '\\', '/');
   return path;
-}
-
-/// The last word of each texture statement: options come before the name.
-std::vector<std::string> textures_of(const std::string& text) {
-  std::vector<std::string> textures;
-  for_each_statement(text, [&](const std::vector<std::string>& words, std::string_view) {
-    if (is_texture_statement(words[0])) textures.push_back(with_forward_slashes(words.back()));
-  });
-  return textures;
 }
 
 /// All that stands behind a line's first word.
@@ -73,95 +77,143 @@ std::string rest_of(std::string_view line, const std::string& first_word) {
   return std::string(rest.substr(from, rest.find_last_not_of(" \t\r") + 1 - from));
 }
 
+/// Whether a file of this name beside meshes could be one that crowdface writes there: a mesh, or an
+/// array of their common topology.
+bool is_name_of_ours(const fs::path& relative) {
+  constexpr std::array<std::string_view, 4> kMeshes = {".obj", ".ply", ".glb", ".npy"};
+  const fs::path normal = relative.lexically_normal();
+  const bool is_mesh = std::any_of(normal.begin(), normal.end(), [&](const fs::path& part) {
+    return std::count(kMeshes.begin(), kMeshes.end(), lower_case(part.extension())) > 0;
+  });
+  return is_mesh || lower_case(*normal.begin()) == "topology";
+}
+
+/// Why a file of this name is not copied; empty if it is.
+std::string_view objection_to(const fs::path& relative) {
+  if (!stays_inside(relative)) return "lies outside the head's folder";
+  if (is_name_of_ours(relative)) return "has a name that belongs to crowdface's own files";
+  return {};
+}
+
+/// Reads material files and notes what they name.
 class Collector {
  public:
-  explicit Collector(fs::path folder) : folder_(std::move(folder)) {}
+  explicit Collector(const fs::path& mesh) : mesh_(mesh), folder_(mesh.parent_path()) {}
 
   void add_library(const std::string& argument) {
+    throw_if_interrupted();
     // A name may hold blanks, or the line may name several files: whichever exists.
     if (exists(argument)) return take_library(argument);
     for (const std::string& name : words_of(argument)) take_library(name);
   }
 
-  MaterialFiles take() { return std::move(result_); }
+  MaterialFiles take_files() { return std::move(files_); }
+  std::map<std::string, fs::path> take_colours() { return std::move(colours_); }
 
  private:
+  /// Names of one kind, those beyond a limit left out.
+  struct Names {
+    std::set<fs::path> known;
+    bool full = false;
+  };
+  enum class Seen { kNew, kBefore, kTooMany };
+
+  /// \param where  the file that names it
+  Seen see(const fs::path& relative, std::string_view what, const fs::path& where, Names& names) {
+    if (names.known.contains(relative)) return Seen::kBefore;
+    if (names.known.size() < input_limits().textures) {
+      names.known.insert(relative);
+      return Seen::kNew;
+    }
+    if (!names.full) {
+      files_.warnings.push_back(concat(where.string(), ": names more than ",
+                                       input_limits().textures, ' ', what, "s, from ",
+                                       quoted(relative.string()),
+                                       " on; these are neither copied nor shown "
+                                       "(--limit textures=NUMBER allows more)"));
+    }
+    names.full = true;
+    return Seen::kTooMany;
+  }
+
   bool exists(const fs::path& relative) const {
     std::error_code ignored;
     return fs::is_regular_file(folder_ / relative, ignored);
   }
 
   bool take_file(const fs::path& relative, std::string_view what) {
-    if (!stays_inside(relative)) {
-      result_.warnings.push_back(concat(what, " ", quoted(relative.string()),
-                                        " lies outside the head's folder and is not copied"));
+    if (const std::string_view objection = objection_to(relative); !objection.empty()) {
+      files_.warnings.push_back(
+          concat(what, " ", quoted(relative.string()), " ", objection, " and is not copied"));
       return false;
     }
     if (!exists(relative)) {
-      result_.warnings.push_back(concat(what, " ", quoted(relative.string()),
-                                        " is missing; meshes will name it all the same"));
+      files_.warnings.push_back(concat(what, " ", quoted(relative.string()),
+                                       " is missing; meshes will name it all the same"));
       return false;
     }
     const fs::path normal = relative.lexically_normal();
-    for (const MaterialFile& known : result_.files) {
-      if (known.relative == normal) return false;
-    }
-    result_.files.push_back({folder_ / normal, normal});
+    if (!destinations_.insert(normal).second) return false;
+    files_.files.push_back({folder_ / normal, normal});
     return true;
   }
 
   void take_library(const fs::path& name) {
+    if (see(name, "material file", mesh_, libraries_) != Seen::kNew) return;
     if (!take_file(name, "material file")) return;
-    result_.files.back().is_library = true;
+    files_.files.back().is_library = true;
+    const fs::path file = folder_ / name;
     std::error_code error;
-    if (fs::file_size(folder_ / name, error) > kLargestMaterialFile || error) return;
-    for (const std::string& texture : textures_of(read_file(folder_ / name))) {
-      const fs::path relative = name.parent_path() / texture;
-      if (!stays_inside(relative)) {
-        take_file(relative, "texture");  // which says so
-        continue;
-      }
-      const std::vector<fs::path> tiles = find_tiles(folder_ / relative);
-      for (const fs::path& tile : tiles) {
-        take_file(relative.parent_path() / tile.filename(), "texture");
-      }
-      if (tiles.empty()) take_file(relative, "texture");
-    }
+    if (fs::file_size(file, error) > kLargestMaterialFile || error) return;
+    std::string material;
+    for_each_statement(
+        read_file(file), [&](const std::vector<std::string>& words, std::string_view line) {
+          throw_if_interrupted();
+          if (words[0] == "newmtl") material = rest_of(line, "newmtl");
+          if (!is_texture_statement(words[0])) return;
+          // Options come before the name.
+          const fs::path relative = name.parent_path() / with_forward_slashes(words.back());
+          const Seen seen = see(relative, "texture", file, textures_);
+          if (seen == Seen::kTooMany) return;
+          if (words[0] == "map_Kd" && stays_inside(relative)) {
+            colours_.emplace(material, (folder_ / relative).lexically_normal());
+          }
+          if (seen == Seen::kNew) take_texture(relative);
+        });
   }
 
-  fs::path folder_;
-  MaterialFiles result_;
+  void take_texture(const fs::path& relative) {
+    std::vector<fs::path> tiles;
+    if (stays_inside(relative)) tiles = find_tiles(folder_ / relative);
+    for (const fs::path& tile : tiles) {
+      take_file(relative.parent_path() / tile.filename(), "texture");
+    }
+    if (tiles.empty()) take_file(relative, "texture");
+  }
+
+  fs::path mesh_, folder_;
+  Names libraries_, textures_;
+  std::set<fs::path> destinations_;
+  MaterialFiles files_;
+  std::map<std::string, fs::path> colours_;
 };
+
+Collector collect(const fs::path& mesh, const std::vector<std::string>& libraries) {
+  Collector collector(mesh);
+  for (const std::string& library : libraries) collector.add_library(library);
+  return collector;
+}
 
 }  // namespace
 
 MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::string>& libraries) {
-  Collector collector(mesh.parent_path());
-  for (const std::string& library : libraries) collector.add_library(library);
-  return collector.take();
+  return collect(mesh, libraries).take_files();
 }
 
 ColourTextures find_colour_textures(const fs::path& mesh,
                                     const std::vector<std::string>& libraries) {
-  ColourTextures result;
-  MaterialFiles files = find_material_files(mesh, libraries);
-  result.warnings = std::move(files.warnings);
-  for (const MaterialFile& file : files.files) {
-    std::error_code error;
-    if (!file.is_library) continue;
-    if (fs::file_size(file.from, error) > kLargestMaterialFile || error) continue;
-    std::string material;
-    for_each_statement(read_file(file.from), [&](const std::vector<std::string>& words,
-                                                 std::string_view line) {
-      if (words[0] == "newmtl") material = rest_of(line, "newmtl");
-      if (words[0] != "map_Kd") return;
-      const fs::path relative = file.relative.parent_path() / with_forward_slashes(words.back());
-      if (stays_inside(relative)) {
-        result.of_material.emplace(material, (mesh.parent_path() / relative).lexically_normal());
-      }
-    });
-  }
-  return result;
+  Collector collector = collect(mesh, libraries);
+  return {collector.take_colours(), collector.take_files().warnings};
 }
 
 }  // namespace crowdface

@@ -17,12 +17,13 @@ struct MaterialFile {
 
 struct MaterialFiles {
   std::vector<MaterialFile> files;    ///< each destination once
-  std::vector<std::string> warnings;  ///< about files that are missing or lie outside the folder
+  std::vector<std::string> warnings;  ///< about names that have no file here or may have none there
 };
 
 /// The material files that a mesh names and the textures that those name, with <UDIM> in their names
 /// all tiles that are there. A file that is missing is a warning, not an error; so is a path that
-/// leads out of the mesh's folder, which is not followed.
+/// leads out of the mesh's folder, which is not followed, a name that a mesh may have (one that ends
+/// in .obj, .ply, .glb or .npy, or lies in `topology`), and more names than input_limits().textures.
 /// \param mesh       path of the OBJ file.
 /// \param libraries  the arguments of its `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,

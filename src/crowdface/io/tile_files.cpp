@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -23,12 +24,14 @@ std::vector<fs::path> find_tiles(const fs::path& path) {
   constexpr std::size_t kDigits = 4;
   const fs::path name = path.filename();
   const std::size_t at = name.string().find(kTileWord);
+  if (at == std::string::npos) return {};
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<fs::path> tiles;
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    throw_if_interrupted();
     const std::string found = it->path().filename().string();
-    if (at == std::string::npos || found.size() < at + kDigits) continue;
+    if (found.size() < at + kDigits) continue;
     const std::string number = found.substr(at, kDigits);
     const bool digits =
         std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });

@@ -13,7 +13,8 @@ constexpr std::string_view kTileWord = "<UDIM>";
 /// The path with a tile's number in place of each kTileWord.
 std::filesystem::path with_tile(const std::filesystem::path& path, int tile);
 
-/// The tiles that are there, sorted by name, of a path whose last part holds kTileWord.
+/// The tiles that are there, sorted by name, of a path whose last part holds kTileWord; none of
+/// another path.
 std::vector<std::filesystem::path> find_tiles(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <system_error>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/shallow_json.h"
 
 namespace crowdface {
 namespace {
@@ -137,18 +137,24 @@ std::vector<fs::path> of_all_shards(const fs::path& path) {
   return found;
 }
 
-/// Files of a crowd never land outside its folder, not by a link either.
-/// \throws CannotCreate if one of its folders is such a link.
-void refuse_folders_elsewhere(const CrowdDirectory& directory) {
-  std::error_code error;
-  const fs::path root = fs::weakly_canonical(directory.root, error);
-  if (error) return;  // not there, and cannot be made: told elsewhere
-  for (const fs::path& folder : {directory.meshes(), directory.topology(), directory.renders(),
-                                 directory.sheets(), directory.gallery()}) {
-    const fs::path real = fs::weakly_canonical(folder, error);
-    if (!error && !real.lexically_relative(root).native().starts_with("..")) continue;
-    throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
-                              ", where nothing is written"));
+/// Nothing that a run writes, appends to or removes is reached by a link that leads elsewhere.
+/// \throws CannotCreate if it would be.
+void refuse_links(const CrowdDirectory& directory) {
+  const fs::path heads = directory.head_render("").parent_path();
+  const fs::path founders = directory.founder_render("").parent_path();
+  const fs::path data = directory.gallery() / "data";
+  for (const fs::path& folder :
+       {directory.meshes(), directory.topology(), directory.renders(), heads, founders,
+        directory.sheets(), directory.gallery(), data, data / "faces", data / "heads"}) {
+    refuse_folder_elsewhere(directory, folder);
+  }
+  std::vector<fs::path> files = {directory.log(), directory.ledger()};
+  for (const fs::path& path : directory.shard_ledgers()) files.push_back(path);
+  for (const fs::path& path : directory.shard_logs()) files.push_back(path);
+  for (const fs::path& file : files) {
+    std::error_code ignored;
+    if (!fs::is_symlink(file, ignored)) continue;
+    throw CannotCreate(concat(file.string(), ": is a link; expected a file of this crowd"));
   }
 }
 
@@ -169,12 +175,27 @@ std::vector<fs::path> CrowdDirectory::shard_ledgers() const {
 std::vector<fs::path> CrowdDirectory::shard_logs() const {
   return of_all_shards(log());
 }
+std::vector<fs::path> CrowdDirectory::ledgers() const {
+  std::vector<fs::path> all = shard_ledgers();
+  all.push_back(ledger());
+  return all;
+}
+
+void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& folder) {
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(directory.root, error);
+  if (error) return;  // not there, and cannot be made: told elsewhere
+  const fs::path real = fs::weakly_canonical(folder, error);
+  if (!error && !real.lexically_relative(root).native().starts_with("..")) return;
+  throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
+                            ", where nothing is written"));
+}
 
 std::vector<std::string> ids_in_plan(const std::string& plan) {
   std::vector<std::string> ids;
   for (std::size_t begin = 0; begin < plan.size();) {
     const std::size_t end = std::min(plan.find('\n', begin), plan.size());
-    const auto line = nlohmann::json::parse(plan.substr(begin, end - begin), nullptr, false);
+    const auto line = parse_shallow_json(std::string_view(plan).substr(begin, end - begin));
     if (line.is_object() && line.contains("id") && line["id"].is_string()) {
       const auto id = line["id"].get<std::string>();
       if (id.find('/') == id.npos) ids.push_back(id);
@@ -223,7 +244,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
   while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
     existing = existing.parent_path();
   }
-  refuse_folders_elsewhere(directory);
+  refuse_links(directory);
   if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
     throw CannotCreate(
         concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));

@@ -32,6 +32,8 @@ struct CrowdDirectory {
   /// The ledgers and logs of all shards that have written some, by name.
   std::vector<std::filesystem::path> shard_ledgers() const;
   std::vector<std::filesystem::path> shard_logs() const;
+  /// Those of all shards, then the crowd's own; they need not be there.
+  std::vector<std::filesystem::path> ledgers() const;
   std::filesystem::path meshes() const { return root / "meshes"; }
   std::filesystem::path renders() const { return root / "renders"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
@@ -56,6 +58,10 @@ struct CrowdDirectory {
   /// Sheet number `page`, from 1.
   std::filesystem::path sheet(std::size_t page) const;
 };
+
+/// Files of a crowd never land outside its folder, not by a link either.
+/// \throws CannotCreate if `folder`, in the crowd's folder, is such a link.
+void refuse_folder_elsewhere(const CrowdDirectory& directory, const std::filesystem::path& folder);
 
 /// The ids a plan names; lines that cannot be read, or whose id is no file's name, name none.
 std::vector<std::string> ids_in_plan(const std::string& plan);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kItem = "sheets";  // in the ledger
-constexpr int kSheetVersion = 3;  // raised whenever a change of the code alters what is made here
+constexpr int kSheetVersion = 4;  // raised whenever a change of the code alters what is made here
 
 std::vector<std::string> sheet_files(const CrowdDirectory& directory) {
   std::vector<std::string> names;
@@ -40,6 +40,24 @@ std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& d
   return founders;
 }
 
+/// The hash of all that sheets and gallery show.
+Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+                     const std::vector<FaceFiles>& files) {
+  Hasher hasher;
+  hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
+  hasher.add(effective_config(job.config, directory.root)).add(gallery_page_digest(job.config));
+  // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
+  hasher.add(format_plan(job, cast.crowd)).add(format_founders(job, cast.founders));
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
+    ids.push_back(cast.crowd[i].id);
+    hasher.add(files[i].picture->digest);
+    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
+  }
+  hasher.add(format_likeness(crowd_likeness(cast), job.names, ids));
+  return hasher.digest();
+}
+
 }  // namespace
 
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
@@ -47,14 +65,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
                         LazyPictures& pictures, Ledger& ledger) {
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
   const std::vector<Recipe>& crowd = cast.crowd;
-  Hasher hasher;
-  hasher.add(kSheetVersion).add(job.settings);
-  hasher.add(effective_config(job.config, directory.root)).add(gallery_page_digest(job.config));
-  for (std::size_t i = 0; i < crowd.size(); ++i) {
-    hasher.add(crowd[i].id).add(files[i].picture->digest);
-    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
-  }
-  const Digest key = hasher.digest();
+  const Digest key = key_of_sheets(job, directory, cast, files);
   // What faces are compared with may have changed since.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
   if (!may_change && ledger.proven(kItem, key)) return sheet_pages(sheet, crowd.size());
@@ -93,7 +104,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
     pictures.write_founders(founders, FaceBuilder(job, prepared));
   }
   const std::size_t pages = pictures.finish(crowd, likeness);
-  Ledger ledger(directory.root, directory.ledger(), directory.shard_ledgers());
+  Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   ledger.adopt(kItem, sheet_files(directory), {"renders", "gallery"});
   log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
 }

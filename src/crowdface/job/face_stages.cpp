@@ -58,8 +58,9 @@ std::uint64_t standing_bytes(const Job& job, const Prepared& prepared, const Mes
 
 /// How many faces are blended together within the memory.
 std::size_t faces_at_once(const Job& job, const Prepared& prepared, const FaceBuilder& builder,
-                          const MeshWriters& writers, bool rendered, const SkinCheck* check,
+                          const MeshWriters& writers, const SkinCheck* check,
                           std::uint64_t memory) {
+  const bool rendered = job.config.output.contact_sheet.has_value();
   const auto vertices = static_cast<std::uint64_t>(job.inputs.faces.topology.vertex_count);
   const auto threads = static_cast<std::uint64_t>(thread_count());
   const std::uint64_t work =
@@ -141,39 +142,41 @@ struct Slot {
 
 }  // namespace
 
-BuiltFaces build_faces(const Job& job, const Prepared& prepared, const CrowdDirectory& directory,
-                       const CrowdRenders* renders, const SkinCheck* check,
-                       const FaceLedger& ledger, const std::vector<Recipe>& crowd,
-                       std::uint64_t memory) {
-  const std::vector<MeshFormat>& formats = job.config.output.meshes;
-  const MeshWriters writers(job.config, job.inputs, formats, crowd);
-  const FaceBuilder builder(job, prepared);
+FaceStages::FaceStages(const Job& job, const Prepared& prepared, const std::vector<Recipe>& crowd,
+                       std::uint64_t memory)
+    : writes_meshes_(!job.config.output.meshes.empty()),
+      writers_(job.config, job.inputs, job.config.output.meshes, crowd),
+      builder_(job, prepared),
+      check_(skin_check(job, crowd)),
+      at_once_(faces_at_once(job, prepared, builder_, writers_, check_.get(), memory)) {}
+
+BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders* renders,
+                             const FaceLedger& ledger, const std::vector<Recipe>& faces) const {
   BuiltFaces built;
-  built.files.resize(crowd.size());
-  built.at_once = faces_at_once(job, prepared, builder, writers, renders != nullptr, check, memory);
-  if (!formats.empty()) make_directories(directory.meshes());
+  built.files.resize(faces.size());
+  if (writes_meshes_) make_directories(directory.meshes());
   if (renders != nullptr) renders->make_folders(directory);
 
-  FaceOutput output(writers, directory, renders, check, ledger);
+  FaceOutput output(writers_, directory, renders, check_.get(), ledger);
   std::atomic<double> blend_seconds = 0;
-  Progress progress("faces", crowd.size());
+  Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;
   std::size_t turn = 0;
-  for (std::size_t first = 0; first < crowd.size(); first += built.at_once, turn ^= 1) {
+  for (std::size_t first = 0; first < faces.size(); first += at_once_, turn ^= 1) {
     Slot& slot = slots[turn];
     slot.tasks.wait();
     throw_if_interrupted();
-    const std::size_t count = std::min(built.at_once, crowd.size() - first);
+    const std::size_t count = std::min(at_once_, faces.size() - first);
     std::vector<const Recipe*> recipes;
-    for (std::size_t f = 0; f < count; ++f) recipes.push_back(&crowd[first + f]);
+    for (std::size_t f = 0; f < count; ++f) recipes.push_back(&faces[first + f]);
     slot.positions.resize(count);
     {
       const Busy busy(blend_seconds);
-      builder.build(recipes, slot.positions);
+      builder_.build(recipes, slot.positions);
     }
     for (std::size_t f = 0; f < count; ++f) {
       slot.tasks.run([&, f, first, positions = &slot.positions[f]] {
-        built.files[first + f] = output.write(crowd[first + f], *positions);
+        built.files[first + f] = output.write(faces[first + f], *positions);
         progress.step();
       });
     }

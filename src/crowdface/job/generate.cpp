@@ -6,7 +6,7 @@
 #include <exception>
 #include <functional>
 #include <map>
-#include <memory>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -31,6 +31,7 @@
 #include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/report.h"
 #include "crowdface/job/resume.h"
+#include "crowdface/job/sheets.h"
 
 namespace crowdface {
 namespace {
@@ -114,6 +115,7 @@ CastJob cast_job(const Job& job, const CrowdDirectory& directory, const Generate
   });
   Cast crowd = timed(stages, "cast", [&] { return cast(job, prepared); });
   tell_casting(crowd);
+  check_comparison(job, crowd.crowd);
   return {std::move(prepared), std::move(crowd)};
 }
 
@@ -136,21 +138,29 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
   std::set<Index> targets;
   for (const Recipe& recipe : crowd) targets.insert(recipe.target);
   std::map<std::string, std::vector<std::string>> heads_of_warning;
-  std::map<fs::path, Digest> copied;
+  // Heads of one folder mostly share these files: each is read once.
+  std::map<std::pair<fs::path, std::vector<std::string>>, MaterialFiles> known;
+  std::map<fs::path, Digest> read, copied;
   for (const Index target : targets) {
     const ObjFile& file = job.inputs.files[static_cast<std::size_t>(target)];
     const std::string& head = job.names.heads[static_cast<std::size_t>(target)];
-    MaterialFiles found = find_material_files(file.path, file.material_libraries);
-    for (const std::string& warning : found.warnings) heads_of_warning[warning].push_back(head);
-    for (const MaterialFile& material : found.files) {
-      const MappedFile bytes(material.from);
-      const Digest digest = hash_bytes(bytes.bytes());
-      const auto [known, is_new] = copied.emplace(material.relative, digest);
+    const auto [found, is_unknown] =
+        known.try_emplace({file.path.parent_path(), file.material_libraries});
+    if (is_unknown) found->second = find_material_files(file.path, file.material_libraries);
+    for (const std::string& warning : found->second.warnings) {
+      heads_of_warning[warning].push_back(head);
+    }
+    for (const MaterialFile& material : found->second.files) {
+      throw_if_interrupted();
+      const auto [digest, is_unread] = read.try_emplace(material.from);
+      if (is_unread) digest->second = hash_file(material.from).digest;
+      const auto [first, is_new] = copied.emplace(material.relative, digest->second);
       if (is_new) {
         const fs::path to = directory.meshes() / material.relative;
+        refuse_folder_elsewhere(directory, to.parent_path());
         make_directories(to.parent_path());
-        ledger.write(name_in(directory, to), bytes.bytes());
-      } else if (known->second != digest) {
+        ledger.write(name_in(directory, to), MappedFile(material.from).bytes());
+      } else if (first->second != digest->second) {
         heads_of_warning[concat(material.relative.string(),
                                 " is not the same file for all heads; the first head's is kept")]
             .push_back(head);
@@ -184,20 +194,37 @@ enum class Purpose {
   kGather,    ///< refuse if a face is missing
 };
 
+/// What makes a crowd's faces, from when it is first needed.
+class LazyStages {
+ public:
+  LazyStages(const Job& job, const CastJob& crowd, const GenerateOptions& options)
+      : job_(job),
+        crowd_(crowd),
+        memory_(options.memory > 0 ? options.memory : machine_memory() / 4 * 3) {}
+
+  /// \throws UsageError if they do not fit the memory.
+  const FaceStages& get() {
+    if (!stages_) stages_.emplace(job_, crowd_.prepared, crowd_.cast.crowd, memory_);
+    return *stages_;
+  }
+
+ private:
+  const Job& job_;
+  const CastJob& crowd_;
+  std::uint64_t memory_;
+  std::optional<FaceStages> stages_;
+};
+
 /// Builds the faces that are not done; their files take their places in `so_far`.
 /// \return how long threads were busy.
-StageBusy build_missing(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
-                        const FaceLedger& ledger, const GenerateOptions& options,
-                        LazyPictures& pictures, FacesSoFar& so_far) {
-  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
+StageBusy build_missing(const CrowdDirectory& directory, const std::vector<Recipe>& crowd,
+                        const FaceLedger& ledger, LazyStages& face_stages, LazyPictures& pictures,
+                        FacesSoFar& so_far) {
   if (so_far.todo.empty()) return {};
   std::vector<Recipe> recipes;
   for (const std::size_t i : so_far.todo) recipes.push_back(crowd[i]);
   const CrowdRenders* renders = pictures.wanted() ? &pictures.get().renders() : nullptr;
-  const std::unique_ptr<SkinCheck> check = skin_check(job, recipes);
-  const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
-  BuiltFaces built =
-      build_faces(job, cast_job.prepared, directory, renders, check.get(), ledger, recipes, memory);
+  BuiltFaces built = face_stages.get().build(directory, renders, ledger, recipes);
   for (std::size_t f = 0; f < recipes.size(); ++f) {
     so_far.files[so_far.todo[f]] = std::move(built.files[f]);
   }
@@ -206,10 +233,11 @@ StageBusy build_missing(const Job& job, const CrowdDirectory& directory, const C
 
 /// Everything after the crowd is cast and the folder is ready.
 void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJob& cast_job,
-                    const GenerateOptions& options, Purpose purpose, StageSeconds& stages) {
+                    const GenerateOptions& options, Purpose purpose, LazyStages& face_stages,
+                    StageSeconds& stages) {
   const Prepared& prepared = cast_job.prepared;
   const std::vector<Recipe>& crowd = cast_job.cast.crowd;
-  Ledger ledger(directory.root, directory.ledger(options.shard), directory.shard_ledgers());
+  Ledger ledger(directory.root, directory.ledger(options.shard), directory.ledgers());
   const auto write = [&](const fs::path& path, std::string_view bytes) {
     ledger.write(name_in(directory, path), bytes);
   };
@@ -234,7 +262,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   write_shared_arrays(job, directory, ledger);
   LazyPictures pictures(job, directory);
   const StageBusy busy = timed(stages, "build", [&] {
-    return build_missing(job, directory, cast_job, face_ledger, options, pictures, so_far);
+    return build_missing(directory, crowd, face_ledger, face_stages, pictures, so_far);
   });
   if (!options.shard.whole()) {
     log_info(concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
@@ -267,12 +295,19 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
   const CrowdDirectory directory{job.config.output.directory};
   const CastJob crowd = cast_job(job, directory, options, stages);
+  LazyStages face_stages(job, crowd, options);
+  // A crowd that goes on may have no face to make; a new one is refused before anything is written.
+  std::error_code ignored;
+  const bool is_new =
+      purpose == Purpose::kGenerate &&
+      (options.replace == Replace::kForce || !fs::exists(directory.ledger(options.shard), ignored));
+  if (is_new && !crowd.cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
   const CrowdLog log(directory.log(options.shard));
   memory.replay();
   try {
-    fill_directory(job, directory, crowd, options, purpose, stages);
+    fill_directory(job, directory, crowd, options, purpose, face_stages, stages);
   } catch (const std::exception& error) {
     log_debug(error.what());  // `main` says it aloud, when this log is closed
     throw;

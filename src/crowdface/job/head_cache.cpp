@@ -189,7 +189,7 @@ CacheContents list_cache(const fs::path& cache) {
 }
 
 std::size_t clear_cache(const fs::path& cache) {
-  std::size_t removed = 0;
+  std::size_t removed = remove_leftovers(cache);
   for (const fs::path& entry : list_cache(cache).entries) {
     std::error_code error;
     if (fs::remove(entry, error)) ++removed;

@@ -6,11 +6,12 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
+#include <system_error>
 #include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
@@ -47,30 +48,34 @@ Texture to_texture(const Image& image) {
   return texture;
 }
 
+/// A texture and the digest of its file.
+struct TextureFile {
+  std::shared_ptr<const Texture> texture;  ///< nothing if there is no such file
+  Digest content;
+};
+
 /// Texture files, each read once however many heads name it.
 class TextureShelf {
  public:
   explicit TextureShelf(int most_px) : most_px_(most_px) {}
 
-  /// Nothing if there is no such file.
-  std::shared_ptr<const Texture> get(const fs::path& path) {
-    const auto known = textures_.find(path);
-    if (known != textures_.end()) return known->second;
-    std::shared_ptr<const Texture> texture;
-    if (fs::is_regular_file(path)) {
+  const TextureFile& get(const fs::path& path) {
+    const auto known = files_.find(path);
+    if (known != files_.end()) return known->second;
+    throw_if_interrupted();
+    TextureFile file;
+    std::error_code ignored;  // a name longer than the system allows is that of no file
+    if (fs::is_regular_file(path, ignored)) {
       const Image image = read_image(path, {.jpeg = true});
-      texture = std::make_shared<const Texture>(shrunk(to_texture(image), most_px_));
-      hasher_.add(path.filename().string()).add(hash_file(path).digest);
+      file.texture = std::make_shared<const Texture>(shrunk(to_texture(image), most_px_));
+      file.content = hash_file(path).digest;
     }
-    textures_.emplace(path, texture);
-    return texture;
+    return files_.emplace(path, std::move(file)).first->second;
   }
-  Digest digest() const { return hasher_.digest(); }
 
  private:
   int most_px_;
-  std::map<fs::path, std::shared_ptr<const Texture>> textures_;
-  Hasher hasher_;
+  std::map<fs::path, TextureFile> files_;
 };
 
 /// The number of the UDIM tile that a face lies in, told by its middle, so that corners on a border
@@ -90,47 +95,83 @@ int tile_of(const FaceSet& faces, Index face) {
   return tile_number(std::floor(middle.x()), std::floor(middle.y()));
 }
 
+std::vector<int> tiles_of(const FaceSet& faces) {
+  std::vector<int> tiles(static_cast<std::size_t>(faces.topology.face_count()), 1001);
+  if (faces.topology.corner_uvs.empty()) return tiles;
+  for (std::size_t f = 0; f < tiles.size(); ++f) tiles[f] = tile_of(faces, static_cast<Index>(f));
+  return tiles;
+}
+
+/// What one head's faces wear.
+struct NamedCoat {
+  TextureCoat coat;
+  std::vector<Digest> contents;  ///< #textures
+  std::vector<fs::path> missing;
+};
+
+/// \param tiles  #faces; \param materials  #faces, their names.
+NamedCoat coat_of(const ColourTextures& named, const std::vector<int>& tiles,
+                  const std::vector<std::string>& materials, TextureShelf& shelf) {
+  NamedCoat result;
+  result.coat.of_face.assign(tiles.size(), TextureCoat::kNone);
+  std::map<fs::path, std::uint32_t> rows;
+  for (std::size_t f = 0; f < tiles.size(); ++f) {
+    throw_if_interrupted();
+    const auto found = named.of_material.find(materials[f]);
+    if (found == named.of_material.end()) continue;
+    const fs::path path = with_tile(found->second, tiles[f]);
+    const auto [row, is_new] = rows.emplace(path, TextureCoat::kNone);
+    if (is_new) {
+      const TextureFile& file = shelf.get(path);
+      if (file.texture) {
+        row->second = static_cast<std::uint32_t>(result.coat.textures.size());
+        result.coat.textures.push_back(file.texture);
+        result.contents.push_back(file.content);
+      } else {
+        result.missing.push_back(path);
+      }
+    }
+    result.coat.of_face[f] = row->second;
+  }
+  return result;
+}
+
+/// Which face wears what, whatever the files are called.
+void add_coat(const NamedCoat& named, Hasher& hasher) {
+  hasher.add(named.contents.size());
+  for (const Digest& content : named.contents) hasher.add(content);
+  hasher.add_array(std::span<const std::uint32_t>(named.coat.of_face));
+}
+
 }  // namespace
 
 HeadTextures load_textures(const FaceSet& faces, std::span<const ObjFile> files, int most_px) {
   HeadTextures result;
+  Hasher hasher;
   TextureShelf shelf(most_px);
+  // Heads of one folder mostly share their material files.
+  std::map<std::pair<fs::path, std::vector<std::string>>, ColourTextures> known;
   bool any = false;
-  const auto face_count = static_cast<std::size_t>(faces.topology.face_count());
-  std::vector<int> tiles(face_count, 1001);
-  if (!faces.topology.corner_uvs.empty()) {
-    for (std::size_t f = 0; f < face_count; ++f) tiles[f] = tile_of(faces, static_cast<Index>(f));
-  }
+  const std::vector<int> tiles = tiles_of(faces);
+  const bool has_uvs = !faces.topology.corner_uvs.empty();
   for (const ObjFile& file : files) {
-    const ColourTextures named = find_colour_textures(file.path, file.material_libraries);
-    for (const std::string& text : named.warnings) result.warnings.push_back(text);
-    const std::vector<std::string> materials =
-        face_materials(file.materials, faces.topology.face_count());
-    TextureCoat coat;
-    coat.of_face.assign(face_count, TextureCoat::kNone);
-    std::map<fs::path, std::uint32_t> rows;
-    for (std::size_t f = 0; f < face_count && !faces.topology.corner_uvs.empty(); ++f) {
-      const auto found = named.of_material.find(materials[f]);
-      if (found == named.of_material.end()) continue;
-      const fs::path path = with_tile(found->second, tiles[f]);
-      auto row = rows.find(path);
-      if (row == rows.end()) {
-        const auto texture = shelf.get(path);
-        row = rows.emplace(path, texture ? static_cast<std::uint32_t>(coat.textures.size())
-                                         : TextureCoat::kNone)
-                  .first;
-        if (texture) {
-          coat.textures.push_back(texture);
-        } else {
-          result.warnings.push_back(concat(file.path.string(), ": the texture ",
-                                           quoted(path.string()),
-                                           " is missing; pictures show the surface without"));
-        }
-      }
-      coat.of_face[f] = row->second;
+    const auto [entry, is_new] =
+        known.try_emplace({file.path.parent_path(), file.material_libraries});
+    ColourTextures& named = entry->second;
+    if (is_new) {
+      named = find_colour_textures(file.path, file.material_libraries);
+      for (const std::string& text : named.warnings) result.warnings.push_back(text);
+      if (!has_uvs) named.of_material.clear();
     }
-    any = any || !coat.textures.empty();
-    result.coats.push_back(std::move(coat));
+    NamedCoat wears =
+        coat_of(named, tiles, face_materials(file.materials, faces.topology.face_count()), shelf);
+    for (const fs::path& path : wears.missing) {
+      result.warnings.push_back(concat(file.path.string(), ": the texture ", quoted(path.string()),
+                                       " is missing; pictures show the surface without"));
+    }
+    any = any || !wears.coat.textures.empty();
+    add_coat(wears, hasher);
+    result.coats.push_back(std::move(wears.coat));
   }
   if (!any) {
     throw MissingInput(concat(files.front().path.string(),
@@ -138,7 +179,7 @@ HeadTextures load_textures(const FaceSet& faces, std::span<const ObjFile> files,
                               "materials name one that is there (map_Kd in the file of mtllib, and "
                               "texture coordinates)"));
   }
-  result.digest = shelf.digest();
+  result.digest = hasher.digest();
   return result;
 }
 

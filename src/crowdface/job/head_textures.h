@@ -14,8 +14,8 @@ namespace crowdface {
 
 /// The textures that the heads' own materials name (`map_Kd`).
 struct HeadTextures {
-  std::vector<TextureCoat> coats;     ///< #heads, or empty: surfaces have their own colours
-  Digest digest;                      ///< of the files read
+  std::vector<TextureCoat> coats;  ///< #heads, or empty: surfaces have their own colours
+  Digest digest;  ///< of the files read, and of which face of which head wears which
   std::vector<std::string> warnings;  ///< about files that are missing
 };
 

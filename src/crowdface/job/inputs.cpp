@@ -223,7 +223,9 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
       .add(static_cast<int>(config.smoothing.levels));
   // Only fitted levels depend on L_max; exact ones do not.
   if (config.smoothing.levels != Levels::kExact) hasher.add(inputs.max_level);
-  if (config.smoothing.levels == Levels::kBasis) hasher.add(config.smoothing.tolerance_mm);
+  if (config.smoothing.levels == Levels::kBasis) {
+    hasher.add(config.smoothing.tolerance_mm / mm_per(config.faces.units));
+  }
   add_parts(config, inputs.parts, hasher);
   return hasher.digest();
 }

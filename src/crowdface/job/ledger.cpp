@@ -10,6 +10,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/shallow_json.h"
 
 namespace crowdface {
 namespace {
@@ -39,9 +40,9 @@ std::optional<LedgerEntry::File> file_of(const Json& json) {
   return LedgerEntry::File{*name, {bytes->get<std::uint64_t>(), *hash}};
 }
 
-std::string format_all(const std::map<std::string, LedgerEntry>& entries) {
+std::string format_all(const std::vector<LedgerEntry>& entries) {
   std::string text;
-  for (const auto& [item, entry] : entries) text += format_ledger_line(entry) + '\n';
+  for (const LedgerEntry& entry : entries) text += format_ledger_line(entry) + '\n';
   return text;
 }
 
@@ -70,7 +71,7 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line) {
   if (line.size() < tail) return std::nullopt;
   const std::string_view body = line.substr(0, line.size() - tail);
   if (line.substr(body.size()) != concat(kSum, hash_bytes(body).hex(), kEnd)) return std::nullopt;
-  const Json json = Json::parse(line, nullptr, false);
+  const Json json = parse_shallow_json(line);
   if (!json.is_object()) return std::nullopt;
   const auto item = text_at(json, "item");
   const auto key = digest_at(json, "key");
@@ -124,53 +125,56 @@ bool files_match(const fs::path& root, const LedgerEntry& entry) {
   return true;
 }
 
+void add_lines(LedgerLines lines, LinesOfItems& to) {
+  for (LedgerEntry& entry : lines.entries) to[entry.item].push_back(std::move(entry));
+}
+
 Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& others)
     : root_(std::move(root)), own_(own) {
   for (const fs::path& other : others) {
     if (other == own) continue;
     others_.push_back(other);
-    for (LedgerEntry& entry : read_ledger(other).entries) {
-      entries_[entry.item] = std::move(entry);
-    }
+    add_lines(read_ledger(other), read_);
   }
   std::error_code ignored;
   const bool exists = fs::exists(own, ignored);
   if (exists) settled_ = read_file(own);
   LedgerLines lines = parse_ledger(settled_);
-  std::map<std::string, LedgerEntry> of_own;
-  for (LedgerEntry& entry : lines.entries) of_own[entry.item] = std::move(entry);
-  if (lines.damaged > 0 || !exists) {
-    if (lines.damaged > 0) {
-      log_warning(concat(own.string(), ": ", lines.damaged,
-                         lines.damaged == 1 ? " line is" : " lines are",
-                         " not whole; what they stand for is done again"));
-    }
-    write_file(own, format_all(of_own));
+  if (lines.damaged > 0) {
+    log_warning(concat(own.string(), ": ", lines.damaged,
+                       lines.damaged == 1 ? " line is" : " lines are",
+                       " not whole; what they stand for is done again"));
   }
-  for (auto& [item, entry] : of_own) entries_[item] = std::move(entry);
+  if (lines.damaged > 0 || !exists) write_file(own, format_all(lines.entries));
+  add_lines(std::move(lines), read_);
   file_ = std::make_unique<AppendFile>(own);
 }
 
 std::optional<LedgerEntry> Ledger::proven(const std::string& item, const Digest& key) {
-  LedgerEntry entry;
+  std::vector<LedgerEntry> candidates;
   {
     const std::lock_guard lock(mutex_);
-    const auto found = entries_.find(item);
-    if (found == entries_.end() || found->second.key != key) return std::nullopt;
-    entry = found->second;
+    if (const auto found = done_.find(item); found != done_.end()) {
+      candidates.push_back(found->second);
+    } else if (const auto lines = read_.find(item); lines != read_.end()) {
+      candidates.assign(lines->second.rbegin(), lines->second.rend());
+    }
   }
-  if (!files_match(root_, entry)) return std::nullopt;
-  const std::lock_guard lock(mutex_);
-  used_.insert(item);
-  return entry;
+  for (const LedgerEntry& entry : candidates) {
+    if (entry.key != key || !files_match(root_, entry)) continue;
+    const std::lock_guard lock(mutex_);
+    done_[item] = entry;
+    return entry;
+  }
+  return std::nullopt;
 }
 
 void Ledger::record(LedgerEntry entry) {
   file_->append(format_ledger_line(entry) + '\n');
   const std::lock_guard lock(mutex_);
-  used_.insert(entry.item);
   settled_.clear();
-  entries_[entry.item] = std::move(entry);
+  const std::string item = entry.item;
+  done_[item] = std::move(entry);
 }
 
 void Ledger::record(const std::string& item, const Digest& key,
@@ -205,25 +209,25 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
     return std::any_of(folders.begin(), folders.end(),
                        [&](const std::string& folder) { return name.starts_with(folder + '/'); });
   };
-  const std::map<std::string, LedgerEntry> before = entries_;
-  const auto known = before.find(item);
-  adopt_entry(known == before.end() ? LedgerEntry{item, {}, {}, {}} : known->second,
+  const auto known = read_.find(item);
+  adopt_entry(known == read_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.back(),
               files_now(names));
-  for (const auto& [other, entry] : before) {
+  for (const auto& [other, lines] : read_) {
     if (other == item) continue;
-    std::vector<LedgerEntry::File> files = entry.files;
+    std::vector<LedgerEntry::File> files = lines.back().files;
     for (LedgerEntry::File& file : files) {
       std::error_code ignored;
       if (!is_in_them(file.name) || !fs::exists(root_ / file.name, ignored)) continue;
       file.content = hash_file(root_ / file.name);
     }
-    adopt_entry(entry, std::move(files));
+    adopt_entry(lines.back(), std::move(files));
   }
 }
 
 void Ledger::settle() {
-  std::erase_if(entries_, [&](const auto& entry) { return !used_.contains(entry.first); });
-  const std::string text = format_all(entries_);
+  std::vector<LedgerEntry> in_order;
+  for (const auto& [item, entry] : done_) in_order.push_back(entry);
+  const std::string text = format_all(in_order);
   if (settled_ != text) write_file(own_, text);
   for (const fs::path& other : others_) {
     std::error_code error;

@@ -6,7 +6,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +43,10 @@ LedgerLines parse_ledger(const std::string& text);
 /// \return no lines if there is no such file. \throws IoError.
 LedgerLines read_ledger(const std::filesystem::path& path);
 
+/// All lines of each item, in the order in which they were read.
+using LinesOfItems = std::map<std::string, std::vector<LedgerEntry>>;
+void add_lines(LedgerLines lines, LinesOfItems& to);
+
 /// Whether all files of an entry stand in the folder as they were written.
 bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);
 
@@ -55,11 +58,12 @@ class Ledger {
   /// Reads all ledgers of the folder. Lines that are not whole are dropped with a warning: what they
   /// stood for counts as not done.
   /// \param own     the ledger to append to, made if it is not there.
-  /// \param others  of shards, only read.
+  /// \param others  those of other runs, only read. No line outdoes another: which of them is newer
+  ///                cannot be told, and any may prove what it stands for.
   Ledger(std::filesystem::path root, const std::filesystem::path& own,
          const std::vector<std::filesystem::path>& others);
 
-  /// The entry of an item if it has this key and its files match: nothing needs to be done.
+  /// An entry of the item that has this key and whose files match: nothing needs to be done.
   std::optional<LedgerEntry> proven(const std::string& item, const Digest& key);
 
   /// Appends a line. Its files must have been written by `write_file`. \throws IoError.
@@ -88,8 +92,8 @@ class Ledger {
 
   std::filesystem::path root_, own_;
   std::vector<std::filesystem::path> others_;
-  std::map<std::string, LedgerEntry> entries_;  ///< the last of each item
-  std::set<std::string> used_;
+  LinesOfItems read_;                        ///< as they were when this run began
+  std::map<std::string, LedgerEntry> done_;  ///< what this run found proven or recorded
   std::string settled_;  ///< the file's text, if nothing was appended since it was read
   std::mutex mutex_;
   std::unique_ptr<AppendFile> file_;

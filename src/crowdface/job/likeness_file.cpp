@@ -8,6 +8,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/shallow_json.h"
 
 namespace crowdface {
 namespace {
@@ -23,7 +24,7 @@ class LikenessReader {
   }
 
   CrowdLikeness read() const {
-    const Json json = Json::parse(read_file(path_), nullptr, false);
+    const Json json = parse_shallow_json(read_file(path_));
     CrowdLikeness result;
     try {
       for (const std::string& head : names_.heads) {

@@ -148,6 +148,9 @@ void find_named_parts(const Config& config, Inputs& inputs, Problems& problems) 
 void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
   if (parts.parts.empty()) return;
   hasher.add(kPartsVersion).add(static_cast<int>(config.parts.shape));
+  for (const Axis& axis : {config.faces.up, config.faces.front}) {
+    hasher.add(axis.index).add(axis.sign);
+  }
   for (const Part& part : parts.parts) {
     hasher.add(static_cast<int>(part.part_class)).add_array(std::span(part.components));
   }

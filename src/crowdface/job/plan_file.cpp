@@ -10,6 +10,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/rounded.h"
+#include "crowdface/job/shallow_json.h"
 
 namespace crowdface {
 namespace {
@@ -44,7 +45,7 @@ class LineReader {
   LineReader(const PlanNames& names, const std::string& place) : names_(names), place_(place) {}
 
   PlanLine read(std::string_view line) const {
-    const Json json = Json::parse(line, nullptr, false);
+    const Json json = parse_shallow_json(line);
     if (!json.is_object()) fail("line", "a JSON object", "something else");
     PlanLine result;
     Recipe& recipe = result.recipe;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/progress.h"
@@ -16,11 +17,12 @@ namespace crowdface {
 namespace {
 
 /// Raised whenever a change of the code alters what an entry holds.
-constexpr int kPrepareVersion = 3;
+constexpr int kPrepareVersion = 4;
 constexpr Index kSamples = 2500;
 
 Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& samples,
               std::size_t head) {
+  const bool is_basis = config.smoothing.levels == Levels::kBasis;
   return Hasher()
       .add(kPrepareVersion)
       .add(inputs.topology_digest)
@@ -30,9 +32,9 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
       .add(static_cast<int>(config.smoothing.boundary))
       .add(static_cast<int>(config.smoothing.operator_kind))
       .add(static_cast<int>(config.smoothing.levels))
-      .add(config.smoothing.levels == Levels::kBasis
-               ? config.smoothing.tolerance_mm / mm_per(config.faces.units)
-               : 0.0)
+      .add(is_basis ? config.smoothing.tolerance_mm / mm_per(config.faces.units) : 0.0)
+      // The first head orders the filter's rows, of which a basis is fitted to every n-th.
+      .add(is_basis ? inputs.head_digests.front() : Digest{})
       .digest();
 }
 
@@ -130,6 +132,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
                                 static_cast<Index>(prepared.nodes->levels().size()),
                                 inputs.max_level,
                                 config.smoothing.levels};
+  remove_leftovers(cache);  // of runs that were killed while they kept a head
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;
   Progress progress("preparing heads", inputs.faces.heads.size());

@@ -28,15 +28,21 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return concat(count, ' ', count == 1 ? one : many);
 }
 
-/// A face of whatever format its crowd has.
-Positions read_face_of_any(const CrowdDirectory& directory, const std::string& id, Index vertices) {
+/// In which format a crowd has a face. \throws MissingInput if in none.
+MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
   for (const MeshFormat format : all_mesh_formats()) {
-    if (std::filesystem::exists(directory.mesh(id, format))) {
-      return read_face(directory, id, {format}, vertices);
-    }
+    if (std::filesystem::exists(directory.mesh(id, format))) return format;
   }
   throw MissingInput(
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
+}
+
+/// The mesh with which all faces are compared.
+Positions read_reference(const std::filesystem::path& file, Index vertices) {
+  Positions positions = read_obj(file).positions;
+  if (positions.rows() == vertices) return positions;
+  throw InvalidInput(concat(file.string(), ": expected ", vertices,
+                            " vertices to compare with, found ", positions.rows()));
 }
 
 /// The sheets of one crowd.
@@ -53,8 +59,7 @@ class CrowdSheets {
         likeness_(likeness),
         pages_(directory.sheets(), sheet.formats) {
     if (sheet.compare.with == With::kFile && !std::filesystem::is_directory(sheet.compare.file)) {
-      reference_ = read_obj(sheet.compare.file).positions;
-      check_vertices(reference_);
+      reference_ = read_reference(sheet.compare.file, job.inputs.faces.topology.vertex_count);
     }
   }
 
@@ -72,13 +77,6 @@ class CrowdSheets {
                   " · seed ", job_.config.crowd.seed);
   }
 
-  void check_vertices(const Positions& positions) const {
-    const Index expected = job_.inputs.faces.topology.vertex_count;
-    if (positions.rows() == expected) return;
-    throw InvalidInput(concat(sheet_.compare.file.string(), ": expected ", expected,
-                              " vertices to compare with, found ", positions.rows()));
-  }
-
   Positions mesh_of(std::size_t face) const {
     return read_face(directory_, crowd_[face].id, job_.config.output.meshes,
                      job_.inputs.faces.topology.vertex_count);
@@ -94,8 +92,9 @@ class CrowdSheets {
         return mesh_of(likeness_.near[face].front().face);
       case With::kFile:
         if (reference_.rows() > 0) return reference_;
-        return read_face_of_any({sheet_.compare.file}, crowd_[face].id,
-                                job_.inputs.faces.topology.vertex_count);
+        return read_face({sheet_.compare.file}, crowd_[face].id,
+                         {format_of_face({sheet_.compare.file}, crowd_[face].id)},
+                         job_.inputs.faces.topology.vertex_count);
       case With::kNothing:
         break;
     }
@@ -287,6 +286,17 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
   std::string text;
   for (std::size_t i = 0; i < lines.size(); ++i) text += concat(i > 0 ? "\n" : "", lines[i]);
   return text;
+}
+
+void check_comparison(const Job& job, const std::vector<Recipe>& crowd) {
+  const auto& sheet = job.config.output.contact_sheet;
+  if (!sheet || sheet->compare.with != With::kFile) return;
+  const std::filesystem::path& file = sheet->compare.file;
+  if (!std::filesystem::is_directory(file)) {
+    read_reference(file, job.inputs.faces.topology.vertex_count);
+    return;
+  }
+  for (const Recipe& recipe : crowd) format_of_face({file}, recipe.id);
 }
 
 std::size_t write_sheets(const Job& job, const Config::ContactSheet& sheet,

@@ -10,6 +10,10 @@
 
 namespace crowdface {
 
+/// \throws Error if what the faces are to be compared with cannot be read or is no such mesh: better
+/// told before the faces are made than after.
+void check_comparison(const Job& job, const std::vector<Recipe>& crowd);
+
 /// Writes the contact sheets of a crowd from the pictures in its folder: the faces, the heads, each
 /// family, an index; removes what an earlier run left over.
 /// \return  how many pages the faces take.

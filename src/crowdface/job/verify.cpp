@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/verify.h"
 
+#include <algorithm>
 #include <map>
 #include <system_error>
 
@@ -30,19 +31,29 @@ State state_of(const fs::path& path, const FileDigest& expected) {
   }
 }
 
-/// The last line of each item in all ledgers of the folder.
+/// A line of each item in all ledgers of the folder: of several, one that the files agree with, else
+/// the last.
 std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
                                                 CrowdCheck& check) {
-  std::vector<fs::path> ledgers = directory.shard_ledgers();
-  ledgers.push_back(directory.ledger());
-  std::map<std::string, LedgerEntry> entries;
-  for (const fs::path& path : ledgers) {
+  LinesOfItems all;
+  for (const fs::path& path : directory.ledgers()) {
     LedgerLines lines = read_ledger(path);
-    for (LedgerEntry& entry : lines.entries) entries[entry.item] = std::move(entry);
-    if (lines.damaged == 0) continue;
-    check.remarks.push_back(
-        concat(path.filename().string(), ": ", lines.damaged,
-               lines.damaged == 1 ? " line is not whole" : " lines are not whole"));
+    if (lines.damaged > 0) {
+      check.remarks.push_back(
+          concat(path.filename().string(), ": ", lines.damaged,
+                 lines.damaged == 1 ? " line is not whole" : " lines are not whole"));
+    }
+    add_lines(std::move(lines), all);
+  }
+  std::map<std::string, LedgerEntry> entries;
+  for (auto& [item, lines] : all) {
+    throw_if_interrupted();
+    const auto good = lines.size() == 1 ? lines.rend()
+                                        : std::find_if(lines.rbegin(), lines.rend(),
+                                                       [&](const LedgerEntry& line) {
+                                                         return files_match(directory.root, line);
+                                                       });
+    entries[item] = std::move(good == lines.rend() ? lines.back() : *good);
   }
   return entries;
 }

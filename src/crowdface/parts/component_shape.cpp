@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/parts/point_grid.h"
 
@@ -36,6 +37,16 @@ std::array<double, 4> solve(std::array<std::array<double, 5>, 4> rows) {
     x[k] /= rows[k][k];
   }
   return x;
+}
+
+/// The diagonal of their bounding box.
+double extent_of(const Positions& positions, const std::vector<std::uint32_t>& vertices) {
+  Eigen::Vector3d low = positions.row(vertices[0]).transpose(), high = low;
+  for (const std::uint32_t v : vertices) {
+    low = low.cwiseMin(positions.row(v).transpose());
+    high = high.cwiseMax(positions.row(v).transpose());
+  }
+  return (high - low).norm();
 }
 
 /// |p|² = 2 p·c + (r² − |c|²) in the least-squares sense, about the middle of the vertices.
@@ -84,14 +95,14 @@ void measure_roughness(const Topology& topology, const Components& components,
   }
 }
 
-/// The farthest that nine in ten of some evenly chosen vertices are from the skin.
+/// The farthest that nine in ten of some evenly chosen vertices are from the skin, up to `reach`.
 double distance_to(const PointGrid& skin, const Positions& positions,
-                   const std::vector<std::uint32_t>& vertices) {
+                   const std::vector<std::uint32_t>& vertices, double reach) {
   const std::size_t probes = std::min(vertices.size(), kMostProbes);
   std::vector<double> distances;
   for (std::size_t i = 0; i < probes; ++i) {
     const std::uint32_t vertex = vertices[i * vertices.size() / probes];
-    distances.push_back(skin.nearest(positions.row(vertex).transpose()).distance);
+    distances.push_back(skin.nearest(positions.row(vertex).transpose(), reach).distance);
   }
   const auto at = distances.begin() + static_cast<std::ptrdiff_t>((distances.size() - 1) * 9 / 10);
   std::nth_element(distances.begin(), at, distances.end());
@@ -125,21 +136,20 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
       perimeter[components.of_vertex[n]] += (positions.row(i) - positions.row(n)).norm();
     }
   }
-  const std::uint32_t skin = components.largest();
-  const PointGrid skin_grid(positions, members[skin]);
   for (std::size_t c = 0; c < count; ++c) {
     ComponentShape& shape = shapes[c];
     shape.vertices = static_cast<Index>(members[c].size());
     if (area[c] > 0) shape.openness = perimeter[c] * perimeter[c] / (4 * kPi * area[c]);
-    Eigen::Vector3d low = positions.row(members[c][0]).transpose(), high = low;
-    for (const std::uint32_t v : members[c]) {
-      low = low.cwiseMin(positions.row(v).transpose());
-      high = high.cwiseMax(positions.row(v).transpose());
-    }
-    shape.extent = (high - low).norm();
-    if (c == skin || shape.faces == 0) continue;
-    fit_sphere(positions, members[c], shape);
-    shape.skin_distance = distance_to(skin_grid, positions, members[c]);
+    shape.extent = extent_of(positions, members[c]);
+  }
+  const std::uint32_t skin = components.largest();
+  const PointGrid skin_grid(positions, members[skin]);
+  for (std::size_t c = 0; c < count; ++c) {
+    throw_if_interrupted();
+    if (c == skin || shapes[c].faces == 0) continue;
+    fit_sphere(positions, members[c], shapes[c]);
+    shapes[c].skin_distance =
+        distance_to(skin_grid, positions, members[c], kFarFromSkin * shapes[skin].extent);
   }
   measure_roughness(topology, components, positions, shapes);
   return shapes;

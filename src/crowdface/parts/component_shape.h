@@ -8,6 +8,10 @@
 
 namespace crowdface {
 
+/// Distances to the skin are looked for so far, as a share of the skin's extent: they are told as this
+/// where it is farther.
+constexpr double kFarFromSkin = 0.05;
+
 /// What a connected component looks like by itself, as far as it tells skin, eyes and lashes apart.
 struct ComponentShape {
   Index vertices = 0;
@@ -16,7 +20,8 @@ struct ComponentShape {
   /// Perimeter² / (4π · area) of its open edges: 0 of a closed surface, ½ of a hemisphere, 1 of a
   /// disc, more of a strip; of any number of vertices.
   double openness = 0;
-  double skin_distance = 0;  ///< the farthest that nine in ten of its vertices are from the skin
+  /// The farthest that nine in ten of its vertices are from the skin, up to kFarFromSkin.
+  double skin_distance = 0;
   /// The sphere nearest to its vertices, and how far they are from it (root mean square).
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
-#include "crowdface/parts/point_grid.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/parts/grouping.h"
 #include "crowdface/parts/vector3.h"
 
 namespace crowdface {
@@ -23,6 +26,7 @@ constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
 /// but its box is smaller.
 constexpr double kWhole = 2.6;
 constexpr double kRound = 0.1;  // roughness of an eyeball as a share of its radius: the cornea
+static_assert(kBoundDistance < kFarFromSkin);
 
 PartClass class_by_shape(const ComponentShape& shape, double extent) {
   if (shape.faces == 0 || shape.extent > kSkinExtent * extent) return PartClass::kSkin;
@@ -35,30 +39,6 @@ bool is_eyeball(const ComponentShape& shape, double extent) {
   return shape.radius > kEyeRadius[0] * extent && shape.radius < kEyeRadius[1] * extent &&
          shape.extent > kWhole * shape.radius && shape.roughness < kRound * shape.radius;
 }
-
-/// Which rigid components move as one.
-class Grouping {
- public:
-  explicit Grouping(std::size_t components) : parent_(components) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t root(std::uint32_t c) const {
-    while (parent_[c] != c) c = parent_[c];
-    return c;
-  }
-  /// The smaller number is the root, so that parts are called after their first component.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-  /// Undoes what was joined: for all of a group at once.
-  void release(std::uint32_t c) { parent_[c] = c; }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// How a component stands in the head, along the side, up and front.
 struct Box {
@@ -113,11 +93,38 @@ std::size_t lower_row(const std::vector<Box>& lowest_first) {
   return stacked && over ? lower : 0;
 }
 
-bool touch(const PointGrid& grid, const Positions& positions,
-           const std::vector<std::uint32_t>& vertices, double reach) {
-  return std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
-    return grid.nearest(positions.row(v).transpose(), reach).vertex != kNoIndex;
-  });
+/// Joins each eyeball with what has its middle inside.
+void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
+                 const std::vector<bool>& eyeball, Grouping& grouping) {
+  Positions centres(static_cast<Index>(list.shapes.size()), 3);
+  std::vector<std::uint32_t> self(list.shapes.size()), found;
+  std::iota(self.begin(), self.end(), 0U);
+  for (const std::uint32_t c : rigid) {
+    centres.row(c) = list.shapes[c].centre.transpose();
+    if (list.shapes[c].centre.allFinite()) found.push_back(c);  // a fit to hardly any extent
+  }
+  GroupingTree tree(centres, std::move(found), self, grouping);
+  for (const std::uint32_t c : rigid) {
+    throw_if_interrupted();
+    if (!eyeball[c]) continue;
+    tree.join_near(list.shapes[c].centre, std::nextafter(list.shapes[c].radius, 0.0), c);
+  }
+}
+
+/// Joins components with vertices at most `reach` away from each other, but for eyeballs.
+void join_touching(const Positions& positions, const Components& components,
+                   const std::vector<std::vector<std::uint32_t>>& members,
+                   const std::vector<std::uint32_t>& rigid, const std::vector<bool>& eyeball,
+                   double reach, Grouping& grouping) {
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t c : rigid) {
+    if (!eyeball[c]) vertices.insert(vertices.end(), members[c].begin(), members[c].end());
+  }
+  GroupingTree tree(positions, vertices, components.of_vertex, grouping);
+  for (const std::uint32_t v : vertices) {
+    throw_if_interrupted();
+    tree.join_near(positions.row(v).transpose(), reach, components.of_vertex[v]);
+  }
 }
 
 /// Takes groups of teeth apart, jaw by jaw.
@@ -180,18 +187,12 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
   for (std::uint32_t c = 0; c < count; ++c) {
     eyeball[c] = list.classes[c] == PartClass::kRigid && is_eyeball(list.shapes[c], extent);
   }
-  for (std::uint32_t a = 0; a < count; ++a) {
-    if (list.classes[a] != PartClass::kRigid || by_hand[a]) continue;
-    const PointGrid grid(positions, members[a]);
-    for (std::uint32_t b = 0; b < count; ++b) {
-      if (b == a || list.classes[b] != PartClass::kRigid || by_hand[b]) continue;
-      const Eigen::Vector3d between = list.shapes[a].centre - list.shapes[b].centre;
-      const bool inside = eyeball[a] && between.norm() < list.shapes[a].radius;
-      const bool beside = b > a && !eyeball[a] && !eyeball[b] &&
-                          touch(grid, positions, members[b], kTouch * extent);
-      if (inside || beside) grouping.join(a, b);
-    }
+  std::vector<std::uint32_t> rigid;
+  for (std::uint32_t c = 0; c < count; ++c) {
+    if (list.classes[c] == PartClass::kRigid && !by_hand[c]) rigid.push_back(c);
   }
+  join_inside(list, rigid, eyeball, grouping);
+  join_touching(positions, components, members, rigid, eyeball, kTouch * extent, grouping);
   split_jaws(positions, members, axes, eyeball, by_hand, list.classes, grouping);
 
   std::vector<std::size_t> part_of(count, SIZE_MAX);

@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/hand_over.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -27,12 +28,14 @@ struct Query {
   const std::vector<Triangle>& triangles;
   const Positions& positions;
   double margin;
-  std::mutex lock;
-  std::vector<TrianglePair> found;
+  std::mutex lock = {};
+  std::vector<TrianglePair> found = {};
+  HandOver before = {}, after = {};
 };
 
 void bounds_of(const RTCBoundsFunctionArguments* arguments) {
-  const auto& query = *static_cast<const Query*>(arguments->geometryUserPtr);
+  auto& query = *static_cast<Query*>(arguments->geometryUserPtr);
+  query.before.take();
   const Triangle& t = query.triangles[arguments->primID];
   float low[3], high[3];
   for (int c = 0; c < 3; ++c) {
@@ -45,19 +48,23 @@ void bounds_of(const RTCBoundsFunctionArguments* arguments) {
     high[c] += 1e-6F * std::abs(high[c]);
   }
   *arguments->bounds_o = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
+  query.after.give();
 }
 
 void keep_pairs(void* user, RTCCollision* collisions, unsigned int count) {
   auto& query = *static_cast<Query*>(user);
+  query.before.take();
   std::vector<TrianglePair> kept;
   for (unsigned int i = 0; i < count; ++i) {
     const std::uint32_t a = collisions[i].primID0, b = collisions[i].primID1;
     if (a >= b || share_vertex(query.triangles[a], query.triangles[b])) continue;
     kept.emplace_back(a, b);
   }
-  if (kept.empty()) return;  // most are neighbours
-  const std::lock_guard<std::mutex> guard(query.lock);
-  query.found.insert(query.found.end(), kept.begin(), kept.end());
+  if (!kept.empty()) {  // most are neighbours
+    const std::lock_guard<std::mutex> guard(query.lock);
+    query.found.insert(query.found.end(), kept.begin(), kept.end());
+  }
+  query.after.give();
 }
 
 }  // namespace
@@ -65,7 +72,7 @@ void keep_pairs(void* user, RTCCollision* collisions, unsigned int count) {
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin) {
   if (triangles.empty()) return {};
-  Query query{triangles, positions, margin, {}, {}};
+  Query query{triangles, positions, margin};
   const Device device(rtcNewDevice(nullptr));
   if (!device) throw InvalidInput("Embree could not be started");
   const Scene scene(rtcNewScene(device.get()));
@@ -76,8 +83,10 @@ std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene.get(), geometry);
   rtcReleaseGeometry(geometry);
+  query.before.give();
   rtcCommitScene(scene.get());
   rtcCollide(scene.get(), scene.get(), keep_pairs, &query);
+  query.after.take();
   if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE) {
     throw InvalidInput(concat("Embree failed with error ", static_cast<int>(error)));
   }
