@@ -127,7 +127,7 @@ TEST(MaterialFiles, NeverTakeTheNameOfAMesh) {
 TEST(MaterialFiles, NeverTakeANameWithANul) {
   const testing::TemporaryFolder folder;
   folder.write("mob_0001.obj", "x");
-  folder.write("a.mtl", std::string("map_Kd mob_0001.obj\0.png\n", 27));
+  folder.write("a.mtl", std::string("map_Kd mob_0001.obj") + '\0' + ".png\n");
   const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
   EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl"}));
   EXPECT_EQ(found.warnings.size(), 1U);
