@@ -15,8 +15,8 @@ struct AppendFile::Handle {
 
 AppendFile::AppendFile(const std::filesystem::path& path)
     : path_(path),
-      handle_(std::make_unique<Handle>(Handle{
-          Descriptor(::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666))})) {
+      handle_(std::make_unique<Handle>(Handle{Descriptor(
+          ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666))})) {
   if (!handle_->descriptor.valid()) {
     throw CannotCreate(concat(path.string(), ": cannot be opened to append: ", reason()));
   }

@@ -74,6 +74,14 @@ void add_scaled_rows(T factor, const Row<T>* values, std::size_t count, Row<T>* 
   }
 }
 
+/// The values of rows one after the other, four a row.
+inline const float* values_of(const Row<float>* rows) {
+  return reinterpret_cast<const float*>(rows);
+}
+inline float* values_of(Row<float>* rows) {
+  return reinterpret_cast<float*>(rows);
+}
+
 /// Values [begin, begin + lanes) of `kOutputs` combinations from the first on: several at a time, so
 /// that their chains of additions overlap.
 template <std::size_t kOutputs, class Lanes>
@@ -83,14 +91,14 @@ void combine_some(Lanes lanes, const Row<float>* const* inputs, std::size_t inpu
   hn::VFromD<Lanes> sums[kOutputs];
   for (auto& sum : sums) sum = hn::Zero(lanes);
   for (std::size_t n = 0; n < input_count; ++n) {
-    const auto value = hn::LoadU(lanes, inputs[n]->value + begin);
+    const auto value = hn::LoadU(lanes, values_of(inputs[n]) + begin);
     const float* factor = factors + n * output_count + first;
     for (std::size_t o = 0; o < kOutputs; ++o) {
       sums[o] = fused(hn::Set(lanes, factor[o]), value, sums[o]);
     }
   }
   for (std::size_t o = 0; o < kOutputs; ++o) {
-    hn::StoreU(sums[o], lanes, outputs[first + o]->value + begin);
+    hn::StoreU(sums[o], lanes, values_of(outputs[first + o]) + begin);
   }
 }
 
