@@ -23,7 +23,7 @@ using testing::TemporaryFolder;
 class ImageCorpus : public ::testing::Test {
  protected:
   /// A picture of 16-bit or float values that do not compress to nothing.
-  std::string picture(const char* name, OIIO::TypeDesc type, float odd_value) const {
+  std::string picture(const char* name, const OIIO::TypeDesc& type, float odd_value) const {
     const fs::path file = folder_ / name;
     constexpr int kSide = 24;
     OIIO::ImageSpec spec(kSide, kSide, 3, type);

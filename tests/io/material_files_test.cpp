@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/core/text.h"
 #include "crowdface/io/tile_files.h"
 
 #include "support/temporary_folder.h"
@@ -75,8 +76,7 @@ TEST(MaterialFiles, TakeSoManyTexturesAndNoMore) {
   const testing::TemporaryFolder folder;
   std::string text;
   for (int i = 0; i < 1200; ++i) {
-    const std::string number = std::to_string(i);
-    text += "newmtl m" + number + "\nmap_Kd t" + number + ".png\n";
+    text += concat("newmtl m", i, "\nmap_Kd t", i, ".png\n");
   }
   folder.write("a.mtl", text + "newmtl again\nmap_Kd t7.png\n");
   folder.write("t999.png", "x");

@@ -119,7 +119,7 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
     expected.error_rms = header.error_rms;
     expected.error_level = header.error_level;
   }
-  if (std::memcmp(&header, &expected, sizeof expected) != 0) {
+  if (bytes.substr(0, sizeof expected) != bytes_of(&expected, sizeof expected)) {
     throw damaged("of another version or for other data");
   }
   const Places places(header);
