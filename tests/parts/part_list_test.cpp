@@ -113,7 +113,8 @@ TEST(Parts, OfVeryManyComponentsAreFoundInNoTime) {
   testing::Shapes shapes;
   shapes.ball({0, 0, 0}, 10, 32);
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const Eigen::Vector3d cell(i % kSide, i / kSide % kSide, i / kSide / kSide);
+    const int x = i % kSide, y = i / kSide % kSide, z = i / kSide / kSide;
+    const Eigen::Vector3d cell(x, y, z);
     if (i % 2 == 0) {
       shapes.tetrahedron({20 + cell.x(), cell.y(), cell.z()}, 0.01);  // by itself
     } else {

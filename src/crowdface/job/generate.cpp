@@ -207,6 +207,8 @@ class LazyStages {
     if (!stages_) stages_.emplace(job_, crowd_.prepared, crowd_.cast.crowd, memory_);
     return *stages_;
   }
+  /// Frees what they hold.
+  void release() { stages_.reset(); }
 
  private:
   const Job& job_;
@@ -264,6 +266,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   const StageBusy busy = timed(stages, "build", [&] {
     return build_missing(directory, crowd, face_ledger, face_stages, pictures, so_far);
   });
+  face_stages.release();  // sheets need the memory
   if (!options.shard.whole()) {
     log_info(concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
                     " built; when all shards are done: crowdface gather ",
