@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/random.h"
+#include "crowdface/core/utf8.h"
 
 namespace crowdface {
 namespace {
@@ -45,6 +46,20 @@ TEST(NearestWord, SuggestsOnlyWhatIsNear) {
 TEST(Quoted, EscapesAndShortens) {
   EXPECT_EQ(quoted("a\"b\n"), "\"a\\\"b\\x0a\"");
   EXPECT_LT(quoted(std::string(1000, 'x')).size(), 100U);
+  EXPECT_EQ(quoted(std::string(80, 'x')), '"' + std::string(80, 'x') + '"');
+}
+
+// A report with half a character could not be written.
+TEST(Quoted, IsUtf8WhateverTheTextIs) {
+  EXPECT_EQ(quoted("häu\xe4"
+                   "t\xff"),
+            "\"häu\\xe4t\\xff\"");
+  std::string umlauts;
+  for (int i = 0; i < 60; ++i) umlauts += "ä";
+  for (const char* start : {"", "x", "xy", "\xe4"}) {
+    EXPECT_TRUE(is_utf8(quoted(start + umlauts))) << start;
+  }
+  EXPECT_EQ(quoted("x" + umlauts), "\"x" + umlauts.substr(0, 78) + "…\"");
 }
 
 TEST(Concat, TakesTextAndNumbers) {

@@ -223,6 +223,22 @@ TEST_F(ImageFiles, PartOfAnExrIsRefused) {
   EXPECT_THAT(message_of(file), HasSubstr("display window"));
 }
 
+// Editors note where a picture was cut out; it is whole all the same.
+TEST_F(ImageFiles, PicturesWithAnOffsetAreRead) {
+  for (const char* name : {"cut.png", "cut.tif"}) {
+    const path file = folder_ / name;
+    OIIO::ImageSpec spec(3, 2, 1, OIIO::TypeDesc::UINT8);
+    spec.x = 5;
+    spec.y = 7;
+    auto output = OIIO::ImageOutput::create(file.string());
+    ASSERT_TRUE(output->open(file.string(), spec));
+    const auto bytes = counting_bytes(6);
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, bytes.data()));
+    ASSERT_TRUE(output->close());
+    expect_fractions(read_image(file), bytes);
+  }
+}
+
 TEST_F(ImageFiles, ExrReadsBackWithinHalfPrecisionAndHoldsNoTime) {
   const std::vector<float> pixels = {0, 0.25F, 1, 0.1F, 0.333F, 0.9F};
   const std::string bytes = encode_exr(2, 1, pixels);

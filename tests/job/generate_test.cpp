@@ -7,6 +7,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/crowd_sheets.h"
+#include "crowdface/job/verify.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
@@ -319,6 +320,23 @@ TEST(Generate, MaterialFilesComeAlong) {
   run(folder, "out");
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/bowl.mtl"), library);
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/textures/skin.png"), "not really an image");
+}
+
+// The report could not be written, so that no run came to its end.
+TEST(Generate, NamesOfMaterialFilesMayHoldAnyBytes) {
+  SmallCrowd crowd;
+  crowd.bowl.materials = true;
+  const SmallCrowdFolder folder(crowd);
+  std::string long_name = "x";
+  for (int i = 0; i < 100; ++i) long_name += "ä";
+  folder.folder().write(
+      "heads/bowl.mtl",
+      "newmtl skin\nmap_Kd h\xe4ut.png\nmap_Ks h\xf6ren.png\nmap_Ka " + long_name + ".png\n");
+  folder.folder().write("heads/h\xe4ut.png", "x");
+  run(folder, "out");
+  const auto warnings = testing::read_json(folder.out() / "report.json").at("warnings");
+  EXPECT_EQ(warnings.size(), 3U) << warnings.dump();
+  EXPECT_TRUE(verify_crowd(folder.out()).good());
 }
 
 // Heads of several folders may name different files alike; one crowd has room for one.

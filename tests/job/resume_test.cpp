@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/job/crowd_sheets.h"
 #include "crowdface/job/generate.h"
 #include "crowdface/job/verify.h"
 
@@ -45,6 +46,7 @@ class Resume : public ::testing::Test {
     overrides.set = {"output.meshes=[obj, glb, points]"};
     GenerateOptions options{folder_.cache(), replace, false};
     options.shard = shard;
+    options.memory = memory_;
     generate(folder_.config(), overrides, options);
   }
   std::int64_t faces_built() const {
@@ -54,6 +56,7 @@ class Resume : public ::testing::Test {
     EXPECT_THAT(differing_files(whole_, crowd_files(folder_.out())), IsEmpty()) << what;
   }
 
+  std::uint64_t memory_ = 0;  ///< what runs may take; 0: what there is
   SmallCrowdFolder folder_;
   std::map<std::string, std::string> whole_;
 };
@@ -162,6 +165,25 @@ TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {
   fs::remove_all(folder_.out());
   run();
   EXPECT_THAT(differing_files(gathered, crowd_files(folder_.out())), IsEmpty());
+}
+
+// Old lines of another ledger were taken for the meshes of today.
+TEST_F(Resume, SheetsMadeAnewBetweenShardsAndGatherAlterNoMesh) {
+  const std::string head = testing::read_text(folder_.head("bob"));
+  folder_.folder().write("heads/bob.obj", "# edited\n" + head);
+  run({1, 2});
+  run({2, 2});
+  remake_sheets(folder_.out(), {"output.contact_sheet.cell=48"}, folder_.cache());
+  EXPECT_THAT(verify_crowd(folder_.out()).altered, IsEmpty());
+}
+
+TEST_F(Resume, ARunThatOnlyGathersNeedsNoMemoryForFaces) {
+  fs::remove_all(folder_.out());
+  run({1, 2});
+  run({2, 2});
+  memory_ = 20'000;
+  run();
+  expect_whole("gathered in little memory");
 }
 
 TEST_F(Resume, GatherNamesAnAlteredFaceAndAnyRunMendsIt) {

@@ -195,6 +195,8 @@ TEST(Sheets, WhatTheyCompareWithIsCheckedBeforeTheWork) {
   fs::remove(folder / "other.obj");
   fs::create_directory(folder / "other.obj");
   refused(ExitCode::kMissingInput, "mob_0001");
+  fs::create_symlink("meshes", folder / "other.obj/meshes");  // a circle
+  refused(ExitCode::kMissingInput, "cannot be read");
 }
 
 TEST(Sheets, FollowTheDistanceMask) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/parts/part_list.h"
 
-#include <ctime>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -107,8 +105,7 @@ TEST(Parts, HaveClosednessOfAnyResolution) {
   }
 }
 
-// Each component was compared with each other one.
-TEST(Parts, OfVeryManyComponentsAreFoundInNoTime) {
+TEST(Parts, OfVeryManyComponentsAreFound) {
   constexpr int kSide = 28;  // 21,952 components
   testing::Shapes shapes;
   shapes.ball({0, 0, 0}, 10, 32);
@@ -122,9 +119,7 @@ TEST(Parts, OfVeryManyComponentsAreFoundInNoTime) {
     }
   }
   const Mesh mesh = shapes.mesh();
-  const std::clock_t start = std::clock();
   const PartList list = parts_of(mesh);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 3.0);
   ASSERT_EQ(list.parts.size(), 1U + kSide * kSide * kSide / 2);
   EXPECT_THAT(list.parts[0].components, ElementsAre(1));
   EXPECT_EQ(list.parts[1].components.size(), kSide * kSide * kSide / 2U);

@@ -9,6 +9,7 @@
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/crowd_sheets.h"
 #include "crowdface/job/generate.h"
 
 #include "reliability/io_faults.h"
@@ -148,6 +149,25 @@ TEST_F(Refusals, LinksNeverLeadOutOfTheFolder) {
   EXPECT_EQ(run({}).code, 0);
   EXPECT_EQ(read_text(folder_ / "elsewhere/mine.obj"), "mine");
   EXPECT_FALSE(fs::is_symlink(folder_.out() / "meshes/mob_0001.obj"));
+}
+
+// Test 12.
+TEST_F(Refusals, SheetsMadeAnewFollowNoLinkEither) {
+  ASSERT_EQ(run_with("output.contact_sheet={columns: 2, rows: 2, cell: 32}").code, 0);
+  for (const char* name : {"sheets", "renders", "ledger.jsonl"}) {
+    fs::create_directories(folder_ / "elsewhere");
+    fs::rename(folder_.out() / name, folder_ / "elsewhere" / name);
+    folder_.folder().write("elsewhere/sheets/family_photo.png", "mine");
+    fs::create_symlink(folder_ / "elsewhere" / name, folder_.out() / name);
+    const auto before = crowd_files(folder_.folder().path());
+    const ChildOutcome outcome = run_with_fault(
+        folder_.out(), {}, [&] { remake_sheets(folder_.out(), {"output.contact_sheet.cell=48"}); });
+    EXPECT_EQ(outcome.code, 73) << name << ' ' << outcome.message;
+    EXPECT_THAT(differing_files(before, crowd_files(folder_.folder().path())),
+                ::testing::IsEmpty());
+    fs::remove(folder_.out() / name);
+    fs::rename(folder_ / "elsewhere" / name, folder_.out() / name);
+  }
 }
 
 // Test 11.

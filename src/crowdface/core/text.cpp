@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "crowdface/core/utf8.h"
+
 namespace crowdface {
 namespace {
 
@@ -88,21 +90,25 @@ std::string format_fixed(double value, int decimals) {
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 80;
   std::string out = "\"";
-  for (const char c : text.substr(0, kLongest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (at + std::max<std::size_t>(length, 1) > kLongest) break;
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (byte == '"' || byte == '\\') {
       out += '\\';
-      out += c;
-    } else if (byte < 0x20 || byte == 0x7f) {
+      out += text[at];
+    } else if (length == 0 || byte < 0x20 || byte == 0x7f) {
       constexpr char kHex[] = "0123456789abcdef";
       out += "\\x";
       out += kHex[byte >> 4];
       out += kHex[byte & 15];
     } else {
-      out += c;
+      out += text.substr(at, length);
     }
+    at += std::max<std::size_t>(length, 1);
   }
-  if (text.size() > kLongest) out += "…";
+  if (at < text.size()) out += "…";
   return out + '"';
 }
 

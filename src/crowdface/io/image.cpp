@@ -94,10 +94,11 @@ void check_png_claim(const path& file, std::string_view bytes, const OIIO::Image
                       " bytes, found ", bytes.size(), " (cut short?)"));
 }
 
-void check_kind(const path& file, const OIIO::ImageSpec& spec) {
+void check_kind(const path& file, std::string_view format, const OIIO::ImageSpec& spec) {
   if (spec.deep || spec.depth > 1) refuse(file, "expected a flat image, found a deep one");
-  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
-      spec.height != spec.full_height) {
+  // Only OpenEXR has a window to lie in; the offsets of others say where the picture was cut from.
+  const bool moved = format == "openexr" && (spec.x != spec.full_x || spec.y != spec.full_y);
+  if (moved || spec.width != spec.full_width || spec.height != spec.full_height) {
     refuse(file,
            concat("expected all of the picture, found ", spec.width, " x ", spec.height,
                   " pixels at ", spec.x, ", ", spec.y, " of a display window of ", spec.full_width,
@@ -159,7 +160,7 @@ Image read_image(const path& file, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
   OIIO::ImageSpec spec;
   const auto input = open(file, format, spec);
-  check_kind(file, spec);
+  check_kind(file, format, spec);
   check_size(file, spec, limits);
   if (format == "png") check_png_claim(file, mapped.bytes(), spec);
   Image image{spec.width,         spec.height, spec.nchannels,

@@ -12,6 +12,7 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/utf8.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -92,6 +93,7 @@ bool is_name_of_ours(const fs::path& relative) {
 std::string_view objection_to(const fs::path& relative) {
   if (!stays_inside(relative)) return "lies outside the head's folder";
   if (is_name_of_ours(relative)) return "has a name that belongs to crowdface's own files";
+  if (!is_utf8(relative.native())) return "has a name that is not UTF-8";  // for ledger and report
   return {};
 }
 

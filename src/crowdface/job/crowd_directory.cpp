@@ -186,7 +186,10 @@ void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& fo
   const fs::path root = fs::weakly_canonical(directory.root, error);
   if (error) return;  // not there, and cannot be made: told elsewhere
   const fs::path real = fs::weakly_canonical(folder, error);
-  if (!error && !real.lexically_relative(root).native().starts_with("..")) return;
+  if (error) {
+    throw CannotCreate(concat(folder.string(), ": cannot be reached: ", error.message()));
+  }
+  if (!real.lexically_relative(root).native().starts_with("..")) return;
   throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
                             ", where nothing is written"));
 }

@@ -87,6 +87,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             ": this crowd has no contact sheet; ask for one with --set "
                             "output.contact_sheet='{columns: 6}'"));
   }
+  check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
   const CrowdLock lock(directory, {});
   std::vector<Recipe> crowd;
   std::vector<std::string> ids;

@@ -293,6 +293,14 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
              pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : ""));
 }
 
+/// Whether a run before this one may have made all its faces.
+bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
+  std::error_code ignored;
+  if (fs::exists(directory.ledger(), ignored)) return true;
+  return shard.whole() ? !directory.shard_ledgers().empty()
+                       : fs::exists(directory.ledger(shard), ignored);
+}
+
 /// Casts the crowd and fills its folder, as far as that is not done.
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
@@ -300,10 +308,8 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   const CastJob crowd = cast_job(job, directory, options, stages);
   LazyStages face_stages(job, crowd, options);
   // A crowd that goes on may have no face to make; a new one is refused before anything is written.
-  std::error_code ignored;
-  const bool is_new =
-      purpose == Purpose::kGenerate &&
-      (options.replace == Replace::kForce || !fs::exists(directory.ledger(options.shard), ignored));
+  const bool is_new = purpose == Purpose::kGenerate &&
+                      (options.replace == Replace::kForce || !goes_on(directory, options.shard));
   if (is_new && !crowd.cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);

@@ -40,6 +40,16 @@ std::optional<LedgerEntry::File> file_of(const Json& json) {
   return LedgerEntry::File{*name, {bytes->get<std::uint64_t>(), *hash}};
 }
 
+bool file_matches(const fs::path& root, const LedgerEntry::File& file) {
+  std::error_code error;
+  if (fs::file_size(root / file.name, error) != file.content.bytes || error) return false;
+  try {
+    return hash_file(root / file.name) == file.content;
+  } catch (const Error&) {  // what cannot be read is not there
+    return false;
+  }
+}
+
 std::string format_all(const std::vector<LedgerEntry>& entries) {
   std::string text;
   for (const LedgerEntry& entry : entries) text += format_ledger_line(entry) + '\n';
@@ -58,8 +68,7 @@ std::string format_ledger_line(const LedgerEntry& entry) {
         {{"file", file.name}, {"bytes", file.content.bytes}, {"hash", file.content.digest.hex()}});
   }
   if (!entry.note.empty()) json["note"] = Json::parse(entry.note);
-  // File names need not be UTF-8.
-  std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string line = json.dump();
   line.pop_back();
   const std::string sum = hash_bytes(line).hex();
   return concat(line, kSum, sum, kEnd);
@@ -113,16 +122,8 @@ LedgerLines read_ledger(const fs::path& path) {
 }
 
 bool files_match(const fs::path& root, const LedgerEntry& entry) {
-  for (const LedgerEntry::File& file : entry.files) {
-    std::error_code error;
-    if (fs::file_size(root / file.name, error) != file.content.bytes || error) return false;
-    try {
-      if (hash_file(root / file.name) != file.content) return false;
-    } catch (const Error&) {  // what cannot be read is not there
-      return false;
-    }
-  }
-  return true;
+  return std::all_of(entry.files.begin(), entry.files.end(),
+                     [&](const LedgerEntry::File& file) { return file_matches(root, file); });
 }
 
 void add_lines(LedgerLines lines, LinesOfItems& to) {
@@ -212,15 +213,26 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
   const auto known = read_.find(item);
   adopt_entry(known == read_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.back(),
               files_now(names));
+  // Of several lines the last that the files elsewhere agree with, else the last.
+  const auto line_of = [&](const std::vector<LedgerEntry>& lines) {
+    if (lines.size() == 1) return lines.back();
+    const auto agreed = std::find_if(lines.rbegin(), lines.rend(), [&](const LedgerEntry& line) {
+      return std::all_of(line.files.begin(), line.files.end(), [&](const auto& file) {
+        return is_in_them(file.name) || file_matches(root_, file);
+      });
+    });
+    return agreed == lines.rend() ? lines.back() : *agreed;
+  };
   for (const auto& [other, lines] : read_) {
     if (other == item) continue;
-    std::vector<LedgerEntry::File> files = lines.back().files;
+    LedgerEntry entry = line_of(lines);
+    std::vector<LedgerEntry::File> files = entry.files;
     for (LedgerEntry::File& file : files) {
       std::error_code ignored;
       if (!is_in_them(file.name) || !fs::exists(root_ / file.name, ignored)) continue;
       file.content = hash_file(root_ / file.name);
     }
-    adopt_entry(lines.back(), std::move(files));
+    adopt_entry(std::move(entry), std::move(files));
   }
 }
 

@@ -128,7 +128,8 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["casting"] = Json::parse(format_casting(job, cast));
   report["warnings"] = warnings;
   report["faces"] = faces_to_json(cast, files);
-  return report.dump(2) + "\n";
+  // Warnings may name files whose names are not UTF-8.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <system_error>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -28,10 +29,18 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return concat(count, ' ', count == 1 ? one : many);
 }
 
+/// \throws MissingInput if it cannot be said, as of what is in a folder that may not be read.
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::status_known(status)) return std::filesystem::exists(status);
+  throw MissingInput(concat(path.string(), ": cannot be read: ", error.message()));
+}
+
 /// In which format a crowd has a face. \throws MissingInput if in none.
 MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
   for (const MeshFormat format : all_mesh_formats()) {
-    if (std::filesystem::exists(directory.mesh(id, format))) return format;
+    if (is_there(directory.mesh(id, format))) return format;
   }
   throw MissingInput(
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
@@ -292,7 +301,7 @@ void check_comparison(const Job& job, const std::vector<Recipe>& crowd) {
   const auto& sheet = job.config.output.contact_sheet;
   if (!sheet || sheet->compare.with != With::kFile) return;
   const std::filesystem::path& file = sheet->compare.file;
-  if (!std::filesystem::is_directory(file)) {
+  if (!is_there(file) || !std::filesystem::is_directory(file)) {
     read_reference(file, job.inputs.faces.topology.vertex_count);
     return;
   }

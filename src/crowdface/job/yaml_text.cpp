@@ -5,29 +5,10 @@
 
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/utf8.h"
 
 namespace crowdface {
 namespace {
-
-bool is_continuation(char c) {
-  return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
-}
-
-/// Bytes of the UTF-8 character that `text` starts with; 0 if it is none (RFC 3629: no overlong
-/// forms, no surrogates, nothing above U+10FFFF).
-std::size_t character_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if (!is_continuation(text[i])) return 0;
-  }
-  const auto second = static_cast<unsigned char>(text[1]);
-  const bool refused = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
-                       (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
-  return refused ? 0 : length;
-}
 
 bool is_utf16(std::string_view text) {
   return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
@@ -56,7 +37,7 @@ YamlText::YamlText(std::string_view text, const std::string& source)
   if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
   for (std::size_t i = 0; i < text_.size(); ++i) {
     if (text_[i] == '\n') line_starts_.push_back(i + 1);
-    if (is_continuation(text_[i])) continuations_.push_back(i);
+    if (is_utf8_continuation(text_[i])) continuations_.push_back(i);
   }
 }
 
@@ -94,7 +75,7 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
   }
   for (std::size_t at = 0; at < text_.size();) {
     const std::string_view rest = text_.substr(at);
-    const std::size_t length = character_length(rest);
+    const std::size_t length = utf8_length(rest);
     if (length == 0) {
       return Problem{place_of(at),
                      "expected UTF-8 text, found a byte that is not; save the file "
