@@ -3,8 +3,10 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/face_builder.h"
+#include "crowdface/job/input_files.h"
 #include "crowdface/job/mesh_writers.h"
 
 #include "cli/commands.h"
@@ -30,6 +32,18 @@ PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
                             nearest ? concat("; did you mean ", *nearest, "?") : ""));
 }
 
+/// \throws InvalidInput if a line that was written by hand asks for more than is fitted.
+void check_levels(const Recipe& recipe, const Job& job, const std::string& reference) {
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    if (recipe.regions[k].iterations <= job.inputs.max_level) continue;
+    throw InvalidInput(concat(reference, ": ", job.names.regions[k], ": expected at most ",
+                              job.inputs.max_level,
+                              " iterations (smoothing.max_size or "
+                              "max_iterations), found ",
+                              recipe.regions[k].iterations));
+  }
+}
+
 void blend(const ConfigOptions& options, const std::string& reference, const std::string& out,
            bool any_settings) {
   const auto format = mesh_format_of(out);
@@ -39,7 +53,9 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
                "found ",
                quoted(out)));
   }
+  const std::filesystem::path file = output_file(out);
   const Job job = load_job(options.config, options.overrides);
+  refuse_to_write_over_inputs(job.config, file);
   const PlanLine line = find_recipe(reference, job.names);
   if (line.settings != job.settings.hex() && !any_settings) {
     throw InvalidInput(concat(reference, ": was cast under other settings: expected ",
@@ -47,6 +63,7 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
                               options.config, "), found ", line.settings,
                               "; --any-settings blends it all the same"));
   }
+  if (job.config.smoothing.levels != Levels::kExact) check_levels(line.recipe, job, reference);
   Prepared prepared;
   if (job.config.smoothing.levels == Levels::kExact) {  // one face needs no prepared heads
     prepared.filter.emplace(job.smoothing, job.inputs.faces.heads.front().positions);
@@ -57,7 +74,7 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
   Positions positions;
   FaceBuilder(job, prepared).build(std::span(&recipe, 1), std::span(&positions, 1));
   const MeshWriters writers(job.config, job.inputs, {*format}, {&line.recipe, 1});
-  write_mesh(writers.encode(line.recipe, positions).front(), out);
+  write_mesh(writers.encode(line.recipe, positions).front(), file);
   log_info(concat(line.recipe.id, " written to ", out));
 }
 

@@ -6,6 +6,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/crowd_renders.h"
+#include "crowdface/job/input_files.h"
 #include "crowdface/job/named_parts.h"
 #include "crowdface/job/pipeline.h"
 #include "crowdface/smooth/level_size.h"
@@ -46,6 +47,7 @@ void write_masks(const Job& job, const std::filesystem::path& directory) {
   make_directories(directory);
   const auto write = [&](const std::string& name, const VertexColours& colours) {
     const std::filesystem::path path = directory / concat(name, ".png");
+    refuse_to_write_over_inputs(job.config, path);
     write_file(path, renders.render_png(mean, colours));
     log_info(path.string());
   };
@@ -66,8 +68,8 @@ Run add_check(CLI::App& program) {
     std::string masks;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "check", "Validate config, heads and masks: every problem at once, nothing written");
+  CLI::App* command =
+      program.add_subcommand("check", "Validate config, heads and masks: every problem at once");
   options->config.add_to(*command);
   command->add_option("--masks", options->masks, "Render each region's mask on the mean head here")
       ->type_name("DIR");

@@ -60,8 +60,21 @@ void write_heads(const HeadModel& model, const std::string& kind, const Wanted& 
   }
 }
 
-void write_masks(const std::map<int, std::vector<std::uint8_t>>& tiles, const std::string& kind,
-                 const fs::path& directory) {
+/// Pixels by tile.
+using Masks = std::map<int, std::vector<std::uint8_t>>;
+
+/// Made before anything is written: a model without eyes or teeth has none.
+template <class Model>
+Masks masks_of(const Model& model, const Options& options) {
+  try {
+    return band_masks(model.neutral(), model.heights(), kMaskSize);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(
+        concat(options.data, ": eyes, teeth or other marks of the face's height: ", error.what()));
+  }
+}
+
+void write_masks(const Masks& tiles, const std::string& kind, const fs::path& directory) {
   for (const auto& [tile, pixels] : tiles) {
     const std::string number = tiles.size() > 1 ? concat(".", tile) : std::string();
     write_file(directory / concat(kind, "_bands", number, ".png"),
@@ -79,6 +92,8 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
                                static_cast<Index>(whole_number("--vertices", options.vertices,
                                                                kFewestVertices, kMostVertices)));
   Index vertices = topology.vertex_count;
+  const Masks masks = masks_of(model, options);
+  make_directories(wanted.directory);
   write_heads(model, "makehuman", wanted, [&](const Positions& positions, const fs::path& file) {
     Mesh mesh = model.neutral();
     mesh.positions = positions;
@@ -92,8 +107,7 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
     vertices = mesh.topology.vertex_count;
     write_obj(mesh, "a head of the MakeHuman model, made by crowdface import; cm", file, materials);
   });
-  write_masks(band_masks(model.neutral(), model.heights(), kMaskSize), "makehuman",
-              wanted.directory);
+  write_masks(masks, "makehuman", wanted.directory);
   log_info(concat(wanted.count, " heads of ", vertices, " vertices, their regions and tags in ",
                   wanted.directory.string()));
 }
@@ -103,6 +117,8 @@ void import_ict(const Options& options, const Wanted& wanted) {
     throw UsageError("--vertices: ICT heads keep the model's own mesh; only makehuman is refined");
   }
   const IctHeads model(options.data);
+  const Masks masks = masks_of(model, options);
+  make_directories(wanted.directory);
   write_heads(model, "ict", wanted, [&](const Positions& positions, const fs::path& file) {
     write_obj_like(model.file(), model.neutral().topology, positions, file);
   });
@@ -114,7 +130,7 @@ void import_ict(const Options& options, const Wanted& wanted) {
     make_directories(to.parent_path());
     write_file(to, read_file(material.from));
   }
-  write_masks(band_masks(model.neutral(), model.heights(), kMaskSize), "ict", wanted.directory);
+  write_masks(masks, "ict", wanted.directory);
   log_info(concat(wanted.count, " heads of ", model.neutral().topology.vertex_count,
                   " vertices from ", model.mode_count(), " identity modes, and their regions, in ",
                   wanted.directory.string(), "; the model knows no sex and no age: no tags"));
@@ -123,7 +139,6 @@ void import_ict(const Options& options, const Wanted& wanted) {
 void import_heads(const Options& options) {
   const Wanted wanted{options.out, whole_number("--count", options.count, 0, kMostHeads),
                       whole_number("--seed", options.seed, 0, UINT64_MAX)};
-  make_directories(wanted.directory);
   if (options.model == "makehuman") {
     import_makehuman(options, wanted);
   } else {

@@ -6,8 +6,10 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_file.h"
+#include "crowdface/job/input_files.h"
 #include "crowdface/job/starter_config.h"
 
 #include "cli/commands.h"
@@ -63,19 +65,21 @@ LengthUnit guess_unit(double height) {
 
 void init(const fs::path& heads, const fs::path& out, bool force) {
   const std::vector<fs::path> files = obj_files(heads);
+  const fs::path file = output_file(out);
   std::error_code ignored;
-  if (fs::exists(out, ignored) && !force) {
+  if (fs::exists(file, ignored) && !force) {
     throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
   }
   const Positions first = read_obj(files[0]).positions;
   StarterFacts facts;
-  const fs::path here = fs::absolute(out).lexically_normal().parent_path();
+  const fs::path here = fs::absolute(file).lexically_normal().parent_path();
   facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
-  for (const fs::path& file : files) facts.names.push_back(file.stem().string());
+  refuse_path_no_config_can_hold(facts.heads);
+  for (const fs::path& head : files) facts.names.push_back(head.stem().string());
   facts.head_height = first.col(facts.up.index).maxCoeff() - first.col(facts.up.index).minCoeff();
   facts.units = guess_unit(facts.head_height);
   facts.crowd_name = "crowd";
-  write_file(out, starter_config(facts));
+  write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
                   name_of(facts.units), " because the first head is ",
                   format_fixed(facts.head_height, 2),

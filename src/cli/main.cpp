@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -47,6 +48,9 @@ int run(const crowdface::cli::Run& command) {
   } catch (const crowdface::Error& error) {
     crowdface::log_error(error.what());
     return static_cast<int>(error.code());
+  } catch (const std::filesystem::filesystem_error& error) {
+    crowdface::log_error(error.what());
+    return static_cast<int>(ExitCode::kIoError);
   } catch (const std::bad_alloc&) {
     crowdface::log_error("out of memory; fewer threads (--threads) need less");
     return static_cast<int>(ExitCode::kIoError);
@@ -97,7 +101,8 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else is wrong usage.
-    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+    if (program.exit(error) != 0) return static_cast<int>(ExitCode::kUsage);
+    return run([] {});
   }
   crowdface::catch_interrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then a failed write, with a message

@@ -23,8 +23,10 @@ Run add_plan(CLI::App& program) {
   options->config.add_to(*command);
   options->config.add_review_to(*command);
   options->write.add_to(*command);
-  command->add_flag("--estimate", options->estimate,
-                    "Cast nothing: how many faces these heads hold at which distance");
+  command
+      ->add_flag("--estimate", options->estimate,
+                 "Cast nothing: how many faces these heads hold at which distance")
+      ->excludes("--dry-run", "--force", "--memory");
   options->common.add_to(*command);
   return [options] {
     const auto threads = options->common.apply();

@@ -3,6 +3,8 @@
 
 #include <memory>
 
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
@@ -27,6 +29,15 @@ void tell_errors(const Job& job, const Prepared& prepared) {
   }
 }
 
+/// Other commands go on without a cache; this one is for nothing else.
+void refuse_heads_not_kept(const Prepared& prepared, const std::vector<std::string>& names,
+                           const std::filesystem::path& cache) {
+  for (std::size_t h = 0; h < names.size(); ++h) {
+    if (prepared.levels[h].mapped) continue;
+    throw IoError(concat(cache.string(), ": does not keep the head ", names[h], ", prepared"));
+  }
+}
+
 }  // namespace
 
 Run add_prepare(CLI::App& program) {
@@ -42,8 +53,10 @@ Run add_prepare(CLI::App& program) {
   return [options] {
     const auto threads = options->common.apply();
     const Job job = load_job(options->config.config, options->config.overrides);
-    const Prepared prepared =
-        prepare(job.config, job.inputs, job.smoothing, options->config.cache_path());
+    const std::filesystem::path cache = options->config.cache_path();
+    make_directories(cache);
+    const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+    refuse_heads_not_kept(prepared, job.names.heads, cache);
     const double size =
         size_of_iterations(job.smoothing.kind(), job.inputs.max_level, job.inputs.edge_length_mm);
     log_info(concat("L_max is ", job.inputs.max_level, " iterations, a size of ",

@@ -4,9 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/job/mesh_format.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/iterate.h"
 
@@ -49,6 +52,14 @@ std::filesystem::path output_of(const Options& options, std::uint64_t level, boo
 
 void smooth_file(const Options& options) {
   const std::vector<std::uint64_t> levels = levels_of(options.iterations);
+  if (mesh_format_of(options.out) != MeshFormat::kObj) {
+    throw UsageError(
+        concat("--output: expected a file name that ends in .obj, found ", quoted(options.out)));
+  }
+  std::vector<std::filesystem::path> outputs;
+  for (const std::uint64_t level : levels) {
+    outputs.push_back(output_file(output_of(options, level, levels.size() == 1)));
+  }
   const ObjFile file = read_obj(options.in);
   const SmoothingOperator smoothing(
       build_adjacency(file.topology),
@@ -63,9 +74,8 @@ void smooth_file(const Options& options) {
     results = smooth(ChebyshevFilter(smoothing, file.positions), file.positions, levels);
   }
   for (std::size_t l = 0; l < levels.size(); ++l) {
-    const auto path = output_of(options, levels[l], levels.size() == 1);
-    write_obj_like(file, file.topology, results[l], path);
-    log_info(concat(options.in, " smoothed by ", levels[l], " iterations: ", path.string()));
+    write_obj_like(file, file.topology, results[l], outputs[l]);
+    log_info(concat(options.in, " smoothed by ", levels[l], " iterations: ", outputs[l].string()));
   }
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
@@ -18,6 +21,8 @@
 namespace crowdface::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint64_t kMostHeads = 1000;
 constexpr std::uint64_t kFewestVertices = 5000, kMostVertices = 1'200'000;
 constexpr int kMaskSize = 1024;
@@ -28,12 +33,24 @@ struct Options {
   bool tags = false, skin_only = false;
 };
 
+/// Whether both name one folder, which need not be there yet.
+bool same_folder(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(a / "", error), error) ==
+         fs::weakly_canonical(fs::absolute(b / "", error), error);
+}
+
 void synth(const Options& options) {
   const std::uint64_t count = whole_number("--count", options.count, 0, kMostHeads);
   const std::uint64_t vertices =
       whole_number("--vertices", options.vertices, kFewestVertices, kMostVertices);
   const std::uint64_t seed = whole_number("--seed", options.seed, 0, UINT64_MAX);
-  const std::filesystem::path directory = options.out;
+  const fs::path directory = options.out;
+  fs::path mask = directory / "regions.png";
+  if (!options.mask.empty()) {
+    const bool beside = same_folder(fs::path(options.mask).parent_path(), directory);
+    mask = beside ? fs::path(options.mask) : output_file(options.mask);
+  }
   make_directories(directory);
   using Parts = SyntheticHeads::Parts;
   const SyntheticHeads heads(static_cast<Index>(vertices),
@@ -60,8 +77,6 @@ void synth(const Options& options) {
     }
     write_tags(tagged, concat("Synthetic heads of seed ", seed), directory);
   }
-  const std::filesystem::path mask =
-      options.mask.empty() ? directory / "regions.png" : std::filesystem::path(options.mask);
   write_file(mask, encode_png(kMaskSize, kMaskSize, 3, synthetic_region_mask(kMaskSize)));
   log_info(concat(count, " heads of ", heads.topology().vertex_count, " vertices in ",
                   directory.string(), ", their regions in ", mask.string()));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -81,6 +82,22 @@ TEST(SmallProgram, PaysForWhatCannotBeHadOnlyWhatItMust) {
   const Vector x = program.solve(1e-12);
   EXPECT_NEAR(x[0], 0.5, 1e-9);
   EXPECT_NEAR(x[1], 0.5, 1e-9);
+}
+
+// Bounds from positions that are no numbers left the table of active ones.
+TEST(SmallProgram, EndsWithoutNumbers) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e308}) {
+    SmallProgram program(2);
+    program.want(0, 0, 1);
+    program.want(1, bad, 1);
+    program.demand(Vector{1, 0.5}, 1);
+    program.demand(Vector{bad, 1}, 2);
+    program.demand(Vector{-1, 1}, bad);
+    program.demand(Vector{0, 1}, 1);
+    program.solve(1e-9);
+  }
 }
 
 TEST(SmallProgram, EndsWhereNothingSatisfiesAll) {

@@ -25,7 +25,10 @@ struct OpenedFile {
 };
 
 OpenedFile open_for_reading(const fs::path& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  int fd = -1;
+  do {  // a pipe, which would be waited for, is told below
+    fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  } while (fd < 0 && errno == EINTR);
   if (fd < 0) {
     const std::string message = concat(path.string(), ": cannot be opened: ", reason());
     // Not the file's fault, but the machine's: the disk, or too many open files.

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,11 @@ LogLevel log_level() {
 }
 
 void add_log_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw CannotCreate(concat(path.string(), ": log file: expected a regular file, or none yet"));
+  }
   std::shared_ptr<spdlog::sinks::basic_file_sink_mt> file;
   try {
     file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string());

@@ -43,6 +43,11 @@ Claim claim(int fd) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
+    struct stat status {};
+    if (::lstat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
+        !S_ISLNK(status.st_mode)) {
+      throw CannotCreate(concat(target.string(), ": expected a regular file, or none yet"));
+    }
     constexpr int kTries = 1000;
     for (int i = 0; i < kTries; ++i) {
       path_ = target;

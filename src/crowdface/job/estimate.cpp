@@ -8,6 +8,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/casting.h"
+#include "crowdface/job/config_writer.h"
 #include "crowdface/job/crowd_directory.h"
 
 namespace crowdface {
@@ -135,6 +136,9 @@ std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t as
 std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
                      const std::filesystem::path& cache) {
   const Job job = load_job(config_file, overrides);
+  const CrowdDirectory directory{job.config.output.directory};
+  // Beside whatever crowd is there: two files of its own.
+  check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
   const CastingGround ground = casting_ground(job, prepared);
   const Casting casting = casting_of(job, ground.space.head_distances());
@@ -143,7 +147,7 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   const auto rows = estimate_capacity(casting, judge, counts_up_to(asked),
                                       std::clamp(5 * asked, kSmallestPool, kLargestPool));
   const double asked_mm = job.config.diversity.min_distance_mm;
-  const std::filesystem::path folder = job.config.output.directory;
+  const std::filesystem::path& folder = directory.root;
   make_directories(folder);
   write_file(folder / "estimate.csv", format_csv(rows));
   write_file(folder / "estimate.svg", plot_estimate(rows, asked, asked_mm));

@@ -98,6 +98,25 @@ void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory)
   }
 }
 
+/// With `output.directory: .` beside a config.yaml of the user's, that would be replaced.
+void refuse_to_write_over_config(const Job& job, const CrowdDirectory& directory) {
+  std::error_code ignored;
+  if (!fs::equivalent(job.config.file, directory.config(), ignored)) return;
+  if (fs::exists(directory.plan(), ignored)) return;  // it is a crowd's own
+  if (read_file(job.config.file) == effective_config(job.config, directory.root)) return;
+  throw UsageError(concat(job.config.file.string(),
+                          ": stands where the crowd's own config would be written; choose another "
+                          "folder with --out, or rename it"));
+}
+
+/// Refuses a folder that the crowd cannot be written to, or where it would destroy what it reads.
+void check_output(const Job& job, Replace replace) {
+  const CrowdDirectory directory{job.config.output.directory};
+  refuse_to_write_over_heads(job, directory);
+  refuse_to_write_over_config(job, directory);
+  check_crowd_directory(directory, effective_config(job.config, directory.root), replace);
+}
+
 /// Prepared heads and the crowd cast from them.
 struct CastJob {
   Prepared prepared;
@@ -106,10 +125,8 @@ struct CastJob {
 
 /// Everything that comes before a file is written: a crowd that cannot be cast leaves nothing
 /// behind, and no other crowd in the folder is touched for it.
-CastJob cast_job(const Job& job, const CrowdDirectory& directory, const GenerateOptions& options,
-                 StageSeconds& stages) {
-  refuse_to_write_over_heads(job, directory);
-  check_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+CastJob cast_job(const Job& job, const GenerateOptions& options, StageSeconds& stages) {
+  check_output(job, options.replace);
   Prepared prepared = timed(stages, "prepare", [&] {
     return prepare(job.config, job.inputs, job.smoothing, options.cache);
   });
@@ -175,11 +192,17 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
   return warnings;
 }
 
-void tell_dry_run(const Job& job) {
+/// \param with_faces  false: only the plan is wanted
+void tell_dry_run(const Job& job, bool with_faces) {
   const Config& config = job.config;
   std::uint64_t faces = config.crowd.count + config.recipes.size();
   for (const FamilyOptions& family : config.families) {
     faces += static_cast<std::uint64_t>(family.members);
+  }
+  if (!with_faces) {
+    log_info(concat("dry run: a plan of ", faces, " faces into ", config.output.directory.string(),
+                    "; nothing was written"));
+    return;
   }
   const std::uint64_t bytes = faces * estimate_mesh_bytes(job.inputs, config.output.meshes);
   log_info(concat("dry run: ", faces, " faces of ", job.inputs.faces.topology.vertex_count,
@@ -305,7 +328,7 @@ bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
   const CrowdDirectory directory{job.config.output.directory};
-  const CastJob crowd = cast_job(job, directory, options, stages);
+  const CastJob crowd = cast_job(job, options, stages);
   LazyStages face_stages(job, crowd, options);
   // A crowd that goes on may have no face to make; a new one is refused before anything is written.
   const bool is_new = purpose == Purpose::kGenerate &&
@@ -335,7 +358,10 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const LogMemory memory;  // the crowd's log is opened once there is a crowd
   StageSeconds stages;
   const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
-  if (options.dry_run) return tell_dry_run(job);
+  if (options.dry_run) {
+    check_output(job, options.replace);
+    return tell_dry_run(job, true);
+  }
   run_job(job, options, Purpose::kGenerate, memory, stages);
 }
 
@@ -352,10 +378,13 @@ void gather(const fs::path& crowd_directory, const fs::path& cache) {
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options) {
   const Job job = load_job(config_file, overrides);
-  if (options.dry_run) return tell_dry_run(job);
+  if (options.dry_run) {
+    check_output(job, options.replace);
+    return tell_dry_run(job, false);
+  }
   const CrowdDirectory directory{job.config.output.directory};
   StageSeconds stages;
-  const CastJob crowd = cast_job(job, directory, options, stages);
+  const CastJob crowd = cast_job(job, options, stages);
   const CrowdLock lock(directory, {});
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
   write_plan(job, directory, crowd.cast,

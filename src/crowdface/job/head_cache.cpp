@@ -93,7 +93,9 @@ fs::path cache_directory() {
   if (const std::string home = from("HOME"); !home.empty()) {
     return fs::path(home) / ".cache" / "crowdface";
   }
-  return fs::temp_directory_path() / "crowdface-cache";
+  std::error_code error;
+  const fs::path temporary = fs::temp_directory_path(error);  // one that is not there is an error
+  return (error ? fs::path("/tmp") : temporary) / "crowdface-cache";
 }
 
 fs::path cache_entry(const fs::path& cache, const Digest& key) {
@@ -178,11 +180,14 @@ void write_cached_head(const fs::path& cache, const Digest& key, const HeadCache
 
 CacheContents list_cache(const fs::path& cache) {
   CacheContents contents;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(cache, ignored)) {
+  std::error_code error, ignored;
+  for (const auto& entry : fs::directory_iterator(cache, error)) {
     if (entry.path().extension() != kEnding || !entry.is_regular_file(ignored)) continue;
     contents.entries.push_back(entry.path());
     contents.bytes += entry.file_size(ignored);
+  }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    throw MissingInput(concat(cache.string(), ": cannot be read as a folder: ", error.message()));
   }
   std::sort(contents.entries.begin(), contents.entries.end());
   return contents;

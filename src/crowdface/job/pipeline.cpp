@@ -2,6 +2,7 @@
 #include "crowdface/job/pipeline.h"
 
 #include "crowdface/core/text.h"
+#include "crowdface/job/input_files.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -56,6 +57,7 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
     return std::nullopt;
   }
   Config& config = reading.config;
+  refuse_paths_no_config_can_hold(config);
   std::optional<Inputs> inputs = load_inputs(config, problems);
   if (!inputs) return std::nullopt;
   check_levels(config, *inputs, problems);

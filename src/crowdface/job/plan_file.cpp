@@ -17,6 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kFarthest = 1e6;  // on the weight plane, as in a config
+
 const std::string& name_at(const std::vector<std::string>& names, Index i) {
   return names[static_cast<std::size_t>(i)];
 }
@@ -104,6 +106,13 @@ class LineReader {
     }
     return value.get<double>();
   }
+  double number(const Json& value, std::string_view key, double low, double high) const {
+    const double result = number(value, key);
+    if (result < low || result > high) {
+      fail(key, concat("a number from ", low, " to ", high), value.dump());
+    }
+    return result;
+  }
 
   std::uint64_t whole(const Json& value, std::string_view key) const {
     if (!value.is_number_unsigned()) fail(key, "a whole number of zero or more", value.dump());
@@ -127,21 +136,25 @@ class LineReader {
     RegionRecipe result;
     if (const Json& position = member(json, "position"); !position.is_null()) {
       if (!position.is_array() || position.size() != 2) fail("position", "[x, y]", position.dump());
-      result.position =
-          PlanePoint(number(position[0], "position"), number(position[1], "position"));
+      result.position = PlanePoint(number(position[0], "position", -kFarthest, kFarthest),
+                                   number(position[1], "position", -kFarthest, kFarthest));
     }
     const Json& weights = member(json, "weights");
     if (!weights.is_object()) fail("weights", "an object", weights.dump());
+    double sum = 0;
     for (const auto& [key, value] : weights.items()) {
-      result.weights.push_back({head(key, "weights"), number(value, "weights")});
+      result.weights.push_back({head(key, "weights"), number(value, "weights", 0, 1)});
+      sum += result.weights.back().weight;
     }
-    result.smoothness = number(member(json, "smoothness"), "smoothness");
+    constexpr double kRounding = 1e-6;  // of numbers written by hand
+    if (sum > 1 + kRounding) fail("weights", "a sum of at most 1", concat(sum));
+    result.smoothness = number(member(json, "smoothness"), "smoothness", 0, 1);
     result.iterations = whole(member(json, "iterations"), "iterations");
     constexpr std::uint64_t kMostIterations = 1'000'000'000;
     if (result.iterations > kMostIterations) {
       fail("iterations", "at most 10^9", concat(result.iterations));
     }
-    result.extrapolation = number(member(json, "extrapolation"), "extrapolation");
+    result.extrapolation = number(member(json, "extrapolation"), "extrapolation", -4, 4);
     return result;
   }
 

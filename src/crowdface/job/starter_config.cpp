@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/job/starter_config.h"
 
+#include <algorithm>
+
 #include "crowdface/core/text.h"
+#include "crowdface/job/config_values.h"
 #include "crowdface/job/yaml.h"
 
 namespace crowdface {
 namespace {
 
-std::string name_some(const std::vector<std::string>& names) {
+/// In a comment: what is no head's name might end the line.
+std::string shown(const std::string& name) {
+  return is_name(name) ? name : quoted(name);
+}
+
+std::string name_some(std::vector<std::string> names) {
+  std::transform(names.begin(), names.end(), names.begin(), shown);
   if (names.empty()) return "none yet";
   if (names.size() < 3) return join(names, " and ");
   return concat(names.front(), ", ", names[1], ", … ", names.back());

@@ -103,6 +103,7 @@ bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t
     const double whole = depends ? kInfinity : (least - dot(a, x, n)) / square;
     if (blocked == kInfinity && whole == kInfinity) return false;
     const double length = blocked < whole ? blocked : whole;
+    if (!std::isfinite(length)) return false;  // of positions that are no numbers
     for (std::size_t j = 0; j < active.count; ++j) active.forces[j] -= length * shares[j];
     force += length;
     if (!depends) {

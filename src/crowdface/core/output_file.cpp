@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/output_file.h"
+
+#include <system_error>
+
+#include <unistd.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+namespace fs = std::filesystem;
+
+fs::path output_file(const fs::path& path) {
+  const auto refuse = [&](std::string_view what) {
+    throw CannotCreate(concat(path.empty() ? "\"\"" : path.string(), ": ", what));
+  };
+  if (!path.has_filename()) refuse("expected the name of a file to write");
+  std::error_code error;
+  fs::path file = path;
+  if (fs::is_symlink(fs::symlink_status(path, error))) {
+    file = fs::weakly_canonical(path, error);
+    if (error) refuse(concat("cannot be reached: ", error.message()));
+  }
+  const fs::file_status status = fs::symlink_status(file, error);
+  if (!fs::status_known(status)) refuse(concat("cannot be created: ", error.message()));
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    refuse("expected a regular file, or none yet");
+  }
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error)) {
+    refuse(concat("cannot be created: there is no folder ", folder.string()));
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    refuse(concat("cannot be created: the folder ", folder.string(), " may not be written to"));
+  }
+  return file;
+}
+
+}  // namespace crowdface
