@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common_options.h"
 
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
 #include "crowdface/core/error.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/log.h"
@@ -18,6 +22,16 @@ void add_optional(CLI::App& command, const std::string& name, std::optional<std:
       .add_option_function<std::string>(
           name, [&value](const std::string& text) { value = text; }, help)
       ->type_name(type);
+}
+
+/// Lines of a log begin with the date: whatever does not is no log.
+void refuse_to_append_to_other_files(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;  // add_log_file refuses others
+  const int first = std::ifstream(path).peek();
+  if (first == std::ifstream::traits_type::eof() || (first >= '0' && first <= '9')) return;
+  throw CannotCreate(
+      concat(path, ": --log-file: expected a log, or no file yet, found another file"));
 }
 
 }  // namespace
@@ -40,7 +54,10 @@ void CommonOptions::add_to(CLI::App& command) {
 std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   constexpr std::uint64_t kMostThreads = 1024;
   set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);
-  if (!log_file.empty()) add_log_file(log_file);
+  if (!log_file.empty()) {
+    refuse_to_append_to_other_files(log_file);
+    add_log_file(log_file);
+  }
   for (const std::string& limit : limits) set_input_limit(limit);
   const std::uint64_t limit =
       threads.empty() ? 0 : whole_number("--threads", threads, 1, kMostThreads);

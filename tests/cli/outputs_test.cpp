@@ -42,6 +42,7 @@ TEST_F(Outputs, InputsAreNotWrittenOver) {
   crowdface(64, {"blend", config, "--recipe", recipe, "--cache", cache, "-o", at("latest.obj")},
             {"input of this job"});
   fs::remove(folder_ / "latest.obj");
+  crowdface(73, {"check", config, "--log-file", folder_.head("ann").string()}, {"log"});
   expect_nothing_changed();
   // A region's picture would get the name of its mask.
   const std::string region = folder_.crowd().region_names()[0];
