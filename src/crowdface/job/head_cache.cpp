@@ -133,8 +133,10 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   PreparedHead head;
   head.max_level = shape.max_level;
   head.trajectory.resize(shape.trajectory_levels, 3 * shape.samples);
-  std::memcpy(head.trajectory.data(), bytes.data() + places.trajectory,
-              static_cast<std::size_t>(head.trajectory.size()) * sizeof(float));
+  if (head.trajectory.size() > 0) {
+    std::memcpy(head.trajectory.data(), bytes.data() + places.trajectory,
+                static_cast<std::size_t>(head.trajectory.size()) * sizeof(float));
+  }
   StoredLevels& levels = head.levels;
   levels.rank = static_cast<Index>(header.rank);
   levels.error = {header.error_max, header.error_rms, header.error_level};
