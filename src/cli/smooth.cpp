@@ -45,8 +45,8 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
 
 /// Where a level goes: OUT.obj itself, or OUT_500.obj beside its like if there are several.
 std::filesystem::path output_of(const Options& options, std::uint64_t level, bool alone) {
+  if (alone) return options.out;
   const std::filesystem::path path = options.out;
-  if (alone) return path;
   return path.parent_path() / concat(path.stem().string(), '_', level, path.extension().string());
 }
 
