@@ -40,7 +40,7 @@ TEST(EncodedFile, NamesTheFileThatCannotBeWritten) {
   testing::expect_error(ExitCode::kCannotCreate, {"nowhere/f"},
                         [&] { file.write(folder / "nowhere/f"); });
   std::filesystem::create_directories(folder / "taken/inside");
-  testing::expect_error(ExitCode::kIoError, {"taken"}, [&] { file.write(folder / "taken"); });
+  testing::expect_error(ExitCode::kCannotCreate, {"taken"}, [&] { file.write(folder / "taken"); });
 }
 
 /// While it lives, no file grows beyond this size: a disk that is full.

@@ -228,7 +228,7 @@ TEST(MeshFormats, NameTheFileThatCannotBeWritten) {
     const std::string name =
         concat(format, "/meshes/mob_0002.", format == "points" ? "npy" : format);
     folder.folder().write(name + "/in_the_way", "a folder has the name");
-    testing::expect_error(ExitCode::kIoError, {name},
+    testing::expect_error(ExitCode::kCannotCreate, {name},
                           [&] { run(folder, format, {concat("output.meshes=[", format, "]")}); });
   }
 }
