@@ -73,7 +73,7 @@ coverage() {
   LLVM_PROFILE_FILE=$out/$parser.profraw "$program" "$out/corpus/$parser" \
     "tests/fuzz/corpus/$parser" $(more_seeds "$parser") -runs=0 >"$out/$parser.replay.log" 2>&1
   llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw" \
-    "$(test_profile io)" "$(test_profile job)" "$(test_profile crowd 'Plan*:Ledger*:*Cache*')"
+    "$(test_profile io)" "$(test_profile job)" "$(test_profile crowd 'Plan*:Ledger*:*Cache*:*MadeAnew*')"
   local seen=("$program" -object "$out/bin/crowdface_io_test" -object "$out/bin/crowdface_job_test"
     -object "$out/bin/crowdface_crowd_test" -instr-profile="$out/$parser.profdata")
   llvm-cov-14 show "${seen[@]}" >"$out/$parser.lines.txt"

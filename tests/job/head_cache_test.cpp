@@ -2,6 +2,10 @@
 // Prepared heads: kept, used again, and never trusted when damaged.
 #include "crowdface/job/head_cache.h"
 
+#include <cstdlib>
+#include <optional>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/job/generate.h"
@@ -29,6 +33,43 @@ int from_cache(const SmallCrowdFolder& folder) {
 
 std::string log_of(const SmallCrowdFolder& folder) {
   return testing::read_text(folder.out() / "crowdface.log");
+}
+
+/// An environment variable for as long as it lives.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    ::setenv(name, value, 1);
+  }
+  ~Variable() {
+    if (old_) {
+      ::setenv(name_, old_->c_str(), 1);
+    } else {
+      ::unsetenv(name_);
+    }
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+TEST(HeadCache, IsWhereTheEnvironmentSays) {
+  const testing::TemporaryFolder folder;
+  const Variable temporary("TMPDIR", folder.path().c_str());
+  const Variable home("HOME", "/home/of/mine");
+  const Variable xdg("XDG_CACHE_HOME", "/caches");
+  EXPECT_EQ(cache_directory(), "/caches/crowdface");
+  const Variable no_xdg("XDG_CACHE_HOME", "");
+  EXPECT_EQ(cache_directory(), "/home/of/mine/.cache/crowdface");
+  const Variable no_home("HOME", "");
+  EXPECT_EQ(cache_directory(), folder / "crowdface-cache");
+  // A folder that is gone ended the run as a bug of ours.
+  const Variable gone("TMPDIR", (folder / "gone").c_str());
+  EXPECT_EQ(cache_directory(), "/tmp/crowdface-cache");
 }
 
 TEST(HeadCache, SecondRunTakesAllHeadsFromIt) {
