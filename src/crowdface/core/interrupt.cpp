@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 #include "crowdface/core/error.h"
@@ -8,7 +9,9 @@
 namespace crowdface {
 namespace {
 
-volatile std::sig_atomic_t signal_seen = 0;
+// Set by a handler, which may do so without a lock, and read by all threads.
+std::atomic<int> signal_seen = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void remember_signal(int signal) {
   signal_seen = signal;
