@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -16,8 +17,7 @@ namespace fs = std::filesystem;
 
 void add_image(const fs::path& image, std::vector<fs::path>& files) {
   files.push_back(image);
-  for (const fs::path& tile : find_tiles(image))
-    files.push_back(image.parent_path() / tile.filename());
+  for (fs::path& tile : find_tiles(image)) files.push_back(std::move(tile));
 }
 
 bool is_plain_text(std::string_view text) {
