@@ -60,11 +60,11 @@ class Variable {
 TEST(HeadCache, IsWhereTheEnvironmentSays) {
   const testing::TemporaryFolder folder;
   const Variable temporary("TMPDIR", folder.path().c_str());
-  const Variable home("HOME", "/home/of/mine");
+  const Variable home("HOME", "/their/own");
   const Variable xdg("XDG_CACHE_HOME", "/caches");
   EXPECT_EQ(cache_directory(), "/caches/crowdface");
   const Variable no_xdg("XDG_CACHE_HOME", "");
-  EXPECT_EQ(cache_directory(), "/home/of/mine/.cache/crowdface");
+  EXPECT_EQ(cache_directory(), "/their/own/.cache/crowdface");
   const Variable no_home("HOME", "");
   EXPECT_EQ(cache_directory(), folder / "crowdface-cache");
   // A folder that is gone ended the run as a bug of ours.
