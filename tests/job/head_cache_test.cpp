@@ -35,6 +35,7 @@ std::string log_of(const SmallCrowdFolder& folder) {
   return testing::read_text(folder.out() / "crowdface.log");
 }
 
+// NOLINTBEGIN(concurrency-mt-unsafe): no other thread runs in the one test that uses it
 /// An environment variable for as long as it lives.
 class Variable {
  public:
@@ -56,6 +57,7 @@ class Variable {
   const char* name_;
   std::optional<std::string> old_;
 };
+// NOLINTEND(concurrency-mt-unsafe)
 
 TEST(HeadCache, IsWhereTheEnvironmentSays) {
   const testing::TemporaryFolder folder;

@@ -96,6 +96,18 @@ TEST(Inputs, EveryOddHeadIsNamedAtOnce) {
   expect_refused(folder, ExitCode::kBadData, {"bob.obj", "dan.obj"});
 }
 
+TEST(Inputs, PathsThatNoConfigCanHoldAreToldWithTheRest) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  edit(folder, "dan", [](Lines& lines) { lines[first_line(lines, "v ", 3)] = "v nan 0 0"; });
+  const fs::path elsewhere = folder / "caf\xe9";  // Latin-1
+  fs::create_directory(elsewhere);
+  fs::rename(folder / "heads", elsewhere / "heads");
+  fs::rename(folder.config(), elsewhere / "config.yaml");
+  testing::expect_error(ExitCode::kUsage,
+                        {"caf\\xe9/config.yaml", "caf\\xe9/heads/ann.obj", "UTF-8", "dan.obj:"},
+                        [&] { load_job(elsewhere / "config.yaml", {}); });
+}
+
 TEST(Inputs, OtherTextureCoordinatesAreRefused) {
   const SmallCrowdFolder folder{SmallCrowd{}};
   edit(folder, "bob", [](Lines& lines) { lines[first_line(lines, "vt ", 2)] = "vt 0.9 0.1"; });

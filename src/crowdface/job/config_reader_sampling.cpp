@@ -6,13 +6,13 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/job/config_sections.h"
+#include "crowdface/job/recipe_bounds.h"
 
 namespace crowdface {
 namespace {
 
 constexpr double kMaxRadius = 1e6;
 constexpr double kMaxWeight = 1e6;
-constexpr double kMaxExtrapolation = 4;
 constexpr std::uint64_t kMostSources = 50;
 
 using Words = std::vector<std::string>;

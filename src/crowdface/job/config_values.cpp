@@ -5,6 +5,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
+#include "crowdface/job/recipe_bounds.h"
 
 namespace crowdface {
 namespace {
@@ -157,9 +158,8 @@ std::optional<PlanePoint> read_point(const YamlNode& node, Complaints& out) {
     out.expected(node, "a list of two numbers, [x, y]");
     return std::nullopt;
   }
-  constexpr double kFarthest = 1e6;
-  const auto x = read_number(node.items[0], -kFarthest, kFarthest, out);
-  const auto y = read_number(node.items[1], -kFarthest, kFarthest, out);
+  const auto x = read_number(node.items[0], -kMaxPlaneCoordinate, kMaxPlaneCoordinate, out);
+  const auto y = read_number(node.items[1], -kMaxPlaneCoordinate, kMaxPlaneCoordinate, out);
   if (!x || !y) return std::nullopt;
   return PlanePoint(*x, *y);
 }

@@ -55,12 +55,16 @@ void refuse_path_no_config_can_hold(const fs::path& path) {
                           "config can name"));
 }
 
-void refuse_paths_no_config_can_hold(const Config& config) {
+void check_paths(const Config& config, Problems& problems) {
   std::vector<fs::path> paths = input_files(config);
   paths.push_back(config.output.directory);
   for (const fs::path& path : paths) {
     std::error_code ignored;
-    refuse_path_no_config_can_hold(fs::absolute(path, ignored));
+    try {
+      refuse_path_no_config_can_hold(fs::absolute(path, ignored));
+    } catch (const UsageError& error) {
+      problems.add(error);
+    }
   }
 }
 

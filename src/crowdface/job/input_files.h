@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "crowdface/core/problems.h"
 #include "crowdface/job/config.h"
 
 namespace crowdface {
@@ -18,8 +19,8 @@ void refuse_to_write_over_inputs(const Config& config, const std::filesystem::pa
 /// \throws UsageError if a path is not UTF-8 or holds a control character: no config can name it.
 void refuse_path_no_config_can_hold(const std::filesystem::path& path);
 
-/// The same for the absolute paths of all inputs and of the crowd's folder: the crowd's own config
-/// names them.
-void refuse_paths_no_config_can_hold(const Config& config);
+/// Adds each such path among the absolute ones of all inputs and of the crowd's folder: the crowd's
+/// own config names them.
+void check_paths(const Config& config, Problems& problems);
 
 }  // namespace crowdface

@@ -57,7 +57,7 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
     return std::nullopt;
   }
   Config& config = reading.config;
-  refuse_paths_no_config_can_hold(config);
+  check_paths(config, problems);
   std::optional<Inputs> inputs = load_inputs(config, problems);
   if (!inputs) return std::nullopt;
   check_levels(config, *inputs, problems);

@@ -9,6 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/recipe_bounds.h"
 #include "crowdface/job/rounded.h"
 #include "crowdface/job/shallow_json.h"
 
@@ -16,8 +17,6 @@ namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kFarthest = 1e6;  // on the weight plane, as in a config
 
 const std::string& name_at(const std::vector<std::string>& names, Index i) {
   return names[static_cast<std::size_t>(i)];
@@ -131,13 +130,16 @@ class LineReader {
     return found - names_.heads.begin();
   }
 
+  double coordinate(const Json& value) const {
+    return number(value, "position", -kMaxPlaneCoordinate, kMaxPlaneCoordinate);
+  }
+
   RegionRecipe region(const Json& json, const std::string& name) const {
     if (!json.is_object()) fail(name, "an object", json.dump());
     RegionRecipe result;
     if (const Json& position = member(json, "position"); !position.is_null()) {
       if (!position.is_array() || position.size() != 2) fail("position", "[x, y]", position.dump());
-      result.position = PlanePoint(number(position[0], "position", -kFarthest, kFarthest),
-                                   number(position[1], "position", -kFarthest, kFarthest));
+      result.position = PlanePoint(coordinate(position[0]), coordinate(position[1]));
     }
     const Json& weights = member(json, "weights");
     if (!weights.is_object()) fail("weights", "an object", weights.dump());
@@ -154,7 +156,8 @@ class LineReader {
     if (result.iterations > kMostIterations) {
       fail("iterations", "at most 10^9", concat(result.iterations));
     }
-    result.extrapolation = number(member(json, "extrapolation"), "extrapolation", -4, 4);
+    result.extrapolation = number(member(json, "extrapolation"), "extrapolation",
+                                  -kMaxExtrapolation, kMaxExtrapolation);
     return result;
   }
 
