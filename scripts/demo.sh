@@ -10,8 +10,8 @@ scripts/build.sh release crowdface
 
 start=$SECONDS
 crowdface=build/release/bin/crowdface
-"$crowdface" synth -o out/demo_heads --count 8 --vertices 20000 --seed 1
-# --force: after a change of configs/demo.yaml the demo's own folder is filled anew.
+# --force: after a change of the program or of configs/demo.yaml the demo's own folders are filled anew.
+"$crowdface" synth -o out/demo_heads --count 8 --vertices 20000 --seed 1 --force
 "$crowdface" generate configs/demo.yaml --force
 
 echo

@@ -8,13 +8,14 @@
 #                                                    it is cloned (half a gigabyte of OBJ files)
 #   … --seed S        other heads; the same seed gives the same ones (default 1)
 #   … --vertices V    makehuman only: refined to about so many vertices
+#   … --force         replaces files in DIR that hold something else
 #
 # What is downloaded is kept in $XDG_CACHE_HOME/crowdface-models. Neither data set is part of
 # crowdface: their licences are printed, and are yours to follow.
 set -euo pipefail
 
 usage() {
-  sed -n '/^#   scripts/,/^#   … --vertices/s/^#   //p' "$0" >&2
+  sed -n '/^#   scripts/,/^#   … --force/s/^#   //p' "$0" >&2
   exit 64
 }
 say() { echo "get_heads: $*" >&2; }
@@ -22,8 +23,13 @@ say() { echo "get_heads: $*" >&2; }
 [ $# -ge 3 ] || usage
 model=$1 count=$2 out=$3
 shift 3
-data='' seed=1 vertices=''
+data='' seed=1 vertices='' force=''
 while [ $# -gt 0 ]; do
+  if [ "$1" = --force ]; then
+    force=--force
+    shift
+    continue
+  fi
   [ $# -ge 2 ] || usage
   case $1 in
     --data) data=$2 ;;
@@ -97,6 +103,7 @@ if [ -z "$data" ]; then "fetch_$model"; fi
 
 options=(--data "$data" -o "$out" --count "$count" --seed "$seed")
 if [ -n "$vertices" ]; then options+=(--vertices "$vertices"); fi
+if [ -n "$force" ]; then options+=("$force"); fi
 "$program" import "$model" "${options[@]}"
 
 echo

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface::cli {
@@ -27,11 +26,6 @@ std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view a
                   age_class(head.years), "]  # ", format_fixed(head.years, 0), " years\n");
   }
   return out;
-}
-
-void write_tags(const std::vector<TaggedHead>& heads, std::string_view about,
-                const std::filesystem::path& directory) {
-  write_file(directory / "tags.yaml", format_tags(heads, about));
 }
 
 std::string head_name(std::string_view kind, std::uint64_t index) {

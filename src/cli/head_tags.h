@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,10 +21,6 @@ std::string_view age_class(double years);
 /// The section `faces` with nothing but the heads' tags, [female, old], and the years as comments.
 /// \param about  a line on what heads they are, without "# ".
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view about);
-
-/// Writes that to DIRECTORY/tags.yaml.
-void write_tags(const std::vector<TaggedHead>& heads, std::string_view about,
-                const std::filesystem::path& directory);
 
 /// "synth_01": at least two digits.
 std::string head_name(std::string_view kind, std::uint64_t index);

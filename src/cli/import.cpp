@@ -5,12 +5,11 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
-#include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/io/obj_template.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/mesh/subdivision.h"
 #include "crowdface/morph/band_masks.h"
@@ -19,6 +18,7 @@
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/head_files.h"
 #include "cli/head_tags.h"
 
 namespace crowdface::cli {
@@ -33,6 +33,7 @@ constexpr int kMaskSize = 1024;
 struct Options {
   CommonOptions common;
   std::string model, data, out, count = "16", seed = "1", vertices;
+  bool force = false;
 };
 
 struct Wanted {
@@ -40,24 +41,24 @@ struct Wanted {
   std::uint64_t count, seed;
 };
 
-/// One head after the other. \param write  writes head i's file.
-void write_heads(const HeadModel& model, const std::string& kind, const Wanted& wanted,
-                 const std::function<void(const Positions&, const fs::path&)>& write) {
+/// Adds the files of all heads, and of their tags if the model knows them.
+/// \param encode  a head with these positions.
+void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wanted,
+               const std::function<EncodedFile(const Positions&)>& encode,
+               std::vector<HeadFile>& files) {
   std::vector<TaggedHead> tagged;
-  Progress progress(concat(kind, " heads"), wanted.count);
   for (std::uint64_t i = 1; i <= wanted.count; ++i) {
-    throw_if_interrupted();
     const std::string name = head_name(kind, i);
-    write(model.positions(wanted.seed, i), wanted.directory / concat(name, ".obj"));
+    files.push_back({wanted.directory / concat(name, ".obj"), [&model, seed = wanted.seed, i, encode] {
+                       return encode(model.positions(seed, i));
+                     }});
     if (const auto person = model.person(wanted.seed, i)) {
       tagged.push_back({name, person->male, person->years});
     }
-    progress.step();
   }
-  if (!tagged.empty()) {
-    write_tags(tagged, concat("Heads of the ", kind, " model, seed ", wanted.seed),
-               wanted.directory);
-  }
+  if (tagged.empty()) return;
+  const std::string about = concat("Heads of the ", kind, " model, seed ", wanted.seed);
+  files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, about)));
 }
 
 /// Pixels by tile.
@@ -74,11 +75,12 @@ Masks masks_of(const Model& model, const Options& options) {
   }
 }
 
-void write_masks(const Masks& tiles, const std::string& kind, const fs::path& directory) {
+void add_masks(const Masks& tiles, const std::string& kind, const Wanted& wanted,
+               std::vector<HeadFile>& files) {
   for (const auto& [tile, pixels] : tiles) {
     const std::string number = tiles.size() > 1 ? concat(".", tile) : std::string();
-    write_file(directory / concat(kind, "_bands", number, ".png"),
-               encode_png(kMaskSize, kMaskSize, 3, pixels));
+    files.push_back(text_file(wanted.directory / concat(kind, "_bands", number, ".png"),
+                              encode_png(kMaskSize, kMaskSize, 3, pixels)));
   }
 }
 
@@ -93,8 +95,7 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
                                                                kFewestVertices, kMostVertices)));
   Index vertices = topology.vertex_count;
   const Masks masks = masks_of(model, options);
-  make_directories(wanted.directory);
-  write_heads(model, "makehuman", wanted, [&](const Positions& positions, const fs::path& file) {
+  const auto encode = [&](const Positions& positions) {
     Mesh mesh = model.neutral();
     mesh.positions = positions;
     std::vector<MaterialRange> materials = model.materials();
@@ -105,9 +106,13 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
       mesh = subdivide(mesh);
     }
     vertices = mesh.topology.vertex_count;
-    write_obj(mesh, "a head of the MakeHuman model, made by crowdface import; cm", file, materials);
-  });
-  write_masks(masks, "makehuman", wanted.directory);
+    return encode_obj(mesh, "a head of the MakeHuman model, made by crowdface import; cm",
+                      materials);
+  };
+  std::vector<HeadFile> files;
+  add_heads(model, "makehuman", wanted, encode, files);
+  add_masks(masks, "makehuman", wanted, files);
+  write_head_files("makehuman heads", files, options.force);
   log_info(concat(wanted.count, " heads of ", vertices, " vertices, their regions and tags in ",
                   wanted.directory.string()));
 }
@@ -118,19 +123,24 @@ void import_ict(const Options& options, const Wanted& wanted) {
   }
   const IctHeads model(options.data);
   const Masks masks = masks_of(model, options);
-  make_directories(wanted.directory);
-  write_heads(model, "ict", wanted, [&](const Positions& positions, const fs::path& file) {
-    write_obj_like(model.file(), model.neutral().topology, positions, file);
-  });
+  const ObjTemplate form(model.file(), model.neutral().topology);
+  const auto encode = [&](const Positions& positions) {
+    return form.encode(positions, "a head of the ICT model");
+  };
+  std::vector<HeadFile> files;
+  add_heads(model, "ict", wanted, encode, files);
   const MaterialFiles materials =
       find_material_files(model.file().path, model.file().material_libraries);
   for (const std::string& warning : materials.warnings) log_warning(warning);
   for (const MaterialFile& material : materials.files) {
-    const fs::path to = wanted.directory / material.relative;
-    make_directories(to.parent_path());
-    write_file(to, read_file(material.from));
+    files.push_back({wanted.directory / material.relative, [from = material.from] {
+                       EncodedFile copy;
+                       copy.add(read_file(from));
+                       return copy;
+                     }});
   }
-  write_masks(masks, "ict", wanted.directory);
+  add_masks(masks, "ict", wanted, files);
+  write_head_files("ict heads", files, options.force);
   log_info(concat(wanted.count, " heads of ", model.neutral().topology.vertex_count,
                   " vertices from ", model.mode_count(), " identity modes, and their regions, in ",
                   wanted.directory.string(), "; the model knows no sex and no age: no tags"));
@@ -173,6 +183,7 @@ Run add_import(CLI::App& program) {
       ->add_option("--vertices", options->vertices,
                    "makehuman: refine to about so many vertices (default: as they are, 4470)")
       ->type_name("V");
+  command->add_flag("--force", options->force, "Replace files that hold something else");
   options->common.add_to(*command);
   return [options] {
     const auto threads = options->common.apply();

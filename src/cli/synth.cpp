@@ -3,11 +3,8 @@
 #include <memory>
 #include <system_error>
 
-#include "crowdface/core/file.h"
-#include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
-#include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
@@ -16,6 +13,7 @@
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/head_files.h"
 #include "cli/head_tags.h"
 
 namespace crowdface::cli {
@@ -30,7 +28,7 @@ constexpr int kMaskSize = 1024;
 struct Options {
   CommonOptions common;
   std::string out, count = "8", vertices = "20000", seed = "1", mask;
-  bool tags = false, skin_only = false;
+  bool tags = false, skin_only = false, force = false;
 };
 
 /// Whether both name one folder, which need not be there yet.
@@ -51,7 +49,6 @@ void synth(const Options& options) {
     const bool beside = same_folder(fs::path(options.mask).parent_path(), directory);
     mask = beside ? fs::path(options.mask) : output_file(options.mask);
   }
-  make_directories(directory);
   using Parts = SyntheticHeads::Parts;
   const SyntheticHeads heads(static_cast<Index>(vertices),
                              options.skin_only ? Parts::kSkin : Parts::kEyesAndTeeth);
@@ -59,25 +56,26 @@ void synth(const Options& options) {
   if (!options.skin_only) {
     for (const auto& piece : heads.pieces()) materials.push_back({piece.name, piece.first_face});
   }
-  {
-    Progress progress("synthetic heads", count);
-    for (std::uint64_t i = 1; i <= count; ++i) {
-      throw_if_interrupted();
-      write_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},
-                concat("synthetic head ", i, " of seed ", seed, ", made by crowdface synth; cm"),
-                directory / concat(head_name("synth", i), ".obj"), materials);
-      progress.step();
-    }
+  std::vector<HeadFile> files;
+  std::vector<TaggedHead> tagged;
+  for (std::uint64_t i = 1; i <= count; ++i) {
+    const std::string name = head_name("synth", i);
+    files.push_back({directory / concat(name, ".obj"), [&heads, &materials, seed, i] {
+                       return encode_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},
+                                         concat("synthetic head ", i, " of seed ", seed,
+                                                ", made by crowdface synth; cm"),
+                                         materials);
+                     }});
+    const synth::Person person = synth::draw_person(seed, i);
+    tagged.push_back({name, person.male > 0, person.age});
   }
   if (options.tags) {
-    std::vector<TaggedHead> tagged;
-    for (std::uint64_t i = 1; i <= count; ++i) {
-      const synth::Person person = synth::draw_person(seed, i);
-      tagged.push_back({head_name("synth", i), person.male > 0, person.age});
-    }
-    write_tags(tagged, concat("Synthetic heads of seed ", seed), directory);
+    files.push_back(text_file(directory / "tags.yaml",
+                              format_tags(tagged, concat("Synthetic heads of seed ", seed))));
   }
-  write_file(mask, encode_png(kMaskSize, kMaskSize, 3, synthetic_region_mask(kMaskSize)));
+  files.push_back(
+      text_file(mask, encode_png(kMaskSize, kMaskSize, 3, synthetic_region_mask(kMaskSize))));
+  write_head_files("synthetic heads", files, options.force);
   log_info(concat(count, " heads of ", heads.topology().vertex_count, " vertices in ",
                   directory.string(), ", their regions in ", mask.string()));
 }
@@ -108,6 +106,7 @@ Run add_synth(CLI::App& program) {
                     "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
   command->add_flag("--tags", options->tags,
                     "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
+  command->add_flag("--force", options->force, "Replace files that hold something else");
   options->common.add_to(*command);
   return [options] {
     const auto threads = options->common.apply();

@@ -57,7 +57,7 @@ struct Sheet {
         folder(fs::temp_directory_path() / ("crowdface_io_bench_" + std::to_string(::getpid()))),
         fans(mesh.topology) {
     fs::create_directories(folder);
-    write_obj(mesh, "", folder / "target.obj");
+    encode_obj(mesh, "").write(folder / "target.obj");
     file = read_obj(folder / "target.obj");
   }
   ~Sheet() {

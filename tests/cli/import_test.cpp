@@ -62,6 +62,9 @@ TEST(Import, IctHeadsKeepTheirFileAndTiles) {
   const fs::path config = folder.write("crowd.yaml", config_of("", "ict_bands.<UDIM>.png"));
   crowdface(0, {"check", config.string()}, {"is fine"});
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--vertices", "9000"}, {"--vertices"});
+  crowdface(0, {"import", "ict", "--data", kit, "-o", out, "--count", "3"});
+  crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--count", "2", "--seed", "2"},
+            {"ict_01.obj: exists", "ict_02.obj: exists"});
 }
 
 TEST(Import, WhatIsNotThereIs66) {

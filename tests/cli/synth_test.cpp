@@ -31,5 +31,29 @@ TEST(Synth, WritesNoTagsUnasked) {
   EXPECT_TRUE(fs::exists(folder / "synth_01.obj"));
 }
 
+TEST(Synth, GoesOnAndKeepsWhatSomebodyChanged) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> command = {
+      "synth", "-o", (folder / "heads").string(), "--count", "3", "--vertices", "5000", "--tags"};
+  crowdface(0, command);
+  const std::string first = read_text(folder / "heads/synth_01.obj");
+  const std::string last = read_text(folder / "heads/synth_03.obj");
+  fs::remove(folder / "heads/synth_03.obj");
+  crowdface(0, command);
+  EXPECT_EQ(read_text(folder / "heads/synth_03.obj"), last);
+
+  folder.write("heads/synth_01.obj", "sculpted\n");
+  folder.write("heads/tags.yaml", "known better\n");
+  fs::remove(folder / "heads/synth_03.obj");
+  crowdface(64, command, {"heads/synth_01.obj: exists", "heads/tags.yaml: exists", "--force"});
+  EXPECT_EQ(read_text(folder / "heads/synth_01.obj"), "sculpted\n");
+  EXPECT_FALSE(fs::exists(folder / "heads/synth_03.obj")) << "nothing is written on refusal";
+
+  std::vector<std::string> forced = command;
+  forced.emplace_back("--force");
+  crowdface(0, forced);
+  EXPECT_EQ(read_text(folder / "heads/synth_01.obj"), first);
+}
+
 }  // namespace
 }  // namespace crowdface::testing

@@ -75,7 +75,7 @@ TEST(WriteObj, ReadsBack) {
   mesh.topology.corner_uvs = mesh.topology.corner_vertices;
   mesh.positions = testing::random_positions(mesh.topology.vertex_count, 1);
   mesh.uvs = testing::random_positions(mesh.topology.vertex_count, 2).leftCols<2>();
-  write_obj(mesh, "a test", folder / "grid.obj");
+  encode_obj(mesh, "a test").write(folder / "grid.obj");
   const ObjFile back = read_obj(folder / "grid.obj");
   EXPECT_EQ(first_difference(mesh.topology, back.topology), "");
   EXPECT_EQ(back.positions.cast<float>(), mesh.positions.cast<float>());

@@ -7,7 +7,6 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/encoded_file.h"
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/io/single_text.h"
@@ -42,7 +41,7 @@ std::vector<std::string> format_blocks(Index count,
 }
 
 void add_blocks(EncodedFile& file, const std::vector<std::string>& blocks) {
-  for (const std::string& block : blocks) file.refer_to(block);
+  for (const std::string& block : blocks) file.add(block);
 }
 
 }  // namespace
@@ -54,14 +53,14 @@ Digest write_obj_like(const ObjFile& target, const Topology& topology, const Pos
   return file.digest();
 }
 
-void write_obj(const Mesh& mesh, const std::string& comment, const std::filesystem::path& path,
-               const std::vector<MaterialRange>& materials) {
+EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,
+                       const std::vector<MaterialRange>& materials) {
   const Topology& topology = mesh.topology;
   std::map<Index, std::string> material_lines;
   for (const MaterialRange& range : materials) {
     material_lines[range.first_face] += concat("usemtl ", range.name, '\n');
   }
-  require_finite(mesh.positions, topology.vertex_count, path.string());
+  require_finite(mesh.positions, topology.vertex_count, comment);
   const auto vertices = format_blocks(topology.vertex_count, [&](std::string& out, Index i) {
     out += "v ";
     append_row(out, mesh.positions, i);
@@ -91,7 +90,7 @@ void write_obj(const Mesh& mesh, const std::string& comment, const std::filesyst
   add_blocks(file, vertices);
   add_blocks(file, uvs);
   add_blocks(file, faces);
-  file.write(path);
+  return file;
 }
 
 }  // namespace crowdface

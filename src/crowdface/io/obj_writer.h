@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/core/hash.h"
+#include "crowdface/io/encoded_file.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/topology.h"
 
@@ -19,10 +20,11 @@ namespace crowdface {
 Digest write_obj_like(const ObjFile& target, const Topology& topology, const Positions& positions,
                       const std::filesystem::path& path);
 
-/// Writes a mesh of our own making: positions, texture coordinates, faces.
+/// A mesh of our own making as an OBJ file: positions, texture coordinates, faces.
 /// \param comment    one line for the file's head, may be empty.
 /// \param materials  of the faces, ascending; may be empty.
-void write_obj(const Mesh& mesh, const std::string& comment, const std::filesystem::path& path,
-               const std::vector<MaterialRange>& materials = {});
+/// \throws InvalidInput if positions are not #V by 3 or not finite.
+EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,
+                       const std::vector<MaterialRange>& materials = {});
 
 }  // namespace crowdface
