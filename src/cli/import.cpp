@@ -49,9 +49,9 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
   std::vector<TaggedHead> tagged;
   for (std::uint64_t i = 1; i <= wanted.count; ++i) {
     const std::string name = head_name(kind, i);
-    files.push_back({wanted.directory / concat(name, ".obj"), [&model, seed = wanted.seed, i, encode] {
-                       return encode(model.positions(seed, i));
-                     }});
+    files.push_back(
+        {wanted.directory / concat(name, ".obj"),
+         [&model, seed = wanted.seed, i, encode] { return encode(model.positions(seed, i)); }});
     if (const auto person = model.person(wanted.seed, i)) {
       tagged.push_back({name, person->male, person->years});
     }
