@@ -55,7 +55,7 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
   }
   const std::filesystem::path file = output_file(out);
   const Job job = load_job(options.config, options.overrides);
-  refuse_to_write_over_inputs(job.config, file);
+  refuse_to_write_over(input_files(job.config), file);
   const PlanLine line = find_recipe(reference, job.names);
   if (line.settings != job.settings.hex() && !any_settings) {
     throw InvalidInput(concat(reference, ": was cast under other settings: expected ",

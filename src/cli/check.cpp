@@ -4,6 +4,7 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/crowd_renders.h"
 #include "crowdface/job/input_files.h"
@@ -37,19 +38,19 @@ void describe(const Job& job) {
 
 /// One picture a region, its mask on the mean head.
 void write_masks(const Job& job, const std::filesystem::path& directory) {
-  Positions mean = Positions::Zero(job.inputs.faces.topology.vertex_count, 3);
-  for (const Head& head : job.inputs.faces.heads) mean += head.positions;
-  mean /= static_cast<double>(job.inputs.faces.heads.size());
+  const Positions mean = mean_head(job.inputs.faces);
   Config::ContactSheet sheet;
   sheet.cell = 512;
   sheet.views = {View::kFront, View::kThreeQuarter};
   const CrowdRenders renders(job.config, sheet, job.inputs);
+  const auto file_of = [&](const std::string& name) { return directory / concat(name, ".png"); };
+  const std::vector<std::filesystem::path> inputs = input_files(job.config);
+  for (const std::string& name : job.names.regions) refuse_to_write_over(inputs, file_of(name));
+  refuse_to_write_over(inputs, file_of("all"));
   make_directories(directory);
   const auto write = [&](const std::string& name, const VertexColours& colours) {
-    const std::filesystem::path path = directory / concat(name, ".png");
-    refuse_to_write_over_inputs(job.config, path);
-    write_file(path, renders.render_png(mean, colours));
-    log_info(path.string());
+    write_file(file_of(name), renders.render_png(mean, colours));
+    log_info(file_of(name).string());
   };
   const auto& alpha = job.inputs.regions.alpha;
   for (Index k = 0; k < alpha.cols(); ++k) {

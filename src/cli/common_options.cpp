@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common_options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/memory.h"
+#include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/head_cache.h"
 
@@ -24,14 +26,25 @@ void add_optional(CLI::App& command, const std::string& name, std::optional<std:
       ->type_name(type);
 }
 
-/// Lines of a log begin with the date: whatever does not is no log.
-void refuse_to_append_to_other_files(const std::string& path) {
+/// Lines of a log begin with the date, 2026-11-22T: whatever does not is no log.
+bool begins_like_a_log(const std::string& path) {
+  constexpr std::string_view kForm = "dddd-dd-ddT";
+  std::ifstream stream(path);
+  if (stream.peek() == std::ifstream::traits_type::eof()) return true;
+  return std::all_of(kForm.begin(), kForm.end(), [&](char form) {
+    const int found = stream.get();
+    return form == 'd' ? found >= '0' && found <= '9' : found == form;
+  });
+}
+
+void open_log(const std::string& path) {
+  const std::filesystem::path file = output_file(path);
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return;  // add_log_file refuses others
-  const int first = std::ifstream(path).peek();
-  if (first == std::ifstream::traits_type::eof() || (first >= '0' && first <= '9')) return;
-  throw CannotCreate(
-      concat(path, ": --log-file: expected a log, or no file yet, found another file"));
+  if (std::filesystem::exists(file, ignored) && !begins_like_a_log(file)) {
+    throw CannotCreate(
+        concat(path, ": --log-file: expected a log, or no file yet, found another file"));
+  }
+  add_log_file(file);
 }
 
 }  // namespace
@@ -54,10 +67,7 @@ void CommonOptions::add_to(CLI::App& command) {
 std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   constexpr std::uint64_t kMostThreads = 1024;
   set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);
-  if (!log_file.empty()) {
-    refuse_to_append_to_other_files(log_file);
-    add_log_file(log_file);
-  }
+  if (!log_file.empty()) open_log(log_file);
   for (const std::string& limit : limits) set_input_limit(limit);
   const std::uint64_t limit =
       threads.empty() ? 0 : whole_number("--threads", threads, 1, kMostThreads);

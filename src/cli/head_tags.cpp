@@ -29,9 +29,7 @@ std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view a
 }
 
 std::string head_name(std::string_view kind, std::uint64_t index) {
-  std::string number = concat(index);
-  if (number.size() < 2) number.insert(0, 1, '0');
-  return concat(kind, "_", number);
+  return concat(kind, "_", zero_padded(index, 2));
 }
 
 }  // namespace crowdface::cli

@@ -20,32 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the config has it: any case, no hidden files (some systems put a "._head.obj" beside each).
-bool is_head(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  std::error_code ignored;
-  return ending == ".obj" && !path.filename().string().starts_with('.') &&
-         !fs::is_directory(path, ignored);
-}
-
-std::vector<fs::path> obj_files(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (is_head(entry.path())) files.push_back(entry.path());
-  }
-  if (error) throw MissingInput(concat(folder.string(), ": ", error.message()));
-  std::sort(files.begin(), files.end());
-  if (files.size() < 2) {
-    throw MissingInput(
-        concat(folder.string(), ": expected at least 2 OBJ files, found ", files.size()));
-  }
-  return files;
-}
-
 /// The unit in which the mesh is as tall as a head, with or without neck and shoulders.
 LengthUnit guess_unit(double height) {
   constexpr double kTypicalHeightMm = 280;
@@ -64,9 +38,14 @@ LengthUnit guess_unit(double height) {
 }
 
 void init(const fs::path& heads, const fs::path& out, bool force) {
-  const std::vector<fs::path> files = obj_files(heads);
+  const std::vector<fs::path> files = list_heads(heads);
+  if (files.size() < kFewestHeads || files.size() > kMostHeads) {
+    throw MissingInput(concat(heads.string(), ": expected ", kFewestHeads, " to ", kMostHeads,
+                              " OBJ files, found ", files.size()));
+  }
   const fs::path file = output_file(out);
   std::error_code ignored;
+  refuse_to_write_over(files, file);
   if (fs::exists(file, ignored) && !force) {
     throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
   }

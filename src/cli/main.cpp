@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 
 #include "crowdface/core/error.h"
@@ -43,6 +46,9 @@ constexpr const char* kFooter =
 int run(const crowdface::cli::Run& command) {
   try {
     command();
+    if (const auto failed = crowdface::log_failure()) {
+      throw crowdface::IoError(crowdface::concat("the log is not whole: ", *failed));
+    }
     if (!std::cout.flush()) throw crowdface::IoError("standard output: writing failed");
     return static_cast<int>(ExitCode::kDone);
   } catch (const crowdface::Error& error) {
@@ -73,9 +79,19 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
                                 : crowdface::concat("; expected one of ", crowdface::join(names))));
 }
 
+/// A file opened while one of them is closed would get its number, and then what is said to a user.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    // The lowest free number is this one. Writing to standard output stays an error.
+    if (::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR) < 0) return;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   crowdface::give_back_large_blocks();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
@@ -105,7 +121,9 @@ int main(int argc, char** argv) {
     return run([] {});
   }
   crowdface::catch_interrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then a failed write, with a message
+  // A file beyond the limit and a closed pipe are then failed writes, with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   return run([&] {
     if (const char* set =
             std::getenv("CROWDFACE_INSTRUCTION_SET")) {  // NOLINT(concurrency-mt-unsafe): at start

@@ -10,6 +10,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/job/mesh_format.h"
+#include "crowdface/job/recipe_bounds.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/iterate.h"
 
@@ -19,7 +20,6 @@
 namespace crowdface::cli {
 namespace {
 
-constexpr std::uint64_t kMostIterations = 10'000'000;
 
 struct Options {
   CommonOptions common;
@@ -34,7 +34,7 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t comma = std::min(text.find(',', begin), text.size());
     levels.push_back(
-        whole_number("--iterations", text.substr(begin, comma - begin), 0, kMostIterations));
+        whole_number("--iterations", text.substr(begin, comma - begin), 0, kMaxIterations));
     if (std::count(levels.begin(), levels.end(), levels.back()) > 1) {
       throw UsageError(concat("--iterations: ", levels.back(), " is named twice"));
     }
@@ -59,6 +59,7 @@ void smooth_file(const Options& options) {
   std::vector<std::filesystem::path> outputs;
   for (const std::uint64_t level : levels) {
     outputs.push_back(output_file(output_of(options, level, levels.size() == 1)));
+    refuse_to_write_over({options.in}, outputs.back());
   }
   const ObjFile file = read_obj(options.in);
   const SmoothingOperator smoothing(

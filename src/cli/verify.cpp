@@ -46,9 +46,9 @@ Run add_verify(CLI::App& program) {
       throw InvalidInput(concat(options->directory, ": of ", check.files, " files ",
                                 count(check.missing.size(), "missing, "),
                                 count(check.altered.size(), "altered; "),
-                                count(check.unfinished.size(),
-                                      "not finished; crowdface generate with the crowd's "
-                                      "config mends that")));
+                                count(check.unfinished.size(), "not finished"),
+                                check.remarks.empty() ? "" : "; " + join(check.remarks, "; "),
+                                "; crowdface generate with the crowd's config mends that"));
     }
     std::cout << options->directory << ": all " << check.files
               << " files are as they were written\n";

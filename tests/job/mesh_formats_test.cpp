@@ -227,9 +227,11 @@ TEST(MeshFormats, NameTheFileThatCannotBeWritten) {
   for (const std::string format : {"obj", "ply", "glb", "points"}) {
     const std::string name =
         concat(format, "/meshes/mob_0002.", format == "points" ? "npy" : format);
+    const std::vector<std::string> set = {concat("output.meshes=[", format, "]")};
+    run(folder, format, set);
+    fs::remove(folder / name);
     folder.folder().write(name + "/in_the_way", "a folder has the name");
-    testing::expect_error(ExitCode::kCannotCreate, {name},
-                          [&] { run(folder, format, {concat("output.meshes=[", format, "]")}); });
+    testing::expect_error(ExitCode::kCannotCreate, {name}, [&] { run(folder, format, set); });
   }
 }
 

@@ -42,12 +42,21 @@ class Resume : public ::testing::Test {
     whole_ = crowd_files(folder_.out());
   }
   void run(Shard shard = {}, Replace replace = Replace::kRefuse) {
-    ConfigOverrides overrides;
-    overrides.set = {"output.meshes=[obj, glb, points]"};
     GenerateOptions options{folder_.cache(), replace, false};
     options.shard = shard;
     options.memory = memory_;
-    generate(folder_.config(), overrides, options);
+    generate(folder_.config(), overrides(), options);
+  }
+  static ConfigOverrides overrides() {
+    ConfigOverrides all_formats;
+    all_formats.set = {"output.meshes=[obj, glb, points]"};
+    return all_formats;
+  }
+  /// Alters a head's file and casts the crowd anew: what is there was made from another.
+  void edit_a_head() {
+    const std::string head = testing::read_text(folder_.head("bob"));
+    folder_.folder().write("heads/bob.obj", "# edited\n" + head);
+    plan(folder_.config(), overrides(), {folder_.cache(), Replace::kForce, false});
   }
   std::int64_t faces_built() const {
     return testing::read_json(folder_.out() / "timings.json").at("faces").get<std::int64_t>();
@@ -94,6 +103,41 @@ TEST_F(Resume, EveryFileThatIsLostOrAlteredIsMadeAgain) {
     run();
     expect_whole(name + " cut");
   }
+}
+
+TEST_F(Resume, ACrowdThatLostItsConfigIsKnownByItsLedger) {
+  fs::remove(folder_.out() / "config.yaml");
+  run();
+  EXPECT_EQ(faces_built(), 0);
+  expect_whole("config lost");
+}
+
+// They were replaced, and only the ledger was said to be damaged.
+TEST_F(Resume, FilesOfSomebodyElseAreNotReplaced) {
+  for (const char* name : {"plan.jsonl", "report.json", "crowd.csv", "ledger.jsonl",
+                           "meshes/mob_0001.obj", "gallery/index.html"}) {
+    fs::remove_all(folder_.out());
+    folder_.folder().write(concat("out/", name), "mine\n");
+    testing::expect_error(ExitCode::kUsage, {folder_.out().string(), "--force"}, [&] { run(); });
+    EXPECT_EQ(testing::read_text(folder_.out() / name), "mine\n");
+    EXPECT_FALSE(fs::exists(folder_.out() / "config.yaml")) << name;
+  }
+  run({}, Replace::kForce);
+  expect_whole("forced");
+}
+
+TEST_F(Resume, VerifyMissesLinesOfTheLedger) {
+  const std::string ledger = whole_.at("ledger.jsonl");
+  std::size_t lines = 0;
+  for (std::size_t begin = 0; begin < ledger.size(); ++lines) {
+    const std::size_t end = ledger.find('\n', begin) + 1;
+    folder_.folder().write("out/ledger.jsonl", ledger.substr(0, begin) + ledger.substr(end));
+    EXPECT_FALSE(verify_crowd(folder_.out()).good()) << "without line " << lines + 1;
+    begin = end;
+  }
+  EXPECT_GT(lines, 12U);
+  run();
+  expect_whole("a line less");
 }
 
 TEST_F(Resume, VerifyNamesWhatIsMissingAndAltered) {
@@ -153,9 +197,20 @@ TEST_F(Resume, ShardsGoOnWithWhatAWholeRunHasDone) {
   expect_whole("a whole run, then shards");
 }
 
-TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {
-  std::string head = testing::read_text(folder_.head("bob"));
+// A finished crowd was made anew without a word, and could not be made again.
+TEST_F(Resume, HeadsThatHaveChangedSinceAreRefused) {
+  const std::string head = testing::read_text(folder_.head("bob"));
   folder_.folder().write("heads/bob.obj", "# edited\n" + head);
+  testing::expect_error(ExitCode::kUsage, {folder_.out().string(), "other heads", "--force"},
+                        [&] { run(); });
+  expect_whole("refused");
+  folder_.folder().write("heads/bob.obj", head);
+  run();
+  EXPECT_EQ(faces_built(), 0);
+}
+
+TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {
+  edit_a_head();
   run({1, 2});
   run({2, 2});
   EXPECT_THAT(verify_crowd(folder_.out()).altered, IsEmpty());
@@ -169,8 +224,7 @@ TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {
 
 // Old lines of another ledger were taken for the meshes of today.
 TEST_F(Resume, SheetsMadeAnewBetweenShardsAndGatherAlterNoMesh) {
-  const std::string head = testing::read_text(folder_.head("bob"));
-  folder_.folder().write("heads/bob.obj", "# edited\n" + head);
+  edit_a_head();
   run({1, 2});
   run({2, 2});
   remake_sheets(folder_.out(), {"output.contact_sheet.cell=48"}, folder_.cache());

@@ -25,7 +25,7 @@ class FailingCall : public DisturbedCrowd, public ::testing::WithParamInterface<
 // Test 2 of docs/reliability.md.
 TEST_P(FailingCall, IsToldAndTheNextRunGoesOn) {
   ASSERT_GT(undisturbed_.calls, 100U);
-  RecordProperty("calls", static_cast<std::int64_t>(undisturbed_.calls));
+  RecordProperty("calls", static_cast<int>(undisturbed_.calls));
   int told = 0;
   for (std::uint64_t call = GetParam(); call < undisturbed_.calls; call += kParts) {
     for (const int error : {EIO, ENOSPC}) {

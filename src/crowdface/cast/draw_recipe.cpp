@@ -177,9 +177,7 @@ std::uint64_t iterations_of(double smoothness, const LevelScale& scale) {
 }
 
 std::string face_id(const std::string& crowd, std::uint64_t index) {
-  std::string digits = concat(index);
-  if (digits.size() < 4) digits.insert(0, 4 - digits.size(), '0');
-  return concat(crowd, '_', digits);
+  return concat(crowd, '_', zero_padded(index, 4));
 }
 
 Recipe draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,

@@ -22,9 +22,6 @@ class ProxySkin {
   /// near each other on the mean head without being neighbours on it: lips, lids, nostrils, folds.
   Index intersecting_triangles(const Positions& samples, Index target) const;
 
-  Index triangle_count() const { return static_cast<Index>(triangles_.size()); }
-  Index pair_count() const { return static_cast<Index>(pairs_.size()); }
-
  private:
   std::vector<Triangle> triangles_;
   std::vector<TrianglePair> pairs_;

@@ -85,6 +85,16 @@ FileDigest hash_file(const fs::path& path) {
   return result;
 }
 
+bool holds(const std::filesystem::path& path, const FileDigest& content) {
+  std::error_code error;
+  if (std::filesystem::file_size(path, error) != content.bytes || error) return false;
+  try {
+    return hash_file(path) == content;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 MappedFile::MappedFile(const fs::path& path) {
   const OpenedFile file = open_for_reading(path);
   if (file.size == 0) return;

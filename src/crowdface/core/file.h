@@ -23,6 +23,8 @@ struct FileDigest {
 
 /// Reads a file piece by piece. \throws MissingInput, IoError like read_file.
 FileDigest hash_file(const std::filesystem::path& path);
+/// Whether the file holds just that; a file that cannot be read does not.
+bool holds(const std::filesystem::path& path, const FileDigest& content);
 
 /// A file's bytes mapped read-only for as long as the object lives; the pages belong to the system,
 /// so that large inputs cost no memory of ours.

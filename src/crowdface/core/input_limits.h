@@ -13,7 +13,7 @@ namespace crowdface {
 struct InputLimits {
   std::uint64_t vertices = 1ULL << 26U;      ///< of a mesh
   std::uint64_t faces = 1ULL << 26U;         ///< of a mesh
-  std::uint64_t image_pixels = 1ULL << 28U;  ///< width times height of a mask
+  std::uint64_t image_pixels = 1ULL << 28U;  ///< width times height of a mask or texture
   std::uint64_t textures = 1000;             ///< that a head's material files name
   std::uint64_t yaml_bytes = 1ULL << 20U;    ///< of a config or review file
   std::uint64_t yaml_depth = 64;             ///< lists and mappings within each other

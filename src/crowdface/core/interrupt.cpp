@@ -24,6 +24,9 @@ extern "C" void remember_signal(int signal) {
 void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction action {};
+    // Whoever started us wants it ignored: nohup, or a shell script that ends before we do.
+    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
+    action = {};
     action.sa_handler = remember_signal;
     ::sigemptyset(&action.sa_mask);
     ::sigaction(signal, &action, nullptr);

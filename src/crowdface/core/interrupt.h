@@ -4,7 +4,7 @@
 namespace crowdface {
 
 /// From now on SIGINT, SIGTERM, SIGHUP and SIGXCPU are remembered instead of ending the program; a
-/// second one ends it at once.
+/// second one ends it at once. One that is ignored (SIGHUP under nohup) stays so.
 void catch_interrupts();
 
 /// Whether such a signal has come.

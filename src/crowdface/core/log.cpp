@@ -2,6 +2,8 @@
 #include "crowdface/core/log.h"
 
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -24,12 +26,30 @@ struct Sinks {
   std::vector<std::shared_ptr<spdlog::sinks::basic_file_sink_mt>> files;
   LogLevel level = LogLevel::kNormal;
   std::shared_ptr<spdlog::logger> logger = std::make_shared<spdlog::logger>("crowdface", terminal);
+  std::mutex failure_mutex;
+  std::optional<std::string> failure;
 
   Sinks() {
     terminal->set_pattern("%^%l:%$ %v");
     terminal->set_level(spdlog::level::info);
     logger->set_level(spdlog::level::debug);
     logger->flush_on(spdlog::level::info);
+    logger->set_error_handler([this](const std::string& what) { note_failure(what); });
+  }
+
+  void note_failure(const std::string& what) {
+    const std::lock_guard<std::mutex> lock(failure_mutex);
+    if (!failure) failure = what;
+  }
+
+  /// What spdlog does to a file by itself throws; the logger's own calls end in the handler above.
+  template <class Work>
+  void guarded(const Work& work) {
+    try {
+      work();
+    } catch (const spdlog::spdlog_ex& error) {
+      note_failure(error.what());
+    }
   }
 };
 
@@ -73,11 +93,17 @@ void add_log_file(const std::filesystem::path& path) {
   sinks().files.push_back(std::move(file));
 }
 
-void close_log_file() {
+void close_log_file() noexcept {
   if (sinks().files.empty()) return;
-  sinks().files.back()->flush();
+  sinks().guarded([] { sinks().files.back()->flush(); });
   std::erase(sinks().logger->sinks(), sinks().files.back());
   sinks().files.pop_back();
+}
+
+std::optional<std::string> log_failure() {
+  sinks().logger->flush();
+  const std::lock_guard<std::mutex> lock(sinks().failure_mutex);
+  return sinks().failure;
 }
 
 struct LogMemory::Lines {
@@ -97,8 +123,10 @@ LogMemory::~LogMemory() {
 
 void LogMemory::replay() const {
   if (sinks().files.empty()) return;
-  for (const auto& line : lines_->sink->last_raw()) sinks().files.back()->log(line);
-  sinks().files.back()->flush();
+  sinks().guarded([&] {
+    for (const auto& line : lines_->sink->last_raw()) sinks().files.back()->log(line);
+    sinks().files.back()->flush();
+  });
 }
 
 void log_debug(std::string_view text) {

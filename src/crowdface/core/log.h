@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace crowdface {
@@ -15,7 +17,11 @@ LogLevel log_level();
 /// Also writes everything to this file (appended), beside those added before. \throws CannotCreate.
 void add_log_file(const std::filesystem::path& path);
 /// Stops writing to the file that was added last.
-void close_log_file();
+void close_log_file() noexcept;
+/// What has kept a log file from being written whole so far (its last lines are written first),
+/// naming it; nothing if nothing has. Logging itself never throws: work goes on, and whoever started
+/// it asks in the end.
+std::optional<std::string> log_failure();
 
 /// Remembers, for as long as it lives, the last thousand lines, for a log file that cannot be opened
 /// yet.

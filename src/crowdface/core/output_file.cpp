@@ -38,4 +38,13 @@ fs::path output_file(const fs::path& path) {
   return file;
 }
 
+void refuse_to_write_over(const std::vector<fs::path>& inputs, const fs::path& path) {
+  for (const fs::path& input : inputs) {
+    std::error_code ignored;
+    if (!fs::equivalent(input, path, ignored)) continue;
+    throw UsageError(concat(path.string(), ": is an input (", input.string(),
+                            ") and is not written over; choose another name"));
+  }
+}
+
 }  // namespace crowdface

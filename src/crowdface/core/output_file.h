@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace crowdface {
 
@@ -10,5 +11,9 @@ namespace crowdface {
 /// \throws CannotCreate unless its folder is there and may be written to, and nothing but a regular
 /// file bears its name: no folder, no device, no pipe, no link that leads nowhere.
 std::filesystem::path output_file(const std::filesystem::path& path);
+
+/// \throws UsageError if `path` is one of these files, under whatever name.
+void refuse_to_write_over(const std::vector<std::filesystem::path>& inputs,
+                          const std::filesystem::path& path);
 
 }  // namespace crowdface

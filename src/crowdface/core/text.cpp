@@ -87,6 +87,20 @@ std::string format_fixed(double value, int decimals) {
   return {buffer, end};
 }
 
+std::string zero_padded(std::uint64_t number, std::size_t digits) {
+  std::string text = concat(number);
+  if (text.size() < digits) text.insert(0, digits - text.size(), '0');
+  return text;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return out;
+}
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 80;
   std::string out = "\"";

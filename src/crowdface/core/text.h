@@ -23,6 +23,12 @@ std::string format_number(double value);
 /// Fixed notation with this many decimals.
 std::string format_fixed(double value, int decimals);
 
+/// At least this many digits, zeros in front: "0007".
+std::string zero_padded(std::uint64_t number, std::size_t digits);
+
+/// A to Z made small, everything else as it is.
+std::string lower_case(std::string_view text);
+
 /// `text` between double quotes, control characters and quotes escaped; long text is shortened.
 std::string quoted(std::string_view text);
 /// The same; without it, std::quoted would be chosen for strings.

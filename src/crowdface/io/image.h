@@ -32,6 +32,7 @@ struct ImageLimits {
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< width · height · channels
   bool jpeg = false;                     ///< that too: for colours, never for masks
+  bool ours = false;                     ///< we wrote it: input_limits() are not asked
 };
 
 /// The (first) picture of a PNG, TIFF or OpenEXR file, told by its content and not by its name.

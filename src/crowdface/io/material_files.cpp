@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kFirstTile = 1001;
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
 std::vector<std::string> words_of(std::string_view line) {
@@ -32,6 +33,22 @@ std::vector<std::string> words_of(std::string_view line) {
     i = end;
   }
   return words;
+}
+
+/// What stands in a line from each of its words but the first to its end: a name may hold blanks, and
+/// options come before it. Of a line of more words than any has, the last alone.
+std::vector<std::string> tails_of(std::string_view line) {
+  constexpr std::size_t kMostWords = 32;
+  std::vector<std::string> tails;
+  const std::size_t end = line.find_last_not_of(" \t\r") + 1;
+  for (std::size_t i = line.find_first_not_of(" \t\r"); i < end;) {
+    i = line.find_first_of(" \t\r", i);
+    if (i >= end) break;
+    i = line.find_first_not_of(" \t\r", i);
+    tails.emplace_back(line.substr(i, end - i));
+  }
+  if (tails.size() > kMostWords) tails.erase(tails.begin(), tails.end() - 1);
+  return tails;
 }
 
 /// Stays below the folder it starts from. (The system would cut a name short at a NUL.)
@@ -58,13 +75,6 @@ void for_each_statement(std::string_view text, const Body& body) {
   }
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
 std::string with_forward_slashes(std::string path) {
   std::replace(path.begin(), path.end(), '\\', '/');
   return path;
@@ -84,9 +94,9 @@ bool is_name_of_ours(const fs::path& relative) {
   constexpr std::array<std::string_view, 4> kMeshes = {".obj", ".ply", ".glb", ".npy"};
   const fs::path normal = relative.lexically_normal();
   const bool is_mesh = std::any_of(normal.begin(), normal.end(), [&](const fs::path& part) {
-    return std::count(kMeshes.begin(), kMeshes.end(), lower_case(part.extension())) > 0;
+    return std::count(kMeshes.begin(), kMeshes.end(), lower_case(part.extension().string())) > 0;
   });
-  return is_mesh || lower_case(*normal.begin()) == "topology";
+  return is_mesh || lower_case(normal.begin()->string()) == "topology";
 }
 
 /// Why a file of this name is not copied; empty if it is.
@@ -154,6 +164,11 @@ class Collector {
                                        " is missing; meshes will name it all the same"));
       return false;
     }
+    if (::access((folder_ / relative).c_str(), R_OK) != 0) {
+      files_.warnings.push_back(
+          concat(what, " ", quoted(relative.string()), " cannot be read and is not copied"));
+      return false;
+    }
     const fs::path normal = relative.lexically_normal();
     if (!destinations_.insert(normal).second) return false;
     files_.files.push_back({folder_ / normal, normal});
@@ -173,8 +188,7 @@ class Collector {
           throw_if_interrupted();
           if (words[0] == "newmtl") material = rest_of(line, "newmtl");
           if (!is_texture_statement(words[0])) return;
-          // Options come before the name.
-          const fs::path relative = name.parent_path() / with_forward_slashes(words.back());
+          const fs::path relative = texture_of(line, name.parent_path());
           const Seen seen = see(relative, "texture", file, textures_);
           if (seen == Seen::kTooMany) return;
           if (words[0] == "map_Kd" && stays_inside(relative)) {
@@ -182,6 +196,19 @@ class Collector {
           }
           if (seen == Seen::kNew) take_texture(relative);
         });
+  }
+
+  /// The longest name at the end of the line that a file has, or a first tile. If none has: all of it,
+  /// or after options its last word.
+  fs::path texture_of(std::string_view line, const fs::path& folder) const {
+    const std::vector<std::string> tails = tails_of(line);
+    for (const std::string& tail : tails) {
+      fs::path relative = folder / with_forward_slashes(tail);
+      if (!stays_inside(relative)) continue;
+      if (exists(relative) || exists(with_tile(relative, kFirstTile))) return relative;
+    }
+    const std::string& name = tails.front().starts_with('-') ? tails.back() : tails.front();
+    return folder / with_forward_slashes(name);
   }
 
   void take_texture(const fs::path& relative) {

@@ -67,9 +67,7 @@ class PdfWriter {
     const std::size_t table = text_.size();
     text_ += concat("xref\n0 ", starts_.size() + 1, "\n0000000000 65535 f \n");
     for (const std::size_t start : starts_) {
-      std::string number = concat(start);
-      number.insert(0, 10 - number.size(), '0');
-      text_ += concat(number, " 00000 n \n");
+      text_ += concat(zero_padded(start, 10), " 00000 n \n");
     }
     text_ += concat("trailer\n<< /Size ", starts_.size() + 1, " /Root 1 0 R >>\nstartxref\n", table,
                     "\n%%EOF\n");

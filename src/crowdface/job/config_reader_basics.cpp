@@ -5,6 +5,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/config_sections.h"
+#include "crowdface/job/recipe_bounds.h"
 
 namespace crowdface {
 namespace {

@@ -4,50 +4,16 @@
 #include <set>
 #include <system_error>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/job/config_sections.h"
+#include "crowdface/job/input_files.h"
+#include "crowdface/job/mesh_format.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kFewestHeads = 2;
-constexpr std::size_t kMostHeads = 50;
-
-bool is_obj(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending == ".obj";
-}
-
-/// Every OBJ file directly in the folder, by name. Hidden files (such as the "._head.obj" that some
-/// systems leave behind) and folders do not count; a link that leads nowhere does, as a file that
-/// is missing.
-std::vector<fs::path> list_heads(const YamlNode& node, const fs::path& folder, Complaints& out) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code ignored;
-    const fs::path& path = it->path();
-    if (is_obj(path) && !path.filename().string().starts_with('.') &&
-        !fs::is_directory(path, ignored)) {
-      files.push_back(path);
-    }
-  }
-  if (error) {
-    out.about(node,
-              concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()),
-              ExitCode::kMissingInput);
-    return {};
-  }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return a.filename().string() < b.filename().string();
-  });
-  return files;
-}
 
 /// Files and, for each, where the config names it.
 struct NamedFiles {
@@ -59,7 +25,11 @@ NamedFiles read_directory(const YamlNode& node, ConfigDraft& draft) {
   NamedFiles named;
   const auto text = read_text(node, "a folder of OBJ files", draft.complaints);
   if (!text) return named;
-  named.files = list_heads(node, resolve(draft.folder, *text), draft.complaints);
+  try {
+    named.files = list_heads(resolve(draft.folder, *text));
+  } catch (const MissingInput& error) {
+    draft.complaints.about(node, error.what(), error.code());
+  }
   named.nodes.assign(named.files.size(), &node);
   return named;
 }
@@ -73,7 +43,7 @@ NamedFiles read_files(const YamlNode& node, ConfigDraft& draft) {
   for (const YamlNode& item : node.items) {
     const auto text = read_text(item, "an OBJ file", draft.complaints);
     if (!text) continue;
-    if (!is_obj(*text)) {
+    if (mesh_format_of(*text) != MeshFormat::kObj) {
       draft.complaints.expected(item, "a file whose name ends in .obj");
       continue;
     }

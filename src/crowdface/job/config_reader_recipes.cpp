@@ -5,11 +5,11 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/config_sections.h"
+#include "crowdface/job/recipe_bounds.h"
 
 namespace crowdface {
 namespace {
 
-constexpr double kMaxWeight = 1e6;
 
 /// Whether an id is one that a sampled face of this crowd could get: NAME_0001 and so on.
 bool looks_sampled(std::string_view id, std::string_view crowd) {
@@ -52,7 +52,7 @@ std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft)
   bool sound = true;
   for (const YamlEntry& entry : node.entries) {
     const auto head = find_head(entry.key, entry.key_place, node.path, draft);
-    const auto weight = read_number(entry.value, 0, kMaxWeight, draft.complaints);
+    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
     sum += weight.value_or(0);
     sound = sound && weight;
     if (head && weight) weights.push_back({*head, *weight});

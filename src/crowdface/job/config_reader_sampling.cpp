@@ -12,7 +12,6 @@ namespace crowdface {
 namespace {
 
 constexpr double kMaxRadius = 1e6;
-constexpr double kMaxWeight = 1e6;
 constexpr std::uint64_t kMostSources = 50;
 
 using Words = std::vector<std::string>;
@@ -191,7 +190,7 @@ std::vector<WeightedHead> read_weighted_targets(const YamlNode& node, ConfigDraf
   std::map<Eigen::Index, double> by_tag, by_name;
   for (const YamlEntry& entry : node.entries) {
     const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
-    const auto weight = read_number(entry.value, 0, kMaxWeight, draft.complaints);
+    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
     if (weight == 0.0) {
       draft.complaints.expected(entry.value, "a weight above 0 (leave the head out for none)");
     }

@@ -4,6 +4,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/config_sections.h"
+#include "crowdface/job/sheets.h"
 
 namespace crowdface {
 namespace {
@@ -130,6 +131,10 @@ void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
       map.find("formats"),
       {{"png", SheetFormat::kPng}, {"exr", SheetFormat::kExr}, {"pdf", SheetFormat::kPdf}},
       "a list of formats, [png, exr, pdf]", sheet->formats, out);
+  if (!fits_on_a_page(*sheet)) {
+    out.about(*node, "one page of so many cells, rows and columns is too large (at most 65500 "
+                     "pixels a side and 5e8 in all)");
+  }
 }
 
 void read_surfaces(const YamlNode* node, ConfigDraft& draft) {

@@ -28,8 +28,6 @@ struct ConfigDraft {
   std::optional<std::uint64_t> most_iterations;  ///< likewise
 };
 
-constexpr std::uint64_t kMaxIterations = 10'000'000;
-
 /// Each reads one key of the root: its values into the draft, what is wrong into its complaints.
 /// `node` is null if the key is not there.
 void read_crowd(const YamlNode* node, ConfigDraft& draft);

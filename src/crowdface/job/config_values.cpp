@@ -197,9 +197,8 @@ std::optional<std::size_t> read_word(const YamlNode& node, const std::vector<std
   return std::nullopt;
 }
 
-bool is_name(std::string_view text) {
-  constexpr std::size_t kLongest = 64;
-  return !text.empty() && text.size() <= kLongest && text.front() != '.' &&
+bool is_name(std::string_view text, std::size_t longest) {
+  return !text.empty() && text.size() <= longest && text.front() != '.' &&
          text.find_first_not_of(
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
              std::string_view::npos;

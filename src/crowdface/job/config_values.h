@@ -64,8 +64,12 @@ std::optional<Value> read_choice(const YamlNode& node, const Choices<Value>& cho
   return index ? std::optional<Value>(choices[*index].second) : std::nullopt;
 }
 
-/// Whether it is a name: 1…64 letters (a–z), digits, '_', '-' and '.', not starting with '.'.
-bool is_name(std::string_view text);
+inline constexpr std::size_t kLongestName = 64;
+inline constexpr std::size_t kLongestId = kLongestName + 1 + 20;  ///< crowd_18446744073709551615
+
+/// Whether it is a name that can be a file's on any system: at most `longest` letters (a–z), digits,
+/// '_', '-' and '.', not starting with '.', and not empty.
+bool is_name(std::string_view text, std::size_t longest = kLongestName);
 
 /// `; did you mean "count"?`, or nothing if no candidate is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);

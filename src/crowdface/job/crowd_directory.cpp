@@ -9,6 +9,8 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/config_values.h"
+#include "crowdface/job/ledger.h"
 #include "crowdface/job/shallow_json.h"
 
 namespace crowdface {
@@ -83,6 +85,71 @@ void remove_crowd(const CrowdDirectory& directory) {
   }
 }
 
+/// Those that a crowd may have, parents first.
+std::vector<fs::path> folders_of(const CrowdDirectory& directory) {
+  const fs::path data = directory.gallery() / "data";
+  return {directory.meshes(),
+          directory.topology(),
+          directory.renders(),
+          directory.head_render("").parent_path(),
+          directory.founder_render("").parent_path(),
+          directory.sheets(),
+          directory.gallery(),
+          data,
+          data / "faces",
+          data / "heads"};
+}
+
+/// What says what a crowd is, and what it has become.
+std::vector<fs::path> papers_of(const CrowdDirectory& directory) {
+  return {directory.plan(),   directory.founders(), directory.table(),    directory.casting(),
+          directory.report(), directory.ledger(),   directory.likeness(), directory.timings()};
+}
+
+/// \throws CannotCreate if something stands in the way of a folder or file of the crowd.
+void refuse_obstacles(const CrowdDirectory& directory) {
+  for (const fs::path& folder : folders_of(directory)) {
+    std::error_code ignored;
+    if (!fs::exists(folder, ignored)) continue;
+    if (!fs::is_directory(folder, ignored)) {
+      throw CannotCreate(concat(folder.string(), ": expected a folder, or nothing"));
+    }
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+      throw CannotCreate(concat(folder.string(), ": may not be written to"));
+    }
+  }
+  std::vector<fs::path> files = papers_of(directory);
+  for (const fs::path& file : {directory.config(), directory.log(), directory.lock(),
+                               directory.sheet(1), directory.sheets() / "index.png",
+                               directory.gallery() / "index.html"}) {
+    files.push_back(file);
+  }
+  for (const fs::path& file : files) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored) || fs::is_regular_file(file, ignored)) continue;
+    throw CannotCreate(concat(file.string(), ": expected a file, or nothing"));
+  }
+}
+
+/// Whether a folder that has no config has what else a crowd has: it is another's, or is no crowd at
+/// all but somebody's own. A crowd that only lost its config is known by its ledger.
+bool is_anothers(const CrowdDirectory& directory, const std::string& effective_config) {
+  std::error_code ignored;
+  if (fs::exists(directory.config(), ignored)) return false;
+  const std::string name = directory.relative(directory.config());
+  for (const fs::path& ledger : directory.ledgers()) {
+    for (const LedgerEntry& entry : read_ledger(ledger).entries) {
+      if (entry.item == name && entry.key == hash_bytes(effective_config)) return false;
+    }
+  }
+  const std::vector<fs::path> papers = papers_of(directory), folders = folders_of(directory);
+  return std::any_of(papers.begin(), papers.end(),
+                     [&](const fs::path& file) { return fs::exists(file, ignored); }) ||
+         std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+           return fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored);
+         });
+}
+
 /// The first line in which two texts differ, from 1.
 std::size_t first_different_line(const std::string& a, const std::string& b) {
   std::size_t line = 1;
@@ -140,14 +207,7 @@ std::vector<fs::path> of_all_shards(const fs::path& path) {
 /// Nothing that a run writes, appends to or removes is reached by a link that leads elsewhere.
 /// \throws CannotCreate if it would be.
 void refuse_links(const CrowdDirectory& directory) {
-  const fs::path heads = directory.head_render("").parent_path();
-  const fs::path founders = directory.founder_render("").parent_path();
-  const fs::path data = directory.gallery() / "data";
-  for (const fs::path& folder :
-       {directory.meshes(), directory.topology(), directory.renders(), heads, founders,
-        directory.sheets(), directory.gallery(), data, data / "faces", data / "heads"}) {
-    refuse_folder_elsewhere(directory, folder);
-  }
+  for (const fs::path& folder : folders_of(directory)) refuse_folder_elsewhere(directory, folder);
   std::vector<fs::path> files = {directory.log(), directory.ledger()};
   for (const fs::path& path : directory.shard_ledgers()) files.push_back(path);
   for (const fs::path& path : directory.shard_logs()) files.push_back(path);
@@ -201,7 +261,7 @@ std::vector<std::string> ids_in_plan(const std::string& plan) {
     const auto line = parse_shallow_json(std::string_view(plan).substr(begin, end - begin));
     if (line.is_object() && line.contains("id") && line["id"].is_string()) {
       const auto id = line["id"].get<std::string>();
-      if (id.find('/') == id.npos) ids.push_back(id);
+      if (is_name(id, kLongestId)) ids.push_back(id);
     }
     begin = end + 1;
   }
@@ -212,14 +272,13 @@ bool is_sheet_file(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string ending = path.extension().string();
   const bool ours = stem.starts_with("sheet_") || stem.starts_with("heads_") ||
-                    stem.starts_with("family_") || stem == "index" || stem == "sheets";
+                    stem.starts_with("family_") || stem == "index" ||
+                    stem.starts_with("index_") || stem == "sheets" || stem.starts_with("sheets_");
   return ours && (ending == ".png" || ending == ".exr" || ending == ".pdf");
 }
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {
-  std::string number = concat(page);
-  if (number.size() < 3) number.insert(0, 3 - number.size(), '0');
-  return sheets() / concat("sheet_", number, ".png");
+  return sheets() / concat("sheet_", zero_padded(page, 3), ".png");
 }
 
 fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
@@ -248,6 +307,13 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
     existing = existing.parent_path();
   }
   refuse_links(directory);
+  refuse_obstacles(directory);
+  if (replace == Replace::kRefuse && is_anothers(directory, effective_config)) {
+    throw UsageError(concat(directory.root.string(),
+                            ": holds files that this crowd would replace, and no config.yaml that "
+                            "says they are its own; choose another folder with --out, or replace "
+                            "them with --force"));
+  }
   if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
     throw CannotCreate(
         concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));
@@ -259,8 +325,9 @@ void open_crowd_directory(const CrowdDirectory& directory, const std::string& ef
   check_crowd_directory(directory, effective_config, replace);
   make_directories(directory.root);
   std::error_code ignored;
-  if (fs::exists(directory.config(), ignored) &&
-      !same_crowd(read_file(directory.config()), effective_config)) {
+  if (fs::exists(directory.config(), ignored)
+          ? !same_crowd(read_file(directory.config()), effective_config)
+          : is_anothers(directory, effective_config)) {
     remove_crowd(directory);
   }
   write_file(directory.config(), effective_config);

@@ -55,6 +55,10 @@ struct CrowdDirectory {
   std::filesystem::path gallery_head(const std::string& name) const {
     return gallery() / "data/heads" / (name + ".js");
   }
+  /// The name that the ledger has for a file of the crowd.
+  std::string relative(const std::filesystem::path& file) const {
+    return file.lexically_relative(root).generic_string();
+  }
   /// Sheet number `page`, from 1.
   std::filesystem::path sheet(std::size_t page) const;
 };

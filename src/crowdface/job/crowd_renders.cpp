@@ -111,7 +111,7 @@ std::string CrowdRenders::render_png(const Positions& positions,
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {
-  const Image image = read_image(path);
+  const Image image = read_image(path, {.ours = true});
   Rgb8Image result(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {

@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kItem = "sheets";  // in the ledger
-constexpr int kSheetVersion = 4;  // raised whenever a change of the code alters what is made here
+constexpr int kSheetVersion = 5;  // raised whenever a change of the code alters what is made here
 
 std::vector<std::string> sheet_files(const CrowdDirectory& directory) {
   std::vector<std::string> names;
-  for (const fs::path& path : picture_files(directory)) names.push_back(name_in(directory, path));
+  for (const fs::path& path : picture_files(directory)) names.push_back(directory.relative(path));
   return names;
 }
 
@@ -79,6 +79,12 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
 void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set,
                    const fs::path& cache) {
   const CrowdDirectory directory{crowd_directory};
+  std::error_code ignored;
+  if (!fs::exists(directory.config(), ignored)) {
+    throw MissingInput(
+        concat(directory.config().string(), ": not there; expected a crowd's folder"));
+  }
+  const CrowdLock lock(directory, {});  // another run may be about to replace what is read here
   ConfigOverrides overrides;
   overrides.set = set;
   const Job job = load_job(directory.config(), overrides);
@@ -88,7 +94,6 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             "output.contact_sheet='{columns: 6}'"));
   }
   check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
-  const CrowdLock lock(directory, {});
   std::vector<Recipe> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {

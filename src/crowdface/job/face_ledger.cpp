@@ -40,10 +40,6 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   return hasher.digest();
 }
 
-std::string name_in(const CrowdDirectory& directory, const std::filesystem::path& path) {
-  return path.lexically_relative(directory.root).generic_string();
-}
-
 std::string item_of(const Recipe& recipe) {
   return concat("faces/", recipe.id);
 }
@@ -110,14 +106,14 @@ void FaceLedger::record(const Recipe& recipe, const FaceFiles& files) const {
   LedgerEntry entry{item_of(recipe), key_of(recipe), {}, {}};
   for (const MeshFile& mesh : files.meshes) {
     entry.files.push_back(
-        {name_in(directory_, directory_.mesh(recipe.id, mesh.format)), {mesh.bytes, mesh.digest}});
+        {directory_.relative(directory_.mesh(recipe.id, mesh.format)), {mesh.bytes, mesh.digest}});
   }
   if (files.picture) {
-    entry.files.push_back({name_in(directory_, directory_.render(recipe.id)), *files.picture});
+    entry.files.push_back({directory_.relative(directory_.render(recipe.id)), *files.picture});
   }
   if (files.preview) {
     entry.files.push_back(
-        {name_in(directory_, directory_.gallery_face(recipe.id)), *files.preview});
+        {directory_.relative(directory_.gallery_face(recipe.id)), *files.preview});
   }
   if (files.skin) entry.note = to_json(*files.skin).dump();
   ledger_.record(std::move(entry));

@@ -43,12 +43,26 @@ class Busy {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::uint64_t vertex_count(const Job& job) {
+  return static_cast<std::uint64_t>(job.inputs.faces.topology.vertex_count);
+}
+
+/// What the inputs take.
+std::uint64_t input_bytes(const Job& job) {
+  return job.inputs.faces.heads.size() * vertex_count(job) * 3 * sizeof(double) +
+         static_cast<std::uint64_t>(job.inputs.regions.alpha.size()) * sizeof(double) +
+         kMeshBytesAVertex * vertex_count(job);
+}
+
+/// What all threads take while they make pictures.
+std::uint64_t render_bytes(const Job& job) {
+  if (!job.config.output.contact_sheet) return 0;
+  return static_cast<std::uint64_t>(thread_count()) * kRenderBytesAVertex * vertex_count(job);
+}
+
 /// What the process holds whatever the number of faces at once.
 std::uint64_t standing_bytes(const Job& job, const Prepared& prepared, const MeshWriters& writers) {
-  const auto vertices = static_cast<std::uint64_t>(job.inputs.faces.topology.vertex_count);
-  std::uint64_t bytes = job.inputs.faces.heads.size() * vertices * 3 * sizeof(double);
-  bytes += static_cast<std::uint64_t>(job.inputs.regions.alpha.size()) * sizeof(double);
-  bytes += kMeshBytesAVertex * vertices;
+  std::uint64_t bytes = input_bytes(job);
   bytes += writers.memory_bytes();
   for (const StoredLevels& levels : prepared.levels) {
     if (!levels.mapped) bytes += levels.fields.size_bytes();
@@ -56,23 +70,24 @@ std::uint64_t standing_bytes(const Job& job, const Prepared& prepared, const Mes
   return bytes;
 }
 
+[[noreturn]] void refuse_memory(std::string_view least, std::uint64_t memory) {
+  throw UsageError(concat("this job needs ", least, " of memory, ", format_bytes(memory),
+                          " are allowed (--memory); fewer threads (--threads) need less"));
+}
+
 /// How many faces are blended together within the memory.
 std::size_t faces_at_once(const Job& job, const Prepared& prepared, const FaceBuilder& builder,
                           const MeshWriters& writers, const SkinCheck* check,
                           std::uint64_t memory) {
-  const bool rendered = job.config.output.contact_sheet.has_value();
-  const auto vertices = static_cast<std::uint64_t>(job.inputs.faces.topology.vertex_count);
   const auto threads = static_cast<std::uint64_t>(thread_count());
   const std::uint64_t work =
-      threads * (writers.encode_bytes() + (rendered ? kRenderBytesAVertex * vertices : 0) +
-                 (check != nullptr ? check->compare_bytes() : 0));
+      render_bytes(job) +
+      threads * (writers.encode_bytes() + (check != nullptr ? check->compare_bytes() : 0));
   const std::uint64_t standing = standing_bytes(job, prepared, writers) + work +
                                  (check != nullptr ? check->memory_bytes() : 0);
   const std::uint64_t least = standing + 2 * builder.bytes(1);
   if (least > memory) {
-    throw UsageError(concat("this job needs ", format_bytes(least), " of memory, ",
-                            format_bytes(memory),
-                            " are allowed (--memory); fewer threads (--threads) need less"));
+    refuse_memory(format_bytes(least), memory);
   }
   const std::uint64_t fit = (memory - standing) / (2 * builder.bytes(1));
   return static_cast<std::size_t>(std::min<std::uint64_t>(fit, kMostAtOnce));
@@ -141,6 +156,11 @@ struct Slot {
 };
 
 }  // namespace
+
+void refuse_too_little_memory(const Job& job, std::uint64_t memory) {
+  const std::uint64_t least = input_bytes(job) + render_bytes(job);
+  if (least > memory) refuse_memory(concat("more than ", format_bytes(least)), memory);
+}
 
 FaceStages::FaceStages(const Job& job, const Prepared& prepared, const std::vector<Recipe>& crowd,
                        std::uint64_t memory)

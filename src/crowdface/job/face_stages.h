@@ -22,6 +22,10 @@ struct BuiltFaces {
   StageBusy busy;
 };
 
+/// What is known before heads are prepared and faces cast: a job that cannot fit need not begin.
+/// \throws UsageError if inputs and pictures alone take more than `memory` bytes.
+void refuse_too_little_memory(const Job& job, std::uint64_t memory);
+
 /// Makes faces: blends them, judges them, writes and renders them.
 class FaceStages {
  public:

@@ -26,11 +26,13 @@
 #include "crowdface/job/crowd_sheets.h"
 #include "crowdface/job/face_ledger.h"
 #include "crowdface/job/face_stages.h"
+#include "crowdface/job/input_files.h"
 #include "crowdface/job/ledger.h"
 #include "crowdface/job/mesh_judge.h"
 #include "crowdface/job/mesh_writers.h"
 #include "crowdface/job/report.h"
 #include "crowdface/job/resume.h"
+#include "crowdface/job/shallow_json.h"
 #include "crowdface/job/sheets.h"
 
 namespace crowdface {
@@ -83,17 +85,24 @@ void tell_casting(const Cast& cast) {
   if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
 }
 
-/// \throws UsageError if a head lies where this run writes meshes and removes those of an old
-/// crowd.
-void refuse_to_write_over_heads(const Job& job, const CrowdDirectory& directory) {
+bool lies_below(const fs::path& path, const fs::path& folder) {
   std::error_code error;
-  const fs::path meshes = fs::weakly_canonical(directory.meshes(), error);
-  if (error) return;  // there is no such folder, nor can one be made: the next check says so
-  for (const fs::path& head : job.config.faces.files) {
-    if (fs::weakly_canonical(head, error).parent_path() == meshes) {
-      throw UsageError(concat(directory.root.string(), ": the head ", head.string(),
-                              " lies among the meshes of this crowd; choose another folder with "
-                              "--out"));
+  const fs::path way =
+      fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(folder, error));
+  return !error && !way.empty() && *way.begin() != "..";
+}
+
+/// \throws UsageError if an input lies where this run writes files and removes those of an old
+/// crowd.
+void refuse_to_write_over_inputs(const Job& job, const CrowdDirectory& directory) {
+  const auto& sheet = job.config.output.contact_sheet;
+  for (const fs::path& input : input_files(job.config)) {
+    if (sheet && input == sheet->compare.file) continue;  // may be one of this crowd's own
+    for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
+      if (!lies_below(input, folder)) continue;
+      throw UsageError(concat(directory.root.string(), ": the input ", input.string(),
+                              " lies where files of this crowd are written; choose another folder "
+                              "with --out"));
     }
   }
 }
@@ -109,12 +118,38 @@ void refuse_to_write_over_config(const Job& job, const CrowdDirectory& directory
                           "folder with --out, or rename it"));
 }
 
+/// Whether the ledger has other bytes of a file.
+bool is_damaged(const CrowdDirectory& directory, const fs::path& file, std::string_view bytes) {
+  const std::vector<LedgerEntry> lines = read_ledger(directory.ledger()).entries;
+  const std::string name = directory.relative(file);
+  return std::any_of(lines.begin(), lines.end(), [&](const auto& e) { return e.item == name; }) &&
+         std::none_of(lines.begin(), lines.end(), [&](const LedgerEntry& entry) {
+           return entry.item == name && entry.key == hash_bytes(bytes);
+         });
+}
+
+/// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
+void refuse_other_heads(const Job& job, const CrowdDirectory& directory) {
+  std::error_code ignored;
+  if (!fs::exists(directory.plan(), ignored)) return;
+  const std::string plan = read_file(directory.plan());
+  if (is_damaged(directory, directory.plan(), plan)) return;  // it is made anew
+  const auto first = parse_shallow_json(std::string_view(plan).substr(0, plan.find('\n')));
+  const auto settings = first.is_object() ? first.find("settings") : first.end();
+  if (settings == first.end() || *settings == job.settings.hex()) return;
+  throw UsageError(concat(directory.root.string(),
+                          ": holds a crowd of other heads or masks than they are now, or of another "
+                          "version of crowdface (\"settings\" in its plan.jsonl); choose another "
+                          "folder with --out, or replace it with --force"));
+}
+
 /// Refuses a folder that the crowd cannot be written to, or where it would destroy what it reads.
 void check_output(const Job& job, Replace replace) {
   const CrowdDirectory directory{job.config.output.directory};
-  refuse_to_write_over_heads(job, directory);
+  refuse_to_write_over_inputs(job, directory);
   refuse_to_write_over_config(job, directory);
   check_crowd_directory(directory, effective_config(job.config, directory.root), replace);
+  if (replace == Replace::kRefuse) refuse_other_heads(job, directory);
 }
 
 /// Prepared heads and the crowd cast from them.
@@ -132,7 +167,7 @@ CastJob cast_job(const Job& job, const GenerateOptions& options, StageSeconds& s
   });
   Cast crowd = timed(stages, "cast", [&] { return cast(job, prepared); });
   tell_casting(crowd);
-  check_comparison(job, crowd.crowd);
+  check_compared_crowd(job, crowd.crowd);
   return {std::move(prepared), std::move(crowd)};
 }
 
@@ -176,7 +211,7 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
         const fs::path to = directory.meshes() / material.relative;
         refuse_folder_elsewhere(directory, to.parent_path());
         make_directories(to.parent_path());
-        ledger.write(name_in(directory, to), MappedFile(material.from).bytes());
+        ledger.write(directory.relative(to), MappedFile(material.from).bytes());
       } else if (first->second != digest->second) {
         heads_of_warning[concat(material.relative.string(),
                                 " is not the same file for all heads; the first head's is kept")]
@@ -192,13 +227,18 @@ std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& di
   return warnings;
 }
 
-/// \param with_faces  false: only the plan is wanted
-void tell_dry_run(const Job& job, bool with_faces) {
-  const Config& config = job.config;
+std::uint64_t face_count(const Config& config) {
   std::uint64_t faces = config.crowd.count + config.recipes.size();
   for (const FamilyOptions& family : config.families) {
     faces += static_cast<std::uint64_t>(family.members);
   }
+  return faces;
+}
+
+/// \param with_faces  false: only the plan is wanted
+void tell_dry_run(const Job& job, bool with_faces) {
+  const Config& config = job.config;
+  const std::uint64_t faces = face_count(config);
   if (!with_faces) {
     log_info(concat("dry run: a plan of ", faces, " faces into ", config.output.directory.string(),
                     "; nothing was written"));
@@ -217,13 +257,17 @@ enum class Purpose {
   kGather,    ///< refuse if a face is missing
 };
 
+/// What the whole process may take, in bytes.
+std::uint64_t memory_for(const GenerateOptions& options) {
+  return options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
+}
+
 /// What makes a crowd's faces, from when it is first needed.
 class LazyStages {
  public:
-  LazyStages(const Job& job, const CastJob& crowd, const GenerateOptions& options)
-      : job_(job),
-        crowd_(crowd),
-        memory_(options.memory > 0 ? options.memory : machine_memory() / 4 * 3) {}
+  /// \param memory  bytes that the whole process may take
+  LazyStages(const Job& job, const CastJob& crowd, std::uint64_t memory)
+      : job_(job), crowd_(crowd), memory_(memory) {}
 
   /// \throws UsageError if they do not fit the memory.
   const FaceStages& get() {
@@ -264,7 +308,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   const std::vector<Recipe>& crowd = cast_job.cast.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard), directory.ledgers());
   const auto write = [&](const fs::path& path, std::string_view bytes) {
-    ledger.write(name_in(directory, path), bytes);
+    ledger.write(directory.relative(path), bytes);
   };
   write(directory.config(), effective_config(job.config, directory.root));
   write_plan(job, directory, cast_job.cast, write);
@@ -328,11 +372,12 @@ bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
   const CrowdDirectory directory{job.config.output.directory};
-  const CastJob crowd = cast_job(job, options, stages);
-  LazyStages face_stages(job, crowd, options);
   // A crowd that goes on may have no face to make; a new one is refused before anything is written.
   const bool is_new = purpose == Purpose::kGenerate &&
                       (options.replace == Replace::kForce || !goes_on(directory, options.shard));
+  if (is_new && face_count(job.config) > 0) refuse_too_little_memory(job, memory_for(options));
+  const CastJob crowd = cast_job(job, options, stages);
+  LazyStages face_stages(job, crowd, memory_for(options));
   if (is_new && !crowd.cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
@@ -360,6 +405,7 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
   if (options.dry_run) {
     check_output(job, options.replace);
+    refuse_too_little_memory(job, memory_for(options));
     return tell_dry_run(job, true);
   }
   run_job(job, options, Purpose::kGenerate, memory, stages);

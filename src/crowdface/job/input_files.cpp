@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/utf8.h"
 #include "crowdface/io/tile_files.h"
+#include "crowdface/job/mesh_format.h"
 
 namespace crowdface {
 namespace {
@@ -20,6 +21,11 @@ void add_image(const fs::path& image, std::vector<fs::path>& files) {
   for (fs::path& tile : find_tiles(image)) files.push_back(std::move(tile));
 }
 
+bool is_head(const fs::path& path) {
+  std::error_code ignored;
+  return mesh_format_of(path) == MeshFormat::kObj && !path.filename().string().starts_with('.') && !fs::is_directory(path, ignored);
+}
+
 bool is_plain_text(std::string_view text) {
   return is_utf8(text) && std::none_of(text.begin(), text.end(), [](char c) {
            return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
@@ -27,6 +33,22 @@ bool is_plain_text(std::string_view text) {
 }
 
 }  // namespace
+
+std::vector<fs::path> list_heads(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (is_head(it->path())) files.push_back(it->path());
+  }
+  if (error) {
+    throw MissingInput(
+        concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return a.filename().string() < b.filename().string();
+  });
+  return files;
+}
 
 std::vector<fs::path> input_files(const Config& config) {
   std::vector<fs::path> files = {config.file};
@@ -37,15 +59,6 @@ std::vector<fs::path> input_files(const Config& config) {
   const auto& sheet = config.output.contact_sheet;
   if (sheet && !sheet->compare.file.empty()) files.push_back(sheet->compare.file);
   return files;
-}
-
-void refuse_to_write_over_inputs(const Config& config, const fs::path& path) {
-  for (const fs::path& input : input_files(config)) {
-    std::error_code ignored;
-    if (!fs::equivalent(input, path, ignored)) continue;
-    throw UsageError(concat(path.string(), ": is an input of this job (", input.string(),
-                            ") and is not written over; choose another name"));
-  }
 }
 
 void refuse_path_no_config_can_hold(const fs::path& path) {

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kEndItem = "end";  // the last line of a finished crowd: its key is all the others
 constexpr std::string_view kSum = R"(,"sum":")", kEnd = R"("})";
 
 std::optional<std::string> text_at(const Json& json, const char* key) {
@@ -38,16 +39,6 @@ std::optional<LedgerEntry::File> file_of(const Json& json) {
   const auto bytes = json.find("bytes");
   if (!name || !hash || bytes == json.end() || !bytes->is_number_unsigned()) return std::nullopt;
   return LedgerEntry::File{*name, {bytes->get<std::uint64_t>(), *hash}};
-}
-
-bool file_matches(const fs::path& root, const LedgerEntry::File& file) {
-  std::error_code error;
-  if (fs::file_size(root / file.name, error) != file.content.bytes || error) return false;
-  try {
-    return hash_file(root / file.name) == file.content;
-  } catch (const Error&) {  // what cannot be read is not there
-    return false;
-  }
 }
 
 std::string format_all(const std::vector<LedgerEntry>& entries) {
@@ -105,7 +96,9 @@ LedgerLines parse_ledger(const std::string& text) {
     if (end != text.npos) {
       entry = parse_ledger_line(std::string_view(text).substr(begin, end - begin));
     }
-    if (entry) {
+    if (entry && entry->item == kEndItem) {
+      lines.complete = entry->key == hash_bytes(std::string_view(text).substr(0, begin));
+    } else if (entry) {
       lines.entries.push_back(std::move(*entry));
     } else {
       ++lines.damaged;
@@ -123,7 +116,7 @@ LedgerLines read_ledger(const fs::path& path) {
 
 bool files_match(const fs::path& root, const LedgerEntry& entry) {
   return std::all_of(entry.files.begin(), entry.files.end(),
-                     [&](const LedgerEntry::File& file) { return file_matches(root, file); });
+                     [&](const LedgerEntry::File& file) { return holds(root / file.name, file.content); });
 }
 
 void add_lines(LedgerLines lines, LinesOfItems& to) {
@@ -218,7 +211,7 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
     if (lines.size() == 1) return lines.back();
     const auto agreed = std::find_if(lines.rbegin(), lines.rend(), [&](const LedgerEntry& line) {
       return std::all_of(line.files.begin(), line.files.end(), [&](const auto& file) {
-        return is_in_them(file.name) || file_matches(root_, file);
+        return is_in_them(file.name) || holds(root_ / file.name, file.content);
       });
     });
     return agreed == lines.rend() ? lines.back() : *agreed;
@@ -239,7 +232,8 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
 void Ledger::settle() {
   std::vector<LedgerEntry> in_order;
   for (const auto& [item, entry] : done_) in_order.push_back(entry);
-  const std::string text = format_all(in_order);
+  std::string text = format_all(in_order);
+  text += format_all({{kEndItem, hash_bytes(text), {}, {}}});
   if (settled_ != text) write_file(own_, text);
   for (const fs::path& other : others_) {
     std::error_code error;

@@ -38,6 +38,7 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
   std::size_t damaged = 0;  ///< lines that are not whole
+  bool complete = false;    ///< a run came to its end, and all lines that it left are there
 };
 LedgerLines parse_ledger(const std::string& text);
 /// \return no lines if there is no such file. \throws IoError.

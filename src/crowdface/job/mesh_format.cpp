@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "crowdface/core/text.h"
+
 namespace crowdface {
 
 const std::vector<MeshFormat>& all_mesh_formats() {
@@ -40,10 +42,7 @@ std::string_view extension_of(MeshFormat format) {
 }
 
 std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string extension = lower_case(file.extension().string());
   for (const MeshFormat format : all_mesh_formats()) {
     if (extension == extension_of(format)) return format;
   }

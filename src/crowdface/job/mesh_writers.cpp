@@ -105,15 +105,6 @@ std::vector<EncodedMesh> MeshWriters::encode(const Recipe& recipe,
   return meshes;
 }
 
-std::vector<MeshFile> MeshWriters::write(const Recipe& recipe, const Positions& positions,
-                                         const CrowdDirectory& directory) const {
-  std::vector<MeshFile> files;
-  for (const EncodedMesh& mesh : encode(recipe, positions)) {
-    files.push_back(write_mesh(mesh, directory.mesh(recipe.id, mesh.format)));
-  }
-  return files;
-}
-
 std::size_t MeshWriters::memory_bytes() const {
   std::size_t bytes = fans_ ? fans_->memory_bytes() : 0;
   for (const auto& [target, form] : obj_) bytes += form.memory_bytes();

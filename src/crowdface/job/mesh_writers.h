@@ -48,9 +48,6 @@ class MeshWriters {
   /// The face in each of the formats, in their order; refers to this object.
   /// \throws InvalidInput if positions are not finite.
   std::vector<EncodedMesh> encode(const Recipe& recipe, const Positions& positions) const;
-  /// Encodes the face and writes it into the crowd's folder, which must be there.
-  std::vector<MeshFile> write(const Recipe& recipe, const Positions& positions,
-                              const CrowdDirectory& directory) const;
 
   /// What this object itself takes, and what the encoding of one face takes at most.
   std::size_t memory_bytes() const;

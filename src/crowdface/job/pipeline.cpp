@@ -3,6 +3,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/job/input_files.h"
+#include "crowdface/job/sheets.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -61,6 +62,7 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
   std::optional<Inputs> inputs = load_inputs(config, problems);
   if (!inputs) return std::nullopt;
   check_levels(config, *inputs, problems);
+  check_compared_mesh(config, *inputs, problems);
   if (!problems.empty()) return std::nullopt;
   const SmoothingOperator smoothing(inputs->adjacency, config.smoothing.boundary,
                                     config.smoothing.operator_kind);

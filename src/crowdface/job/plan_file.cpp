@@ -9,9 +9,11 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/job/config_values.h"
 #include "crowdface/job/recipe_bounds.h"
 #include "crowdface/job/rounded.h"
 #include "crowdface/job/shallow_json.h"
+#include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
 namespace {
@@ -50,12 +52,12 @@ class LineReader {
     if (!json.is_object()) fail("line", "a JSON object", "something else");
     PlanLine result;
     Recipe& recipe = result.recipe;
-    recipe.id = text(json, "id");
+    recipe.id = file_name(json, "id", kLongestId);
     if (const Json& index = member(json, "index"); !index.is_null()) {
       recipe.index = whole(index, "index");
     }
     if (const Json& family = member(json, "family"); !family.is_null()) {
-      recipe.family = text(json, "family");
+      recipe.family = file_name(json, "family", kLongestName);
     }
     recipe.target = head(text(json, "target"), "target");
     recipe.attempt = attempt(member(json, "attempt"));
@@ -97,6 +99,16 @@ class LineReader {
     const Json& value = member(json, key);
     if (!value.is_string()) fail(key, "text", value.dump());
     return value.get<std::string>();
+  }
+
+  /// Pictures and meshes are called by it.
+  std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
+    const std::string name = text(json, key);
+    if (!is_name(name, longest)) {
+      fail(key, "a name of letters (a-z), digits, '_', '-' or '.', not starting with '.'",
+           quoted(name));
+    }
+    return name;
   }
 
   double number(const Json& value, std::string_view key) const {
@@ -152,9 +164,8 @@ class LineReader {
     if (sum > 1 + kRounding) fail("weights", "a sum of at most 1", concat(sum));
     result.smoothness = number(member(json, "smoothness"), "smoothness", 0, 1);
     result.iterations = whole(member(json, "iterations"), "iterations");
-    constexpr std::uint64_t kMostIterations = 1'000'000'000;
-    if (result.iterations > kMostIterations) {
-      fail("iterations", "at most 10^9", concat(result.iterations));
+    if (result.iterations > kMaxLevel) {
+      fail("iterations", concat("at most ", kMaxLevel), concat(result.iterations));
     }
     result.extrapolation = number(member(json, "extrapolation"), "extrapolation",
                                   -kMaxExtrapolation, kMaxExtrapolation);

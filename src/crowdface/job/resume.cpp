@@ -13,15 +13,8 @@
 #include "crowdface/job/mesh_writers.h"
 
 namespace crowdface {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
-
-std::string name_in(const CrowdDirectory& directory, const fs::path& path) {
-  return path.lexically_relative(directory.root).generic_string();
-}
 
 void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan) {
   std::error_code ignored;
@@ -77,7 +70,7 @@ void write_shared_arrays(const Job& job, const CrowdDirectory& directory, Ledger
   if (ledger.proven(kItem, key.digest())) return;
   std::vector<std::string> names;
   for (const fs::path& file : write_shared(job.inputs, job.config.output.meshes, directory)) {
-    names.push_back(name_in(directory, file));
+    names.push_back(directory.relative(file));
   }
   if (!names.empty()) ledger.record(kItem, key.digest(), names);
 }

@@ -11,9 +11,6 @@
 
 namespace crowdface {
 
-/// A file's name in the ledger.
-std::string name_in(const CrowdDirectory& directory, const std::filesystem::path& path);
-
 /// A folder with a report is complete: another plan's report must not outlive the plan.
 void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan);
 

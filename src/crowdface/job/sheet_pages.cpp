@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <system_error>
 
 #include "crowdface/core/file.h"
@@ -15,7 +16,8 @@
 namespace crowdface {
 namespace {
 
-constexpr int kIndexWidth = 480;  // pixels of one page in the index
+constexpr int kIndexWidth = 480, kIndexHeight = 960;  // pixels of one page in the index, at most
+constexpr std::size_t kPagesAVolume = 64;
 
 std::string to_png(const Rgb8Image& image) {
   return encode_png(image.width, image.height, 3, image.pixels);
@@ -35,8 +37,9 @@ std::string to_exr(const Rgb8Image& image) {
 
 }  // namespace
 
-SheetPages::SheetPages(std::filesystem::path folder, const std::vector<SheetFormat>& formats)
-    : folder_(std::move(folder)), formats_(formats) {}
+SheetPages::SheetPages(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
+                       std::string title)
+    : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {}
 
 bool SheetPages::has(SheetFormat format) const {
   return std::find(formats_.begin(), formats_.end(), format) != formats_.end();
@@ -48,14 +51,17 @@ void SheetPages::write(const std::string& name, const std::string& bytes) {
 }
 
 void SheetPages::add(const std::string& stem, const std::string& caption, const Rgb8Image& page) {
+  if (index_.size() == kPagesAVolume) finish_volume(false);
   std::string png = to_png(page);
   write(stem + ".png", png);
   if (has(SheetFormat::kExr)) write(stem + ".exr", to_exr(page));
   if (has(SheetFormat::kPdf)) pngs_.push_back(std::move(png));
-  index_.push_back({shrunk(page, std::min(kIndexWidth, page.width)), concat(stem, "\n", caption)});
+  const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
+  index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
+                    concat(stem, "\n", caption)});
 }
 
-void SheetPages::write_index(const std::string& title) {
+void SheetPages::write_index(const std::string& number) {
   int width = 0, height = 0;
   for (const SheetCell& cell : index_) {
     width = std::max(width, cell.image.width);
@@ -64,17 +70,29 @@ void SheetPages::write_index(const std::string& title) {
   for (SheetCell& cell : index_) cell.image = padded(cell.image, width, height);
   const auto columns = static_cast<int>(
       std::clamp(std::ceil(std::sqrt(static_cast<double>(index_.size()))), 1.0, 8.0));
+  const std::size_t before = volumes_ * kPagesAVolume;
+  const std::string note =
+      number.empty() ? concat(index_.size(), " sheets")
+                     : concat("sheets ", before + 1, " to ", before + index_.size());
   const Rgb8Image page = contact_sheet(
-      index_,
-      {.columns = columns, .rows = 0, .title = title, .note = concat(index_.size(), " sheets")});
+      index_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
   const std::string png = to_png(page);
-  write("index.png", png);
+  write(concat("index", number, ".png"), png);
   if (has(SheetFormat::kPdf)) pngs_.insert(pngs_.begin(), png);
 }
 
-void SheetPages::finish(const std::string& title) {
-  if (index_.size() > 1) write_index(title);
-  if (has(SheetFormat::kPdf) && !pngs_.empty()) write("sheets.pdf", encode_pdf(pngs_));
+void SheetPages::finish_volume(bool is_last) {
+  const bool is_only = is_last && volumes_ == 0;
+  const std::string number = is_only ? std::string() : concat('_', zero_padded(volumes_ + 1, 3));
+  if (!is_only || index_.size() > 1) write_index(number);
+  if (!pngs_.empty()) write(concat("sheets", number, ".pdf"), encode_pdf(pngs_));
+  index_.clear();
+  pngs_.clear();
+  ++volumes_;
+}
+
+void SheetPages::finish() {
+  finish_volume(true);
   std::error_code ignored;
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {

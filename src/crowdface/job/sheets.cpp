@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <system_error>
@@ -24,6 +25,13 @@ namespace crowdface {
 namespace {
 
 using With = Config::Comparison::With;
+
+constexpr int kMostRows = 64;  // of heads or of a family's members on one page
+
+/// A cell without a distance map; with two lines, as heads and families have them.
+CellSize plain_cell(const Config::ContactSheet& sheet) {
+  return {sheet.cell * static_cast<int>(sheet.views.size()), sheet.cell, 2};
+}
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return concat(count, ' ', count == 1 ? one : many);
@@ -66,7 +74,7 @@ class CrowdSheets {
         renders_(renders),
         crowd_(crowd),
         likeness_(likeness),
-        pages_(directory.sheets(), sheet.formats) {
+        pages_(directory.sheets(), sheet.formats, title()) {
     if (sheet.compare.with == With::kFile && !std::filesystem::is_directory(sheet.compare.file)) {
       reference_ = read_reference(sheet.compare.file, job.inputs.faces.topology.vertex_count);
     }
@@ -76,7 +84,7 @@ class CrowdSheets {
     const std::size_t pages = write_faces();
     write_heads();
     write_families();
-    pages_.finish(title());
+    pages_.finish();
     return pages;
   }
 
@@ -188,17 +196,41 @@ class CrowdSheets {
     return pages;
   }
 
-  void write_heads() {
-    std::vector<SheetCell> cells;
-    for (std::size_t h = 0; h < job_.names.heads.size(); ++h) {
-      const std::string& name = job_.names.heads[h];
-      std::string label = name;
-      const auto& tags = job_.config.faces.tags[h];
-      if (!tags.empty()) label += concat("\n", join(tags));
-      cells.push_back({read_render(directory_.head_render(name)), label});
+  /// Cells in as many rows as they need; on several pages if one would be too large.
+  /// \param stem  of a page's file, from its number, from 1.
+  void add_tall_pages(const std::function<std::string(std::size_t)>& stem,
+                      const std::string& caption, const std::string& title, const std::string& note,
+                      std::size_t count, const std::function<SheetCell(std::size_t)>& cell) {
+    const std::size_t per_page =
+        static_cast<std::size_t>(sheet_.columns) *
+        static_cast<std::size_t>(std::min(kMostRows, most_rows(plain_cell(sheet_),
+                                                               {.columns = sheet_.columns,
+                                                                .title = title,
+                                                                .legend = {},
+                                                                .note = note})));
+    const std::size_t pages = (count + per_page - 1) / per_page;
+    for (std::size_t page = 0; page < pages; ++page) {
+      throw_if_interrupted();
+      std::vector<SheetCell> cells;
+      for (std::size_t i = page * per_page; i < std::min(count, (page + 1) * per_page); ++i) {
+        cells.push_back(cell(i));
+      }
+      add_page(stem(page + 1), caption, title,
+               pages > 1 ? concat(note, ", sheet ", page + 1, " of ", pages) : note, cells,
+               std::nullopt);
     }
-    add_page("heads_001", "the heads", job_.config.crowd.name,
-             counted(cells.size(), "head", "heads"), cells, std::nullopt);
+  }
+
+  void write_heads() {
+    const std::vector<std::string>& names = job_.names.heads;
+    add_tall_pages([](std::size_t page) { return concat("heads_", zero_padded(page, 3)); },
+                   "the heads", job_.config.crowd.name, counted(names.size(), "head", "heads"),
+                   names.size(), [&](std::size_t h) {
+                     std::string label = names[h];
+                     const auto& tags = job_.config.faces.tags[h];
+                     if (!tags.empty()) label += concat("\n", join(tags));
+                     return SheetCell{read_render(directory_.head_render(names[h])), label};
+                   });
   }
 
   /// Each family on a sheet of its own, its founder first: whom all members take after.
@@ -207,30 +239,37 @@ class CrowdSheets {
     for (std::size_t face = 0; face < crowd_.size(); ++face) {
       if (crowd_[face].family) families[*crowd_[face].family].push_back(face);
     }
-    const std::vector<SheetLabel> labels = {SheetLabel::kId, SheetLabel::kNearest};
-    for (const auto& [family, members] : families) {
-      std::vector<SheetCell> cells;
-      for (const std::size_t face : members) {
-        cells.push_back({read_render(directory_.render(crowd_[face].id)),
-                         sheet_label(labels, crowd_, face, likeness_, job_.names.heads)});
-      }
-      add_founder(family, cells);
-      add_page(concat("family_", family), concat("family ", family), concat("family ", family),
-               counted(members.size(), "member", "members"), cells, std::nullopt);
-    }
+    for (const auto& family : families) write_family(family.first, family.second);
   }
 
-  void add_founder(const std::string& family, std::vector<SheetCell>& cells) const {
+  void write_family(const std::string& family, const std::vector<std::size_t>& members) {
+    const std::vector<SheetLabel> labels = {SheetLabel::kId, SheetLabel::kNearest};
+    const auto founder = founder_of(family, members.front());
+    const std::size_t before = founder ? 1 : 0;
+    const auto cell = [&](std::size_t i) -> SheetCell {
+      if (i < before) return {*founder, "founder\nnot in the crowd"};
+      const std::size_t face = members[i - before];
+      return {read_render(directory_.render(crowd_[face].id)),
+              sheet_label(labels, crowd_, face, likeness_, job_.names.heads)};
+    };
+    // No family's name holds a '+'.
+    const auto stem = [&](std::size_t page) {
+      return concat("family_", family, page > 1 ? concat('+', page) : std::string());
+    };
+    add_tall_pages(stem, concat("family ", family), concat("family ", family),
+                   counted(members.size(), "member", "members"), before + members.size(), cell);
+  }
+
+  /// The picture of a family's founder, if there is one that can stand beside the members'.
+  std::optional<Rgb8Image> founder_of(const std::string& family, std::size_t member) const {
     const std::filesystem::path path = directory_.founder_render(family);
-    if (!std::filesystem::exists(path)) return;
-    Rgb8Image picture = read_render(path);
-    if (picture.width != cells.front().image.width ||
-        picture.height != cells.front().image.height) {
-      log_info(concat("the founder of ", family, " is left out of its sheet: there is no mesh to ",
-                      "make a picture of another size from; crowdface generate does it"));
-      return;
-    }
-    cells.insert(cells.begin(), {std::move(picture), "founder\nnot in the crowd"});
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    Rgb8Image founder = read_render(path);
+    const Rgb8Image other = read_render(directory_.render(crowd_[member].id));
+    if (founder.width == other.width && founder.height == other.height) return founder;
+    log_info(concat("the founder of ", family, " is left out of its sheet: there is no mesh to ",
+                    "make a picture of another size from; crowdface generate does it"));
+    return std::nullopt;
   }
 
   const Job& job_;
@@ -244,6 +283,18 @@ class CrowdSheets {
 };
 
 }  // namespace
+
+bool fits_on_a_page(const Config::ContactSheet& sheet) {
+  CellSize cell = plain_cell(sheet);
+  cell.label_lines = std::max(cell.label_lines, static_cast<int>(sheet.labels.size()));
+  SheetOptions options{.columns = sheet.columns, .title = "title", .legend = {}, .note = {}};
+  if (sheet.compare.with != With::kNothing) {
+    cell.width += sheet.cell;
+    cell.label_lines += 1;
+    options.legend.emplace();
+  }
+  return sheet.rows <= most_rows(cell, options);
+}
 
 std::size_t sheet_pages(const Config::ContactSheet& sheet, std::size_t faces) {
   const std::size_t per_page =
@@ -297,15 +348,25 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
   return text;
 }
 
-void check_comparison(const Job& job, const std::vector<Recipe>& crowd) {
-  const auto& sheet = job.config.output.contact_sheet;
+void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems) {
+  const auto& sheet = config.output.contact_sheet;
   if (!sheet || sheet->compare.with != With::kFile) return;
   const std::filesystem::path& file = sheet->compare.file;
-  if (!is_there(file) || !std::filesystem::is_directory(file)) {
-    read_reference(file, job.inputs.faces.topology.vertex_count);
-    return;
+  try {
+    if (!is_there(file) || !std::filesystem::is_directory(file)) {
+      read_reference(file, inputs.faces.topology.vertex_count);
+    }
+  } catch (const Error& error) {
+    problems.add(error);
   }
-  for (const Recipe& recipe : crowd) format_of_face({file}, recipe.id);
+}
+
+void check_compared_crowd(const Job& job, const std::vector<Recipe>& crowd) {
+  const auto& sheet = job.config.output.contact_sheet;
+  if (!sheet || sheet->compare.with != With::kFile) return;
+  const std::filesystem::path& folder = sheet->compare.file;
+  if (!std::filesystem::is_directory(folder)) return;
+  for (const Recipe& recipe : crowd) format_of_face({folder}, recipe.id);
 }
 
 std::size_t write_sheets(const Job& job, const Config::ContactSheet& sheet,

@@ -10,9 +10,12 @@
 
 namespace crowdface {
 
-/// \throws Error if what the faces are to be compared with cannot be read or is no such mesh: better
-/// told before the faces are made than after.
-void check_comparison(const Job& job, const std::vector<Recipe>& crowd);
+/// Adds what is wrong with the mesh, if it is one, that the faces are to be compared with.
+void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems);
+
+/// \throws MissingInput if they are to be compared with those of a crowd that lacks one of them:
+/// better told before the faces are made than after.
+void check_compared_crowd(const Job& job, const std::vector<Recipe>& crowd);
 
 /// Writes the contact sheets of a crowd from the pictures in its folder: the faces, the heads, each
 /// family, an index; removes what an earlier run left over.
@@ -20,6 +23,9 @@ void check_comparison(const Job& job, const std::vector<Recipe>& crowd);
 std::size_t write_sheets(const Job& job, const Config::ContactSheet& sheet,
                          const CrowdDirectory& directory, const CrowdRenders& renders,
                          const std::vector<Recipe>& crowd, const Likeness& likeness);
+
+/// Whether a page as the config wants it is not too large to be made.
+bool fits_on_a_page(const Config::ContactSheet& sheet);
 
 /// How many pages a crowd's contact sheets have.
 std::size_t sheet_pages(const Config::ContactSheet& sheet, std::size_t faces);

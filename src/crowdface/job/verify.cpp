@@ -23,12 +23,7 @@ enum class State { kGood, kMissing, kAltered };
 State state_of(const fs::path& path, const FileDigest& expected) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return State::kMissing;
-  if (fs::file_size(path, error) != expected.bytes || error) return State::kAltered;
-  try {
-    return hash_file(path) == expected ? State::kGood : State::kAltered;
-  } catch (const Error&) {
-    return State::kAltered;  // there, but it cannot be read
-  }
+  return holds(path, expected) ? State::kGood : State::kAltered;
 }
 
 /// A line of each item in all ledgers of the folder: of several, one that the files agree with, else
@@ -42,6 +37,10 @@ std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
       check.remarks.push_back(
           concat(path.filename().string(), ": ", lines.damaged,
                  lines.damaged == 1 ? " line is not whole" : " lines are not whole"));
+    }
+    if (path == directory.ledger() && !lines.complete) {
+      check.remarks.push_back(concat(path.filename().string(),
+                                     ": lines are missing, or no run has come to its end yet"));
     }
     add_lines(std::move(lines), all);
   }

@@ -20,9 +20,7 @@ constexpr double kLimit = 2;  // standard deviations
 std::vector<fs::path> identity_files(const fs::path& folder) {
   std::vector<fs::path> files;
   while (files.size() < kMostModes) {
-    std::string number = concat(files.size());
-    number.insert(0, 3 - number.size(), '0');
-    const fs::path file = folder / concat("identity", number, ".obj");
+    const fs::path file = folder / concat("identity", zero_padded(files.size(), 3), ".obj");
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) break;
     files.push_back(file);

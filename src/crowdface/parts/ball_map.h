@@ -32,7 +32,6 @@ class BallMap {
   double radius() const { return radius_; }
   /// The largest distance of the surface from the centre.
   double farthest() const { return farthest_; }
-  std::uint64_t memory_bytes() const { return radii_.size() * sizeof(float); }
 
  private:
   /// Nodes along one side: half a millimetre apart at an eyeball's equator, one at its front.

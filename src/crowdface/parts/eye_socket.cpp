@@ -202,11 +202,4 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kSize] / radius);
 }
 
-std::uint64_t EyeSocket::memory_bytes() const {
-  std::uint64_t bytes = lids_.vertices.size() * 16;
-  for (const BallMap& map : maps_) bytes += map.memory_bytes();
-  for (const auto& gaps : gaps_) bytes += gaps.size() * sizeof(double);
-  return bytes;
-}
-
 }  // namespace crowdface

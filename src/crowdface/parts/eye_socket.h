@@ -44,8 +44,6 @@ class EyeSocket {
   /// \param motion  of the skin around the eye
   RigidMotion fit(std::size_t target, const RigidMotion& motion, const Positions& after) const;
 
-  std::uint64_t memory_bytes() const;
-
  private:
   struct Lid {
     Eigen::Vector3d point;

@@ -194,14 +194,4 @@ void PartFollower::follow(Index target, Positions& result) const {
   state_->ties.pull(before, motions, result);
 }
 
-std::uint64_t PartFollower::memory_bytes() const {
-  std::uint64_t bytes = 0;
-  for (const RigidPart& part : state_->rigid) {
-    bytes += part.vertices.size() * 12 + part.socket.vertices.size() * 12;
-    bytes += part.eye.memory_bytes();
-  }
-  for (const auto& places : state_->places) bytes += places.size() * sizeof(Eigen::Vector3d);
-  return bytes;
-}
-
 }  // namespace crowdface

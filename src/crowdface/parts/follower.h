@@ -40,8 +40,6 @@ class PartFollower {
   /// \param result  #V by 3, blended; its skin is not touched.
   void follow(Index target, Positions& result) const;
 
-  std::uint64_t memory_bytes() const;
-
  private:
   struct State;
   std::unique_ptr<const State> state_;

@@ -20,9 +20,12 @@ class SmallProgram {
 
   explicit SmallProgram(std::size_t unknowns) : unknowns_(unknowns) {}
 
+  /// Adds weight/2 (a·x − wanted)². \param weight  positive.
   void want(const Vector& a, double wanted, double weight);
   void want(std::size_t unknown, double wanted, double weight);
+  /// Adds price·x_unknown.
   void charge(std::size_t unknown, double price);
+  /// Bounds a·x from below.
   void demand(const Vector& a, double least);
   void demand(std::size_t unknown, double least);
 

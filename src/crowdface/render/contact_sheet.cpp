@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
@@ -17,6 +19,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> kPaper = {34, 35, 37};
 constexpr int kLargestSide = 65500;
+constexpr std::int64_t kMostPixels = 500'000'000;
 
 void paste(const Rgb8Image& from, Rgb8Image& onto, int left, int top) {
   for (int y = 0; y < from.height; ++y) {
@@ -61,49 +64,83 @@ void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions
         layout.margin + title_width, 0);
 }
 
-}  // namespace
-
-SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options) {
-  if (cells.empty()) throw InvalidInput("a contact sheet needs at least one picture");
-  if (options.columns < 1 || options.rows < 0) {
-    throw InvalidInput(concat("a contact sheet needs at least one column, found ", options.columns,
-                              " columns and ", options.rows, " rows"));
-  }
-  const Rgb8Image& first = cells.front().image;
+/// \throws InvalidInput if pictures differ in size.
+CellSize size_of(std::span<const SheetCell> cells) {
+  CellSize size;
   for (const SheetCell& cell : cells) {
-    if (cell.image.width == first.width && cell.image.height == first.height) continue;
+    if (size.width == 0) size = {cell.image.width, cell.image.height, 1};
+    size.label_lines = std::max(size.label_lines, lines_of(cell.label));
+    if (cell.image.width == size.width && cell.image.height == size.height) continue;
     throw InvalidInput(concat("the pictures of a contact sheet are of one size: expected ",
-                              first.width, " x ", first.height, ", found ", cell.image.width, " x ",
+                              size.width, " x ", size.height, ", found ", cell.image.width, " x ",
                               cell.image.height, " for ", quoted(cell.label)));
   }
-  const auto count = static_cast<std::ptrdiff_t>(cells.size());
-  const std::ptrdiff_t rows =
-      options.rows > 0 ? options.rows : (count + options.columns - 1) / options.columns;
-  if (count > rows * options.columns) {
-    throw InvalidInput(concat("a contact sheet of ", options.columns, " x ", rows,
-                              " cells cannot hold ", count, " pictures"));
-  }
-  const int size = std::min(first.height, first.width);
-  int lines = 1;
-  for (const SheetCell& cell : cells) lines = std::max(lines, lines_of(cell.label));
-  const int line = std::clamp(size / (lines > 1 ? 12 : 10), 12, 64);
-  const int label = lines * line;
-  const std::ptrdiff_t widest = std::max<std::ptrdiff_t>(
-      std::ptrdiff_t{options.columns} * (first.width + 64), rows * (first.height + label + 64));
-  if (widest > kLargestSide) {
-    throw InvalidInput(concat("a contact sheet of ", options.columns, " x ", rows, " cells of ",
-                              first.width, " x ", first.height, " pixels is too large; at most ",
-                              kLargestSide, " pixels a side"));
-  }
+  return size;
+}
+
+/// \param options  with the number of rows.
+SheetLayout place_cells(const CellSize& cell, const SheetOptions& options) {
+  const int size = std::min(cell.height, cell.width);
+  const int line = std::clamp(size / (cell.label_lines > 1 ? 12 : 10), 12, 64);
   const bool header = !options.title.empty() || !options.note.empty();
   const int margin = std::clamp(size / 16, 6, 32);
   const int header_height = header ? std::clamp(size / 5, 24, 96) : margin;
   const int legend_height = options.legend ? std::clamp(size / 4, 32, 96) : 0;
-  return {options.columns, static_cast<int>(rows),
-          first.width,     first.height,
-          label,           lines,
-          header_height,   legend_height,
-          margin,          std::clamp(size / 32, 3, 16)};
+  return {options.columns,         options.rows,
+          cell.width,              cell.height,
+          cell.label_lines * line, cell.label_lines,
+          header_height,           legend_height,
+          margin,                  std::clamp(size / 32, 3, 16)};
+}
+
+bool is_small_enough(const SheetLayout& layout) {
+  const std::int64_t columns = layout.columns, rows = layout.rows;
+  if (columns * layout.cell_width > kLargestSide || rows * layout.cell_height > kLargestSide ||
+      rows * layout.label_height > kLargestSide) {
+    return false;  // before anything overflows
+  }
+  const std::int64_t width = layout.width(), height = layout.height();
+  return width <= kLargestSide && height <= kLargestSide && width * height <= kMostPixels;
+}
+
+}  // namespace
+
+SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options) {
+  if (count == 0) throw InvalidInput("a contact sheet needs at least one picture");
+  if (options.columns < 1 || options.rows < 0) {
+    throw InvalidInput(concat("a contact sheet needs at least one column, found ", options.columns,
+                              " columns and ", options.rows, " rows"));
+  }
+  const auto columns = static_cast<std::size_t>(options.columns);
+  const std::size_t rows =
+      options.rows > 0 ? static_cast<std::size_t>(options.rows) : (count + columns - 1) / columns;
+  if (count > rows * columns) {
+    throw InvalidInput(concat("a contact sheet of ", columns, " x ", rows, " cells cannot hold ",
+                              count, " pictures"));
+  }
+  SheetOptions whole = options;
+  whole.rows = static_cast<int>(std::min<std::size_t>(rows, kLargestSide));
+  const SheetLayout layout = place_cells(cell, whole);
+  if (rows > kLargestSide || !is_small_enough(layout)) {
+    throw InvalidInput(concat("a contact sheet of ", columns, " x ", rows, " cells of ", cell.width,
+                              " x ", cell.height, " pixels is too large; at most ", kLargestSide,
+                              " pixels a side and ", kMostPixels, " in all"));
+  }
+  return layout;
+}
+
+SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options) {
+  return layout_sheet(size_of(cells), cells.size(), options);
+}
+
+int most_rows(const CellSize& cell, const SheetOptions& options) {
+  SheetOptions trial = options;
+  int fits = 0, too_many = kLargestSide;
+  while (too_many - fits > 1) {
+    trial.rows = std::midpoint(fits, too_many);
+    (is_small_enough(place_cells(cell, trial)) ? fits : too_many) = trial.rows;
+  }
+  return fits;
 }
 
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options) {

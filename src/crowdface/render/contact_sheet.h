@@ -48,9 +48,20 @@ struct SheetLayout {
   }
 };
 
-/// \throws InvalidInput if there is no cell, cells differ in size, there are more of them than
-/// columns · rows, or the sheet would be larger than 65,500 pixels a side.
+/// What all cells of a sheet have in common.
+struct CellSize {
+  int width = 0, height = 0;  ///< pixels of the picture
+  int label_lines = 1;
+};
+
+/// \throws InvalidInput if there is no cell, there are more of them than columns · rows, or the sheet
+/// would have more than 65,500 pixels a side or 5·10⁸ in all.
+SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
+/// The same for these cells. \throws InvalidInput also if they differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
+
+/// How many rows of such cells a sheet can have at most; 0: not even one.
+int most_rows(const CellSize& cell, const SheetOptions& options);
 
 /// Pictures in a grid, row by row, a label under each and a header above them all.
 /// \throws InvalidInput as layout_sheet, MissingInput without the font.

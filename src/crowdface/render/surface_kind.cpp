@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "crowdface/core/text.h"
+
 namespace crowdface {
 namespace {
 
@@ -23,14 +25,6 @@ constexpr auto kWords = std::to_array<std::pair<std::string_view, SurfaceKind>>(
     {"teeth", SurfaceKind::kTeeth},     {"tooth", SurfaceKind::kTeeth},
     {"gum", SurfaceKind::kGums},        {"tongue", SurfaceKind::kGums},
 });
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
-}
 
 }  // namespace
 

@@ -23,7 +23,7 @@ std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_len
   }
   const double sigma = size / kWavelengthPerSigma / edge_length;
   const double level = std::round(sigma * sigma / variance_per_iteration(kind));
-  if (level > 1e9) {
+  if (level > static_cast<double>(kMaxLevel)) {
     throw InvalidInput(concat("a size of ", size, " on edges of ", edge_length,
                               " would take more than 10^9 iterations"));
   }

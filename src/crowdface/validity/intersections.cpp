@@ -74,7 +74,7 @@ std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
   if (triangles.empty()) return {};
   Query query{triangles, positions, margin};
   const Device device(rtcNewDevice(nullptr));
-  if (!device) throw InvalidInput("Embree could not be started");
+  if (!device) throw IoError("Embree could not be started; is there too little memory?");
   const Scene scene(rtcNewScene(device.get()));
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(triangles.size()));

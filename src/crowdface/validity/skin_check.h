@@ -26,8 +26,8 @@ class SkinCheck {
 
   /// \param target  one of those named to the constructor.
   SkinDefects compare(const Positions& positions, Index target) const;
-  Index triangle_count() const { return static_cast<Index>(triangles_.size()); }
 
+  /// What this object itself takes.
   std::uint64_t memory_bytes() const;
   /// What one `compare` takes while it runs, at most: boxes, a tree of them and pairs.
   std::uint64_t compare_bytes() const;
