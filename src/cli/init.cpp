@@ -9,8 +9,11 @@
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_file.h"
+#include "crowdface/io/tile_files.h"
+#include "crowdface/job/config_values.h"
 #include "crowdface/job/input_files.h"
 #include "crowdface/job/starter_config.h"
+#include "crowdface/job/yaml.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -37,6 +40,38 @@ LengthUnit guess_unit(double height) {
   return best;
 }
 
+/// The mask of three bands that `synth` and `import` put beside heads; empty if there is none.
+std::string mask_beside(const fs::path& heads) {
+  for (const char* name : {"regions.png", "makehuman_bands.png", "ict_bands.png"}) {
+    std::error_code ignored;
+    if (fs::is_regular_file(heads / name, ignored)) return name;
+  }
+  const char* tiles = "ict_bands.<UDIM>.png";
+  return find_tiles(heads / tiles).empty() ? "" : tiles;
+}
+
+/// What tags.yaml beside the heads says of them, as `synth --tags` and `import` write it.
+std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
+    const fs::path& heads, const std::vector<std::string>& names) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(heads / "tags.yaml", ignored)) return {};
+  Complaints complaints;
+  const auto root = read_yaml((heads / "tags.yaml").string(), complaints);
+  const YamlEntry* faces = root ? root->find("faces") : nullptr;
+  const YamlEntry* tags = faces != nullptr ? faces->value.find("tags") : nullptr;
+  std::vector<std::pair<std::string, std::vector<std::string>>> found;
+  for (const std::string& name : names) {
+    const YamlEntry* list = tags != nullptr ? tags->value.find(name) : nullptr;
+    if (list == nullptr || !is_name(name)) continue;
+    std::vector<std::string> words;
+    for (const YamlNode& item : list->value.items) {
+      if (is_name(item.text)) words.push_back(item.text);
+    }
+    if (!words.empty()) found.emplace_back(name, std::move(words));
+  }
+  return found;
+}
+
 void init(const fs::path& heads, const fs::path& out, bool force) {
   const std::vector<fs::path> files = list_heads(heads);
   if (files.size() < kFewestHeads || files.size() > kMostHeads) {
@@ -58,11 +93,15 @@ void init(const fs::path& heads, const fs::path& out, bool force) {
   facts.head_height = first.col(facts.up.index).maxCoeff() - first.col(facts.up.index).minCoeff();
   facts.units = guess_unit(facts.head_height);
   facts.crowd_name = "crowd";
+  facts.tags = tags_beside(heads, facts.names);
+  const std::string mask = mask_beside(heads);
+  if (!mask.empty()) facts.mask = (facts.heads / mask).string();
   write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
                   name_of(facts.units), " because the first head is ",
                   format_fixed(facts.head_height, 2),
                   " units tall. Check that, then: crowdface check ", out.string()));
+  if (!mask.empty()) log_info(concat("regions top, middle and bottom: ", (heads / mask).string()));
 }
 
 }  // namespace

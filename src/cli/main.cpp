@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <unistd.h>
-
-#include <CLI/CLI.hpp>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/instruction_set.h"
@@ -92,6 +91,9 @@ void open_standard_streams() {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  // A file beyond the limit and a closed pipe are failed writes, with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   crowdface::give_back_large_blocks();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
@@ -121,9 +123,6 @@ int main(int argc, char** argv) {
     return run([] {});
   }
   crowdface::catch_interrupts();
-  // A file beyond the limit and a closed pipe are then failed writes, with a message.
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
   return run([&] {
     if (const char* set =
             std::getenv("CROWDFACE_INSTRUCTION_SET")) {  // NOLINT(concurrency-mt-unsafe): at start

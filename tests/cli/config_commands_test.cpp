@@ -128,6 +128,17 @@ TEST(Init, WritesAConfigThatPasses) {
   EXPECT_EQ(read_text(config), text);
 }
 
+TEST(Init, TakesTheMaskAndTheTagsBesideTheHeads) {
+  const TemporaryFolder folder;
+  const std::string config = (folder / "crowd.yaml").string();
+  crowdface(0, {"synth", "-o", (folder / "heads").string(), "--count", "3", "--vertices", "5000",
+                "--tags"});
+  crowdface(0, {"init", (folder / "heads").string(), "-o", config}, {"regions.png"});
+  crowdface(0, {"check", config}, {"is fine", "top, middle, bottom"});
+  EXPECT_THAT(read_text(config), ::testing::ContainsRegex("synth_02: \\[(fe)?male, [a-z]+\\]"));
+  crowdface(0, {"check", config, "--set", "faces.units=m"}, {"28 cm", "units"});
+}
+
 TEST(Plan, BuildsNoMeshesAndKeepsTheCache) {
   const SmallCrowdFolder folder(SmallCrowd{});
   const std::string cache = folder.cache().string();

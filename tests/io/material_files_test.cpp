@@ -68,6 +68,25 @@ TEST(MaterialFiles, LookForEachNameOnce) {
   EXPECT_THAT(found.warnings[0], HasSubstr("none.png"));
 }
 
+TEST(MaterialFiles, NamesOfTexturesMayHoldBlanks) {
+  const testing::TemporaryFolder folder;
+  for (const char* name : {"head diffuse.png", "rough.png", "skin tone.1001.png"}) {
+    folder.write(name, "x");
+  }
+  folder.write("a.mtl",
+               "newmtl a\nmap_Kd head diffuse.png \r\nmap_Ks -s 1 1 1 head diffuse.png\n"
+               "map_Ns -o 0 0 rough.png\nnewmtl b\nmap_Kd skin tone.<UDIM>.png\n"
+               "map_bump -bm 0.5 lost.png\nmap_d not there.png\n");
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl", "head diffuse.png", "rough.png",
+                                                    "skin tone.1001.png"}));
+  ASSERT_EQ(found.warnings.size(), 2U);
+  EXPECT_THAT(found.warnings[0], HasSubstr("\"lost.png\" is missing"));
+  EXPECT_THAT(found.warnings[1], HasSubstr("\"not there.png\" is missing"));
+  const ColourTextures colours = find_colour_textures(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(colours.of_material.at("a"), folder / "head diffuse.png");
+}
+
 TEST(MaterialFiles, TakeSoManyTexturesAndNoMore) {
   const testing::TemporaryFolder folder;
   std::string text;

@@ -335,7 +335,12 @@ TEST(Generate, NamesOfMaterialFilesMayHoldAnyBytes) {
   folder.folder().write("heads/h\xe4ut.png", "x");
   run(folder, "out");
   const auto warnings = testing::read_json(folder.out() / "report.json").at("warnings");
-  EXPECT_EQ(warnings.size(), 3U) << warnings.dump();
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [](const auto& text) {
+                            return text.template get<std::string>().starts_with("texture ");
+                          }),
+            3)
+      << warnings.dump();
   EXPECT_TRUE(verify_crowd(folder.out()).good());
 }
 
@@ -353,9 +358,11 @@ TEST(Generate, MaterialFilesOfOneNameAreWarnedOf) {
   run(folder, "out", {{faces}, {}, {}, {}});
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/bowl.mtl"), "newmtl skin\n");
   const auto warnings = testing::read_json(folder.out() / "report.json").at("warnings");
-  ASSERT_EQ(warnings.size(), 1U) << warnings.dump();
-  EXPECT_THAT(warnings.dump(),
-              ::testing::AllOf(::testing::HasSubstr("bowl.mtl"), ::testing::HasSubstr("fay")));
+  const auto of_files = std::find_if(warnings.begin(), warnings.end(), [](const auto& text) {
+    return text.template get<std::string>().find("bowl.mtl") != std::string::npos;
+  });
+  ASSERT_NE(of_files, warnings.end()) << warnings.dump();
+  EXPECT_THAT(of_files->dump(), ::testing::HasSubstr("fay"));
 }
 
 // With --force the run would first remove the old crowd's meshes, its own input.

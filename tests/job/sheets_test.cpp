@@ -11,6 +11,7 @@
 #include "crowdface/job/generate.h"
 #include "crowdface/job/likeness_file.h"
 #include "crowdface/job/verify.h"
+#include "crowdface/render/contact_sheet.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
@@ -113,6 +114,66 @@ TEST(Sheets, HeadsFamiliesAndAnIndexStandBesideTheFaces) {
   EXPECT_GT(width_of(sheets / "family_kin.png"),
             width_of(folder.out() / "renders/founders/kin.png"));
   EXPECT_THAT(read_file(sheets / "sheets.pdf"), HasSubstr("/Count 7"));
+}
+
+// The index of a large crowd was too large, after all faces were made, and after every other run.
+TEST(Sheets, ManyPagesHaveSeveralIndicesAndBooks) {
+  SmallCrowd crowd;
+  crowd.count = 67;
+  crowd.contact_sheet = "{columns: 1, rows: 1, cell: 32, formats: [png, pdf]}";
+  crowd.more = "believability: none\nfamilies: [{name: kin, members: 2, max_distance: 30 mm}]\n";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const fs::path sheets = folder.out() / "sheets";
+  for (const char* name : {"index_001.png", "index_002.png", "sheets_001.pdf", "sheets_002.pdf",
+                           "sheet_069.png", "heads_001.png", "family_kin.png"}) {
+    EXPECT_TRUE(fs::exists(sheets / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(sheets / "index.png"));
+  EXPECT_FALSE(fs::exists(sheets / "index_003.png"));
+  EXPECT_THAT(read_file(sheets / "sheets_001.pdf"), HasSubstr("/Count 65"));
+  EXPECT_THAT(read_file(sheets / "sheets_002.pdf"), HasSubstr("/Count 8"));
+  EXPECT_TRUE(verify_crowd(folder.out()).good());
+  remake_sheets(folder.out(), {"output.contact_sheet.rows=4"}, folder.cache());
+  EXPECT_TRUE(fs::exists(sheets / "index.png"));
+  EXPECT_FALSE(fs::exists(sheets / "index_002.png"));
+  EXPECT_FALSE(fs::exists(sheets / "sheets_002.pdf"));
+}
+
+TEST(Sheets, PagesThatAreTooLargeAreRefusedWithTheConfig) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const auto load = [&](const std::string& sheet) {
+    Problems problems;
+    ConfigOverrides overrides;
+    overrides.set = {"output.contact_sheet=" + sheet};
+    load_job(folder.config(), overrides, problems);
+    return problems.messages();
+  };
+  EXPECT_THAT(load("{columns: 10, rows: 1, cell: 2048, views: [front, three_quarter, profile]}"),
+              ::testing::IsEmpty());
+  for (const char* sheet :
+       {"{columns: 11, rows: 1, cell: 2048, views: [front, three_quarter, profile]}",
+        "{columns: 8, rows: 1, cell: 2048, views: [front, three_quarter, profile], compare: "
+        "target}",
+        "{columns: 1, rows: 32, cell: 2048}", "{columns: 12, rows: 12, cell: 2048}"}) {
+    ASSERT_EQ(load(sheet).size(), 1U) << sheet;
+    EXPECT_THAT(load(sheet)[0], HasSubstr("too large")) << sheet;
+  }
+}
+
+// What is checked before the work is what is made after it.
+TEST(Sheets, CellsAreAsWideAsIsReckoned) {
+  SmallCrowd crowd;
+  crowd.count = 2;
+  crowd.contact_sheet =
+      "{columns: 2, rows: 1, cell: 64, views: [front, profile], compare: target, labels: [id]}";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const SheetLayout layout =
+      layout_sheet(CellSize{3 * 64, 64, 2}, 2,
+                   {.columns = 2, .rows = 0, .title = "t", .legend = HeatLegend{}, .note = {}});
+  EXPECT_EQ(width_of(folder.out() / "sheets/sheet_001.png"), layout.width());
+  EXPECT_EQ(height_of(folder.out() / "sheets/sheet_001.png"), layout.height());
 }
 
 TEST(Sheets, MadeAnewShowFoundersInTheNewForm) {

@@ -144,11 +144,47 @@ TEST_F(Refusals, LinksNeverLeadOutOfTheFolder) {
   // A file that is a link is replaced, not written through.
   fs::remove_all(folder_.out());
   folder_.folder().write("elsewhere/mine.obj", "mine");
-  fs::create_directories(folder_.out() / "meshes");
+  EXPECT_EQ(run({}).code, 0);
+  fs::remove(folder_.out() / "meshes/mob_0001.obj");
   fs::create_symlink(folder_ / "elsewhere/mine.obj", folder_.out() / "meshes/mob_0001.obj");
   EXPECT_EQ(run({}).code, 0);
   EXPECT_EQ(read_text(folder_ / "elsewhere/mine.obj"), "mine");
   EXPECT_FALSE(fs::is_symlink(folder_.out() / "meshes/mob_0001.obj"));
+}
+
+// Test 4: they were met when all faces had been made.
+TEST_F(Refusals, WhatStandsInTheWayIsToldBeforeAnythingIsPrepared) {
+  for (const char* name : {"sheets", "meshes", "renders", "gallery"}) {
+    fs::remove_all(folder_.out());
+    folder_.folder().write(concat("out/", name), "a file");
+    const ChildOutcome outcome = run({});
+    EXPECT_EQ(outcome.code, 73) << name;
+    EXPECT_NE(outcome.message.find(name), std::string::npos) << outcome.message;
+  }
+  for (const char* name : {"report.json", "timings.json", "likeness.json", "plan.jsonl",
+                           "ledger.jsonl", "crowdface.log", "sheets/sheet_001.png"}) {
+    fs::remove_all(folder_.out());
+    fs::create_directories(folder_.out() / name);
+    const ChildOutcome outcome = run({});
+    EXPECT_EQ(outcome.code, 73) << name;
+    EXPECT_NE(outcome.message.find(name), std::string::npos) << outcome.message;
+  }
+  EXPECT_FALSE(fs::exists(folder_.cache())) << "nothing was prepared";
+}
+
+// Test 12.
+TEST_F(Refusals, PlansNeverNameFilesElsewhere) {
+  ASSERT_EQ(run_with("output.contact_sheet={columns: 2, rows: 2, cell: 32}").code, 0);
+  const std::string plan = read_text(folder_.out() / "plan.jsonl");
+  for (const char* id : {"../x", "a/b", "..", "", "/tmp/x"}) {
+    std::string other = plan;
+    other.replace(other.find("mob_0001"), 8, id);
+    folder_.folder().write("out/plan.jsonl", other);
+    const ChildOutcome outcome = run_with_fault(
+        folder_.out(), {}, [&] { remake_sheets(folder_.out(), {}, folder_.cache()); });
+    EXPECT_EQ(outcome.code, 65) << id;
+    EXPECT_NE(outcome.message.find("plan.jsonl:1: id"), std::string::npos) << outcome.message;
+  }
 }
 
 // Test 12.

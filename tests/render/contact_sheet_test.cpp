@@ -102,6 +102,26 @@ TEST(ContactSheet, ThreadCountChangesNothing) {
   EXPECT_EQ(contact_sheet(cells, options), many);
 }
 
+TEST(SheetLayout, HasAsManyRowsAsFitAndNoMore) {
+  const SheetOptions options = {.columns = 3, .title = "market"};
+  for (const CellSize cell : {CellSize{60, 50, 1}, CellSize{2048, 2048, 3}, CellSize{20'000, 32, 1},
+                              CellSize{22'000, 32, 1}, CellSize{32, 65'400, 1},
+                              CellSize{2'000'000'000, 2'000'000'000, 40'000}}) {
+    const int rows = most_rows(cell, options);
+    SheetOptions fixed = options;
+    if (rows > 0) {
+      fixed.rows = rows;
+      const SheetLayout layout = layout_sheet(cell, 1, fixed);
+      EXPECT_LE(layout.width(), 65'500);
+      EXPECT_LE(layout.height(), 65'500);
+      EXPECT_LE(std::int64_t{layout.width()} * layout.height(), 500'000'000);
+    }
+    fixed.rows = rows + 1;
+    EXPECT_THROW(layout_sheet(cell, 1, fixed), InvalidInput) << cell.width;
+  }
+  EXPECT_EQ(most_rows({60, 50, 1}, {.columns = 2000}), 0);
+}
+
 TEST(ContactSheet, RefusesWhatDoesNotFit) {
   auto cells = red_cells(4);
   EXPECT_THROW(contact_sheet({}, {}), InvalidInput);

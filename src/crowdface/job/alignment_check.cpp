@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
@@ -16,6 +17,7 @@ namespace {
 constexpr double kMostDegrees = 6;
 constexpr double kMostShift = 0.06;
 constexpr double kMostScale = 1.3;
+constexpr double kOtherUnit = 5;  // times as large: no head of people, but one in another unit
 constexpr Index kPoints = 2000;
 
 /// Evenly chosen vertices of the skin.
@@ -49,9 +51,12 @@ HeadPose pose_against(const Positions& head, const Positions& reference) {
   return pose;
 }
 
+bool is_of_other_size(const HeadPose& pose) {
+  return pose.scale > kMostScale || pose.scale < 1 / kMostScale;
+}
+
 bool is_off(const HeadPose& pose) {
-  return pose.angle_degrees > kMostDegrees || pose.shift > kMostShift || pose.scale > kMostScale ||
-         pose.scale < 1 / kMostScale;
+  return pose.angle_degrees > kMostDegrees || pose.shift > kMostShift || is_of_other_size(pose);
 }
 
 double badness(const HeadPose& pose) {
@@ -105,13 +110,20 @@ std::vector<std::string> align_heads(FaceSet& faces, const Components& component
   const std::vector<HeadPose> poses = head_poses(faces, components);
   for (std::size_t h = 0; h < poses.size(); ++h) {
     if (!is_off(poses[h])) continue;
+    if (poses[h].scale > kOtherUnit || poses[h].scale < 1 / kOtherUnit) {
+      throw InvalidInput(concat("head ", faces.heads[h].name,
+                                ": expected heads in one unit, found ",
+                                format_fixed(poses[h].scale, 2),
+                                " times the size of the others (faces.align: none takes it)"));
+    }
     warnings.push_back(concat(
         "head ", faces.heads[h].name, " does not stand in one frame with the others: turned by ",
         format_fixed(poses[h].angle_degrees, 1), " degrees, moved by ",
         format_fixed(100 * poses[h].shift, 1), " % of its size, ", format_fixed(poses[h].scale, 2),
         " times as large; this would enter as detail",
-        align == Align::kCheck ? " (faces.align: rigid turns and moves it back)"
-                               : " (a different size is not corrected; check its units)"));
+        is_of_other_size(poses[h]) ? " (a different size is not corrected; check its units)"
+        : align == Align::kCheck   ? " (faces.align: rigid turns and moves it back)"
+                                   : ""));
   }
   return warnings;
 }

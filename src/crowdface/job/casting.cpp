@@ -140,7 +140,11 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
     advice.emplace_back(
         "another max_distance or min_distance of the family, fewer members or families");
     advice.emplace_back("more heads, so that families have more room between them");
-    if (!config.families.empty()) advice.emplace_back("a smaller range of age");
+    if (std::any_of(config.families.begin(), config.families.end(), [](const auto& family) {
+          return family.age.low != 0 || family.age.high != 0;
+        })) {
+      advice.emplace_back("a smaller range of age");
+    }
   } else {
     advice.emplace_back("extrapolation nearer to 1");
     advice.emplace_back("a larger limit under believability");

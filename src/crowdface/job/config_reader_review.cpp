@@ -49,7 +49,9 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
     if (region == names.end()) {
       if (draft.regions_known) {
         draft.complaints.about(
-            item, concat("no region is called ", quoted(*name), suggestion(*name, names)));
+            item, names.empty()
+                      ? "there are no regions: nothing can be locked apart from the rest"
+                      : concat("no region is called ", quoted(*name), suggestion(*name, names)));
       }
       continue;
     }

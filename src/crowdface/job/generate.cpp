@@ -67,8 +67,26 @@ class CrowdLog {
   CrowdLog& operator=(const CrowdLog&) = delete;
 };
 
+/// A warning of faces that pass for one of the heads, if there are any that were drawn.
+std::optional<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads) {
+  constexpr double kSamePersonMm = 0.5;  // docs/casting.md
+  constexpr std::size_t kMostNamed = 8;
+  std::vector<std::string> near;
+  for (const Recipe& recipe : cast.crowd) {
+    if (!recipe.index || !recipe.nearest || recipe.nearest->head_mm >= kSamePersonMm) continue;
+    near.push_back(concat(recipe.id, " (", heads[static_cast<std::size_t>(recipe.nearest->head)],
+                          ", ", format_fixed(recipe.nearest->head_mm, 2), " mm)"));
+  }
+  if (near.empty()) return std::nullopt;
+  const std::size_t count = near.size();
+  near.resize(std::min(count, kMostNamed));
+  return concat(count, count == 1 ? " face passes" : " faces pass",
+                " for one of the heads: ", join(near), count > kMostNamed ? ", …" : "",
+                "; diversity.min_distance_to_faces keeps faces away from them");
+}
+
 /// What the crowd is like, in two lines.
-void tell_casting(const Cast& cast) {
+void tell_casting(const Cast& cast, const std::vector<std::string>& heads) {
   const CrowdDistances& distances = cast.distances;
   const auto mm = [](double value) { return format_fixed(value, 2); };
   if (distances.crowd.count > 0) {
@@ -83,6 +101,7 @@ void tell_casting(const Cast& cast) {
     if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
   }
   if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
+  if (const auto text = near_heads(cast, heads)) log_warning(*text);
 }
 
 bool lies_below(const fs::path& path, const fs::path& folder) {
@@ -137,10 +156,11 @@ void refuse_other_heads(const Job& job, const CrowdDirectory& directory) {
   const auto first = parse_shallow_json(std::string_view(plan).substr(0, plan.find('\n')));
   const auto settings = first.is_object() ? first.find("settings") : first.end();
   if (settings == first.end() || *settings == job.settings.hex()) return;
-  throw UsageError(concat(directory.root.string(),
-                          ": holds a crowd of other heads or masks than they are now, or of another "
-                          "version of crowdface (\"settings\" in its plan.jsonl); choose another "
-                          "folder with --out, or replace it with --force"));
+  throw UsageError(
+      concat(directory.root.string(),
+             ": holds a crowd of other heads or masks than they are now, or of another "
+             "version of crowdface (\"settings\" in its plan.jsonl); choose another "
+             "folder with --out, or replace it with --force"));
 }
 
 /// Refuses a folder that the crowd cannot be written to, or where it would destroy what it reads.
@@ -166,7 +186,7 @@ CastJob cast_job(const Job& job, const GenerateOptions& options, StageSeconds& s
     return prepare(job.config, job.inputs, job.smoothing, options.cache);
   });
   Cast crowd = timed(stages, "cast", [&] { return cast(job, prepared); });
-  tell_casting(crowd);
+  tell_casting(crowd, job.names.heads);
   check_compared_crowd(job, crowd.crowd);
   return {std::move(prepared), std::move(crowd)};
 }
@@ -323,6 +343,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
   if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);
 
   std::vector<std::string> warnings = job.inputs.warnings;
+  if (auto text = near_heads(cast_job.cast, job.names.heads)) warnings.push_back(std::move(*text));
   if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) != formats.end()) {
     for (std::string& text : copy_materials(job, directory, crowd, ledger)) {
       warnings.push_back(std::move(text));

@@ -22,9 +22,15 @@ constexpr int kBlendVersion = 2;
 constexpr double kUvTolerance = 1e-4;
 constexpr int kLeastTexture = 1024;  // pixels a side that textures keep, if they have them
 
+bool is_missing(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return !std::filesystem::exists(file, ignored);
+}
+
 /// Heads that could be read; the others are problems.
-std::vector<ObjFile> read_heads(const Config& config, Problems& problems) {
-  const std::size_t count = config.faces.files.size();
+std::vector<ObjFile> read_heads(const std::vector<std::filesystem::path>& paths,
+                                Problems& problems) {
+  const std::size_t count = paths.size();
   std::vector<std::optional<ObjFile>> files(count);
   std::vector<std::optional<Error>> errors(count);
   {
@@ -33,7 +39,7 @@ std::vector<ObjFile> read_heads(const Config& config, Problems& problems) {
       throw_if_interrupted();
       const auto i = static_cast<std::size_t>(h);
       try {
-        files[i] = read_obj(config.faces.files[i]);
+        files[i] = read_obj(paths[i]);
       } catch (const Error& error) {
         errors[i] = error;
       }
@@ -50,8 +56,8 @@ std::vector<ObjFile> read_heads(const Config& config, Problems& problems) {
 
 /// Opens the mask images as far as that goes without texture coordinates, which alone tell the UDIM
 /// tiles in use.
-void check_masks(const Config& config, Problems& problems) {
-  for (const MaskSource& mask : load_masks(config.regions.mask)) {
+void check_masks(const std::vector<std::string>& files, Problems& problems) {
+  for (const MaskSource& mask : load_masks(files)) {
     if (mask.tiled()) continue;
     try {
       mask.read(0);
@@ -105,6 +111,17 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
     sum += rms_edge_length(inputs.adjacency, inputs.components, skin, head.positions);
   }
   return sum / static_cast<double>(inputs.faces.heads.size()) * mm_per(config.faces.units);
+}
+
+/// A warning if the first head is of no size that heads have, with or without shoulders.
+std::optional<std::string> odd_height(const Config& config, const Inputs& inputs) {
+  constexpr double kLeastMm = 80, kMostMm = 1200;
+  const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
+  const double units = up.maxCoeff() - up.minCoeff(), mm = units * mm_per(config.faces.units);
+  if (!(mm > 0) || (mm >= kLeastMm && mm <= kMostMm)) return std::nullopt;
+  return concat("the first head is ", format_fixed(units, 2), " units high, with faces.units ",
+                name_of(config.faces.units), " ", format_fixed(mm / 10, 1),
+                " cm: a head is some 28 cm high. All sizes rest on faces.units and faces.up");
 }
 
 std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
@@ -162,16 +179,25 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
 }  // namespace
 
 void check_inputs(const ConfigReading& reading, Problems& problems) {
-  if (reading.heads_known) compare_with_first(read_heads(reading.config, problems), problems);
-  if (reading.regions_known) check_masks(reading.config, problems);
+  // Of files that are not there whoever read the config has told.
+  if (reading.heads_known) {
+    std::vector<std::filesystem::path> heads = reading.config.faces.files;
+    std::erase_if(heads, is_missing);
+    compare_with_first(read_heads(heads, problems), problems);
+  }
+  if (reading.regions_known) {
+    std::vector<std::string> masks = reading.config.regions.mask;
+    std::erase_if(masks, is_missing);
+    check_masks(masks, problems);
+  }
 }
 
 std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
   Inputs inputs;
-  inputs.files = read_heads(config, problems);
+  inputs.files = read_heads(config.faces.files, problems);
   compare_with_first(inputs.files, problems);
   if (!problems.empty()) {
-    check_masks(config, problems);
+    check_masks(config.regions.mask, problems);
     return std::nullopt;
   }
 
@@ -180,9 +206,15 @@ std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
   inputs.faces = take_faces(config, inputs.files);
   inputs.adjacency = build_adjacency(inputs.faces.topology);
   inputs.components = find_components(inputs.adjacency);
-  for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
-    warn(inputs, std::move(text));
+  try {
+    for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
+      warn(inputs, std::move(text));
+    }
+  } catch (const Error& error) {
+    problems.add(error);
+    return std::nullopt;
   }
+  if (auto text = odd_height(config, inputs)) warn(inputs, std::move(*text));
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {
     inputs.regions = load_regions(config, inputs.faces);

@@ -22,6 +22,18 @@ std::string name_some(std::vector<std::string> names) {
   return concat(names.front(), ", ", names[1], ", … ", names.back());
 }
 
+std::string tags_of(const StarterFacts& facts) {
+  if (facts.tags.empty()) {
+    return "  # tags: {head_a: [old], head_b: [young]}   # groups of heads, to be named under "
+           "sampling\n";
+  }
+  std::string text = "  tags:                  # groups of heads, to be named under sampling\n";
+  for (const auto& [head, tags] : facts.tags) {
+    text += concat("    ", head, ": [", join(tags), "]\n");
+  }
+  return text;
+}
+
 std::string faces_section(const StarterFacts& facts) {
   const double height_mm = facts.head_height * mm_per(facts.units);
   return concat(
@@ -37,8 +49,22 @@ std::string faces_section(const StarterFacts& facts) {
       name_of(facts.front), "              # the axis along which the faces look\n",
       "  align: check           # warn about heads that do not stand like the others; rigid moves "
       "them\n",
-      "  # tags: {head_a: [old], head_b: [young]}   # groups of heads, to be named under "
-      "sampling\n");
+      tags_of(facts));
+}
+
+std::string regions_section(const StarterFacts& facts) {
+  if (facts.mask.empty()) {
+    return "# Parts of the face that are blended on their own need an image that tells them apart: "
+           "one\n"
+           "# colour channel a region, read at the meshes' UVs. Until then the head is one piece.\n"
+           "regions: none\n"
+           "# regions: {names: [top, middle, bottom], mask: bands.png}\n\n";
+  }
+  return concat(
+      "# Parts of the face that are blended on their own: the image beside the heads tells them "
+      "apart,\n# one colour channel a region. \"regions: none\" makes the head one piece.\n"
+      "regions:\n  names: [top, middle, bottom]\n  mask: ",
+      write_scalar(facts.mask), "\n\n");
 }
 
 }  // namespace
@@ -53,12 +79,7 @@ std::string starter_config(const StarterFacts& facts) {
       "_0001, …\n"
       "  count: 24              # how many faces; a larger crowd starts with the same ones\n"
       "  seed: 1                # another number, another crowd\n\n",
-      faces_section(facts),
-      "\n"
-      "# Parts of the face that are blended on their own need an image that tells them apart: one\n"
-      "# colour channel a region, read at the meshes' UVs. Until then the head is one piece.\n"
-      "regions: none\n"
-      "# regions: {names: [top, middle, bottom], mask: bands.png}\n\n"
+      faces_section(facts), "\n", regions_section(facts),
       "sampling:\n"
       "  # How much of the target's own relief gives way to that of the others: 0 nothing, 1 all "
       "of\n"
@@ -68,6 +89,9 @@ std::string starter_config(const StarterFacts& facts) {
       "  extrapolation: [0.9, 1.2]\n"
       "  # How many heads lend their features to one face.\n"
       "  max_sources: 3\n\n"
+      "diversity:\n"
+      "  # No face comes nearer to one of the heads: below half a millimetre it is that person.\n"
+      "  min_distance_to_faces: 0.8 mm\n\n"
       "output:\n  directory: ",
       write_scalar(concat("out/", facts.crowd_name)),
       "\n"

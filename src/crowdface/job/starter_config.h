@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crowdface/core/units.h"
@@ -18,6 +19,8 @@ struct StarterFacts {
   Axis up = {1, 1};
   Axis front = {2, 1};
   std::string crowd_name = "crowd";
+  std::string mask;  ///< of three bands, top, middle, bottom, from the config's folder; empty: none
+  std::vector<std::pair<std::string, std::vector<std::string>>> tags = {};  ///< heads and theirs
 };
 
 /// The text of a first config for these heads: short, every line explained, ready to run.
