@@ -20,7 +20,6 @@
 namespace crowdface::cli {
 namespace {
 
-
 struct Options {
   CommonOptions common;
   std::string in, out, iterations;

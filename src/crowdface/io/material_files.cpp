@@ -183,19 +183,19 @@ class Collector {
     std::error_code error;
     if (fs::file_size(file, error) > kLargestMaterialFile || error) return;
     std::string material;
-    for_each_statement(
-        read_file(file), [&](const std::vector<std::string>& words, std::string_view line) {
-          throw_if_interrupted();
-          if (words[0] == "newmtl") material = rest_of(line, "newmtl");
-          if (!is_texture_statement(words[0])) return;
-          const fs::path relative = texture_of(line, name.parent_path());
-          const Seen seen = see(relative, "texture", file, textures_);
-          if (seen == Seen::kTooMany) return;
-          if (words[0] == "map_Kd" && stays_inside(relative)) {
-            colours_.emplace(material, (folder_ / relative).lexically_normal());
-          }
-          if (seen == Seen::kNew) take_texture(relative);
-        });
+    for_each_statement(read_file(file),
+                       [&](const std::vector<std::string>& words, std::string_view line) {
+                         throw_if_interrupted();
+                         if (words[0] == "newmtl") material = rest_of(line, "newmtl");
+                         if (!is_texture_statement(words[0])) return;
+                         const fs::path relative = texture_of(line, name.parent_path());
+                         const Seen seen = see(relative, "texture", file, textures_);
+                         if (seen == Seen::kTooMany) return;
+                         if (words[0] == "map_Kd" && stays_inside(relative)) {
+                           colours_.emplace(material, (folder_ / relative).lexically_normal());
+                         }
+                         if (seen == Seen::kNew) take_texture(relative);
+                       });
   }
 
   /// The longest name at the end of the line that a file has, or a first tile. If none has: all of it,

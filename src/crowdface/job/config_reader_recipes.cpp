@@ -10,7 +10,6 @@
 namespace crowdface {
 namespace {
 
-
 /// Whether an id is one that a sampled face of this crowd could get: NAME_0001 and so on.
 bool looks_sampled(std::string_view id, std::string_view crowd) {
   constexpr std::size_t kDigits = 4;

@@ -132,8 +132,9 @@ void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
       {{"png", SheetFormat::kPng}, {"exr", SheetFormat::kExr}, {"pdf", SheetFormat::kPdf}},
       "a list of formats, [png, exr, pdf]", sheet->formats, out);
   if (!fits_on_a_page(*sheet)) {
-    out.about(*node, "one page of so many cells, rows and columns is too large (at most 65500 "
-                     "pixels a side and 5e8 in all)");
+    out.about(*node,
+              "one page of so many cells, rows and columns is too large (at most 65500 "
+              "pixels a side and 5e8 in all)");
   }
 }
 

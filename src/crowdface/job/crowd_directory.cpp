@@ -119,9 +119,9 @@ void refuse_obstacles(const CrowdDirectory& directory) {
     }
   }
   std::vector<fs::path> files = papers_of(directory);
-  for (const fs::path& file : {directory.config(), directory.log(), directory.lock(),
-                               directory.sheet(1), directory.sheets() / "index.png",
-                               directory.gallery() / "index.html"}) {
+  for (const fs::path& file :
+       {directory.config(), directory.log(), directory.lock(), directory.sheet(1),
+        directory.sheets() / "index.png", directory.gallery() / "index.html"}) {
     files.push_back(file);
   }
   for (const fs::path& file : files) {
@@ -272,8 +272,8 @@ bool is_sheet_file(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string ending = path.extension().string();
   const bool ours = stem.starts_with("sheet_") || stem.starts_with("heads_") ||
-                    stem.starts_with("family_") || stem == "index" ||
-                    stem.starts_with("index_") || stem == "sheets" || stem.starts_with("sheets_");
+                    stem.starts_with("family_") || stem == "index" || stem.starts_with("index_") ||
+                    stem == "sheets" || stem.starts_with("sheets_");
   return ours && (ending == ".png" || ending == ".exr" || ending == ".pdf");
 }
 

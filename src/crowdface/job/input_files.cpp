@@ -23,7 +23,8 @@ void add_image(const fs::path& image, std::vector<fs::path>& files) {
 
 bool is_head(const fs::path& path) {
   std::error_code ignored;
-  return mesh_format_of(path) == MeshFormat::kObj && !path.filename().string().starts_with('.') && !fs::is_directory(path, ignored);
+  return mesh_format_of(path) == MeshFormat::kObj && !path.filename().string().starts_with('.') &&
+         !fs::is_directory(path, ignored);
 }
 
 bool is_plain_text(std::string_view text) {

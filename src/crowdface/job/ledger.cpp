@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kEndItem = "end";  // the last line of a finished crowd: its key is all the others
+constexpr const char* kEndItem =
+    "end";  // the last line of a finished crowd: its key is all the others
 constexpr std::string_view kSum = R"(,"sum":")", kEnd = R"("})";
 
 std::optional<std::string> text_at(const Json& json, const char* key) {
@@ -115,8 +116,9 @@ LedgerLines read_ledger(const fs::path& path) {
 }
 
 bool files_match(const fs::path& root, const LedgerEntry& entry) {
-  return std::all_of(entry.files.begin(), entry.files.end(),
-                     [&](const LedgerEntry::File& file) { return holds(root / file.name, file.content); });
+  return std::all_of(entry.files.begin(), entry.files.end(), [&](const LedgerEntry::File& file) {
+    return holds(root / file.name, file.content);
+  });
 }
 
 void add_lines(LedgerLines lines, LinesOfItems& to) {

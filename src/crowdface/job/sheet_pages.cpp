@@ -71,9 +71,9 @@ void SheetPages::write_index(const std::string& number) {
   const auto columns = static_cast<int>(
       std::clamp(std::ceil(std::sqrt(static_cast<double>(index_.size()))), 1.0, 8.0));
   const std::size_t before = volumes_ * kPagesAVolume;
-  const std::string note =
-      number.empty() ? concat(index_.size(), " sheets")
-                     : concat("sheets ", before + 1, " to ", before + index_.size());
+  const std::string note = number.empty()
+                               ? concat(index_.size(), " sheets")
+                               : concat("sheets ", before + 1, " to ", before + index_.size());
   const Rgb8Image page = contact_sheet(
       index_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
   const std::string png = to_png(page);

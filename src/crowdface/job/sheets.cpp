@@ -203,11 +203,10 @@ class CrowdSheets {
                       std::size_t count, const std::function<SheetCell(std::size_t)>& cell) {
     const std::size_t per_page =
         static_cast<std::size_t>(sheet_.columns) *
-        static_cast<std::size_t>(std::min(kMostRows, most_rows(plain_cell(sheet_),
-                                                               {.columns = sheet_.columns,
-                                                                .title = title,
-                                                                .legend = {},
-                                                                .note = note})));
+        static_cast<std::size_t>(std::min(
+            kMostRows,
+            most_rows(plain_cell(sheet_),
+                      {.columns = sheet_.columns, .title = title, .legend = {}, .note = note})));
     const std::size_t pages = (count + per_page - 1) / per_page;
     for (std::size_t page = 0; page < pages; ++page) {
       throw_if_interrupted();
@@ -225,7 +224,8 @@ class CrowdSheets {
     const std::vector<std::string>& names = job_.names.heads;
     add_tall_pages([](std::size_t page) { return concat("heads_", zero_padded(page, 3)); },
                    "the heads", job_.config.crowd.name, counted(names.size(), "head", "heads"),
-                   names.size(), [&](std::size_t h) {
+                   names.size(),
+                   [&](std::size_t h) {
                      std::string label = names[h];
                      const auto& tags = job_.config.faces.tags[h];
                      if (!tags.empty()) label += concat("\n", join(tags));

@@ -86,11 +86,9 @@ SheetLayout place_cells(const CellSize& cell, const SheetOptions& options) {
   const int margin = std::clamp(size / 16, 6, 32);
   const int header_height = header ? std::clamp(size / 5, 24, 96) : margin;
   const int legend_height = options.legend ? std::clamp(size / 4, 32, 96) : 0;
-  return {options.columns,         options.rows,
-          cell.width,              cell.height,
-          cell.label_lines * line, cell.label_lines,
-          header_height,           legend_height,
-          margin,                  std::clamp(size / 32, 3, 16)};
+  return {
+      options.columns,  options.rows,  cell.width,    cell.height, cell.label_lines * line,
+      cell.label_lines, header_height, legend_height, margin,      std::clamp(size / 32, 3, 16)};
 }
 
 bool is_small_enough(const SheetLayout& layout) {
