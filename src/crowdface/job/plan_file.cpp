@@ -103,7 +103,7 @@ class LineReader {
 
   /// Pictures and meshes are called by it.
   std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
-    const std::string name = text(json, key);
+    std::string name = text(json, key);
     if (!is_name(name, longest)) {
       fail(key, "a name of letters (a-z), digits, '_', '-' or '.', not starting with '.'",
            quoted(name));
