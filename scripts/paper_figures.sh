@@ -18,7 +18,7 @@ program=${CROWDFACE:-$PWD/build/release/bin/crowdface}
 table() {
   local vertices=$1 faces=320 folder=out/paper/table
   mkdir -p "$folder"
-  "$program" synth -o "$folder/heads" --count 15 --vertices "$vertices" --seed 3 --quiet
+  "$program" synth --force -o "$folder/heads" --count 15 --vertices "$vertices" --seed 3 --quiet
   echo '{"vertices": '"$vertices"', "faces": '"$faces"', "heads": {' >"$folder/times.json"
   local separator=''
   for heads in 2 4 7 10 13 15; do
@@ -55,7 +55,7 @@ heads=$folder/heads
 mask=$PWD/masks/synth_bands.png
 rm -rf "$heads" && mkdir -p "$heads" "$folder/figures"
 if [ $# -eq 0 ]; then
-  "$program" synth -o "$folder/made" --count 8 --vertices 40000 --seed 3 --quiet
+  "$program" synth --force -o "$folder/made" --count 8 --vertices 40000 --seed 3 --quiet
   given=$folder/made
 else
   given=${2:?"usage: scripts/paper_figures.sh [NAME HEADS_DIR [MASK]]"}

@@ -8,12 +8,14 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/tile_files.h"
 #include "crowdface/job/config_values.h"
 #include "crowdface/job/input_files.h"
 #include "crowdface/job/starter_config.h"
 #include "crowdface/job/yaml.h"
+#include "crowdface/region/mask_source.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -40,14 +42,24 @@ LengthUnit guess_unit(double height) {
   return best;
 }
 
+/// Whether the image tells three regions apart.
+bool has_three_bands(const fs::path& image) {
+  try {
+    return mask_channels(read_image(image)).size() == 3;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 /// The mask of three bands that `synth` and `import` put beside heads; empty if there is none.
 std::string mask_beside(const fs::path& heads) {
   for (const char* name : {"regions.png", "makehuman_bands.png", "ict_bands.png"}) {
     std::error_code ignored;
-    if (fs::is_regular_file(heads / name, ignored)) return name;
+    if (fs::is_regular_file(heads / name, ignored) && has_three_bands(heads / name)) return name;
   }
   const char* tiles = "ict_bands.<UDIM>.png";
-  return find_tiles(heads / tiles).empty() ? "" : tiles;
+  const std::vector<fs::path> files = find_tiles(heads / tiles);
+  return !files.empty() && has_three_bands(files.front()) ? tiles : "";
 }
 
 /// What tags.yaml beside the heads says of them, as `synth --tags` and `import` write it.
@@ -65,7 +77,11 @@ std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
     if (list == nullptr || !is_name(name)) continue;
     std::vector<std::string> words;
     for (const YamlNode& item : list->value.items) {
-      if (is_name(item.text)) words.push_back(item.text);
+      const auto is_item = [&](const std::string& word) { return word == item.text; };
+      if (is_name(item.text) && std::none_of(words.begin(), words.end(), is_item) &&
+          std::none_of(names.begin(), names.end(), is_item)) {
+        words.push_back(item.text);
+      }
     }
     if (!words.empty()) found.emplace_back(name, std::move(words));
   }
@@ -81,6 +97,11 @@ void init(const fs::path& heads, const fs::path& out, bool force) {
   const fs::path file = output_file(out);
   std::error_code ignored;
   refuse_to_write_over(files, file);
+  const std::string mask = mask_beside(heads);
+  std::vector<fs::path> beside = find_tiles(heads / mask);
+  beside.push_back(heads / mask);
+  beside.push_back(heads / "tags.yaml");
+  refuse_to_write_over(beside, file);
   if (fs::exists(file, ignored) && !force) {
     throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
   }
@@ -94,7 +115,6 @@ void init(const fs::path& heads, const fs::path& out, bool force) {
   facts.units = guess_unit(facts.head_height);
   facts.crowd_name = "crowd";
   facts.tags = tags_beside(heads, facts.names);
-  const std::string mask = mask_beside(heads);
   if (!mask.empty()) facts.mask = (facts.heads / mask).string();
   write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",

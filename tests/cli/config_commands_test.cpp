@@ -137,6 +137,10 @@ TEST(Init, TakesTheMaskAndTheTagsBesideTheHeads) {
   crowdface(0, {"check", config}, {"is fine", "top, middle, bottom"});
   EXPECT_THAT(read_text(config), ::testing::ContainsRegex("synth_02: \\[(fe)?male, [a-z]+\\]"));
   crowdface(0, {"check", config, "--set", "faces.units=m"}, {"28 cm", "units"});
+  for (const char* input : {"heads/tags.yaml", "heads/regions.png"}) {
+    crowdface(64, {"init", (folder / "heads").string(), "-o", (folder / input).string(), "--force"},
+              {"is an input"});
+  }
 }
 
 TEST(Plan, BuildsNoMeshesAndKeepsTheCache) {

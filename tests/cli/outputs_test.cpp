@@ -122,7 +122,7 @@ TEST_F(Outputs, ClosedStreamsAndPipesHarmNoFile) {
   fs::remove(folder_ / "out/meshes/mob_0001.obj");
   EXPECT_EQ(shell(run + " <&- >&- 2>&-"), 0);
   EXPECT_EQ(shell(run + " 2>&1 | true; exit ${PIPESTATUS[0]}"), 0);
-  EXPECT_EQ(shell("\"$0\" --help | true; exit ${PIPESTATUS[0]}"), 74);
+  EXPECT_EQ(shell("(sleep 0.3; exec \"$0\" --help) | true; exit ${PIPESTATUS[0]}"), 74);
   std::map<std::string, std::string> now = all();
   for (auto* files : {&before_, &now}) {
     std::erase_if(*files, [](const auto& file) {
@@ -133,10 +133,10 @@ TEST_F(Outputs, ClosedStreamsAndPipesHarmNoFile) {
 }
 
 TEST_F(Outputs, NohupIsHeeded) {
-  const std::string script = concat("trap '' HUP; \"$0\" generate ", folder_.config().string(),
-                                    " --count 40 --out ", at("long"),
-                                    " -q & sleep 0.5; kill -HUP $!; "
-                                    "wait $!");
+  const std::string script = concat(
+      "trap '' HUP; \"$0\" generate ", folder_.config().string(), " --count 300 --cache ",
+      folder_.cache().string(), " --out ", at("long"), " -q & run=$!; until [ -e ",
+      at("long/crowdface.log"), " ]; do sleep 0.02; done; kill -HUP $run || exit 9; wait $run");
   EXPECT_EQ(run_program("/bin/bash", {"-c", script, CROWDFACE_PROGRAM}).code, 0);
 }
 

@@ -87,6 +87,17 @@ TEST(MaterialFiles, NamesOfTexturesMayHoldBlanks) {
   EXPECT_EQ(colours.of_material.at("a"), folder / "head diffuse.png");
 }
 
+// All ends of a line were kept at once: 40 KB took half a gigabyte.
+TEST(MaterialFiles, LinesOfManyWordsAreCheap) {
+  const testing::TemporaryFolder folder;
+  std::string line = "map_Kd";
+  for (int i = 0; i < 500'000; ++i) line += " a";
+  folder.write("a.mtl", "newmtl a\n" + line + " b.png\nmap_Ks   \nmap_Ns\n");
+  folder.write("b.png", "x");
+  EXPECT_EQ(names(find_material_files(folder / "head.obj", {"a.mtl"})),
+            (std::vector<std::string>{"a.mtl", "b.png"}));
+}
+
 TEST(MaterialFiles, TakeSoManyTexturesAndNoMore) {
   const testing::TemporaryFolder folder;
   std::string text;

@@ -62,6 +62,17 @@ TEST(PlanFile, ReadsBackToTheBit) {
             format_recipe(recipe, kNames, kSettings));
 }
 
+TEST(PlanFile, TheLongestIdsAreRead) {
+  Recipe recipe = example();
+  recipe.family = std::string(64, 'f');
+  recipe.id = concat(std::string(64, 'c'), '_', *recipe.family, "_1000");
+  const PlanLine line = parse_recipe(format_recipe(recipe, kNames, kSettings), kNames, "plan:1");
+  EXPECT_EQ(line.recipe.id, recipe.id);
+  EXPECT_EQ(line.recipe.family, recipe.family);
+  recipe.id = concat(std::string(64, 'c'), "_18446744073709551615");
+  EXPECT_NO_THROW(parse_recipe(format_recipe(recipe, kNames, kSettings), kNames, "plan:1"));
+}
+
 TEST(PlanFile, WhatIsWrongAboutNearestIsLeftOut) {
   const std::string good = format_recipe(example(), kNames, kSettings);
   for (const char* nearest :
@@ -105,6 +116,9 @@ TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
       {with("[0.1,", "["), "position"},
       {with("\"index\":7", "\"index\":-7"), "index"},
       {with("\"id\":\"mob_0007\",", ""), "id"},
+      {with("\"id\":\"mob_0007\"", "\"id\":\"../mob_0007\""), "id: expected a name"},
+      {with("\"id\":\"mob_0007\"", "\"id\":\"\""), "id: expected a name"},
+      {with("\"family\":null", "\"family\":\"a/b\""), "family: expected a name"},
       {with("\"settings\"", "\"setting\""), "settings"},
       {with("\"attempt\":0", "\"attempt\":4294967296"), "attempt"},
       {with("\"attempt\":0", concat("\"attempt\":", deep)), "attempt"},

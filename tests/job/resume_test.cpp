@@ -207,6 +207,10 @@ TEST_F(Resume, HeadsThatHaveChangedSinceAreRefused) {
   folder_.folder().write("heads/bob.obj", head);
   run();
   EXPECT_EQ(faces_built(), 0);
+  // Nor does a plan alone, cast anew, open the way for heads that change once more.
+  edit_a_head();
+  folder_.folder().write("heads/bob.obj", "# and again\n" + head);
+  testing::expect_error(ExitCode::kUsage, {"other heads"}, [&] { run(); });
 }
 
 TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {

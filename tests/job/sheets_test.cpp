@@ -134,7 +134,11 @@ TEST(Sheets, ManyPagesHaveSeveralIndicesAndBooks) {
   EXPECT_THAT(read_file(sheets / "sheets_001.pdf"), HasSubstr("/Count 65"));
   EXPECT_THAT(read_file(sheets / "sheets_002.pdf"), HasSubstr("/Count 8"));
   EXPECT_TRUE(verify_crowd(folder.out()).good());
+  folder.folder().write("out/sheets/index_of_cast.png", "mine");
+  folder.folder().write("out/sheets/sheets_for_us.pdf", "mine");
   remake_sheets(folder.out(), {"output.contact_sheet.rows=4"}, folder.cache());
+  EXPECT_TRUE(fs::exists(sheets / "index_of_cast.png"));
+  EXPECT_TRUE(fs::exists(sheets / "sheets_for_us.pdf"));
   EXPECT_TRUE(fs::exists(sheets / "index.png"));
   EXPECT_FALSE(fs::exists(sheets / "index_002.png"));
   EXPECT_FALSE(fs::exists(sheets / "sheets_002.pdf"));

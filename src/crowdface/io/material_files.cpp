@@ -21,33 +21,32 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFirstTile = 1001;
+constexpr const char* kBlanks = " \t\r";
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
 std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < line.size();) {
-    const std::size_t begin = line.find_first_not_of(" \t\r", i);
+    const std::size_t begin = line.find_first_not_of(kBlanks, i);
     if (begin == line.npos) break;
-    const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+    const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
     words.emplace_back(line.substr(begin, end - begin));
     i = end;
   }
   return words;
 }
 
-/// What stands in a line from each of its words but the first to its end: a name may hold blanks, and
-/// options come before it. Of a line of more words than any has, the last alone.
-std::vector<std::string> tails_of(std::string_view line) {
-  constexpr std::size_t kMostWords = 32;
-  std::vector<std::string> tails;
-  const std::size_t end = line.find_last_not_of(" \t\r") + 1;
-  for (std::size_t i = line.find_first_not_of(" \t\r"); i < end;) {
-    i = line.find_first_of(" \t\r", i);
-    if (i >= end) break;
-    i = line.find_first_not_of(" \t\r", i);
-    tails.emplace_back(line.substr(i, end - i));
+/// What stands from each word of a text to its end, the longest first: a name may hold blanks, and
+/// options come before it. Of more words than any line has, the last ones.
+std::vector<std::string_view> tails_of(std::string_view text) {
+  constexpr std::size_t kMostTails = 32;
+  std::vector<std::string_view> tails;
+  for (std::size_t end = text.size(); end > 0 && tails.size() < kMostTails;) {
+    const std::size_t begin = text.find_last_of(kBlanks, end - 1) + 1;  // npos + 1 is 0
+    tails.push_back(text.substr(begin));
+    end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
   }
-  if (tails.size() > kMostWords) tails.erase(tails.begin(), tails.end() - 1);
+  std::reverse(tails.begin(), tails.end());
   return tails;
 }
 
@@ -58,34 +57,31 @@ bool stays_inside(const fs::path& relative) {
   return !normal.empty() && normal.is_relative() && *normal.begin() != "..";
 }
 
-bool is_texture_statement(const std::string& word) {
+bool is_texture_statement(std::string_view word) {
   return word.starts_with("map_") || word == "bump" || word == "disp" || word == "decal" ||
          word == "refl" || word == "norm";
 }
 
-/// Calls `body` with the words of each line that has at least two, and with the line.
+/// Calls `body` with the first word of each line that has at least two, and with all that stands
+/// behind it.
 template <class Body>
 void for_each_statement(std::string_view text, const Body& body) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = text.substr(begin, end - begin);
-    const auto words = words_of(line);
-    if (words.size() >= 2) body(words, line);
+    std::string_view line = text.substr(begin, end - begin);
     begin = end + 1;
+    line = line.substr(0, line.find_last_not_of(kBlanks) + 1);
+    line = line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
+    const std::size_t blank = line.find_first_of(kBlanks);
+    if (blank == line.npos) continue;
+    body(line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank)));
   }
 }
 
-std::string with_forward_slashes(std::string path) {
+std::string with_forward_slashes(std::string_view text) {
+  std::string path(text);
   std::replace(path.begin(), path.end(), '\\', '/');
   return path;
-}
-
-/// All that stands behind a line's first word.
-std::string rest_of(std::string_view line, const std::string& first_word) {
-  const std::size_t begin = line.find(first_word) + first_word.size();
-  const std::string_view rest = line.substr(begin);
-  const std::size_t from = rest.find_first_not_of(" \t\r");
-  return std::string(rest.substr(from, rest.find_last_not_of(" \t\r") + 1 - from));
 }
 
 /// Whether a file of this name beside meshes could be one that crowdface writes there: a mesh, or an
@@ -182,33 +178,38 @@ class Collector {
     const fs::path file = folder_ / name;
     std::error_code error;
     if (fs::file_size(file, error) > kLargestMaterialFile || error) return;
+    textures_of_.clear();
     std::string material;
-    for_each_statement(read_file(file),
-                       [&](const std::vector<std::string>& words, std::string_view line) {
-                         throw_if_interrupted();
-                         if (words[0] == "newmtl") material = rest_of(line, "newmtl");
-                         if (!is_texture_statement(words[0])) return;
-                         const fs::path relative = texture_of(line, name.parent_path());
-                         const Seen seen = see(relative, "texture", file, textures_);
-                         if (seen == Seen::kTooMany) return;
-                         if (words[0] == "map_Kd" && stays_inside(relative)) {
-                           colours_.emplace(material, (folder_ / relative).lexically_normal());
-                         }
-                         if (seen == Seen::kNew) take_texture(relative);
-                       });
+    for_each_statement(read_file(file), [&](std::string_view word, std::string_view rest) {
+      throw_if_interrupted();
+      if (word == "newmtl") material = rest;
+      if (!is_texture_statement(word)) return;
+      const fs::path relative = texture_of(rest, name.parent_path());
+      const Seen seen = see(relative, "texture", file, textures_);
+      if (seen == Seen::kTooMany) return;
+      if (word == "map_Kd" && stays_inside(relative)) {
+        colours_.emplace(material, (folder_ / relative).lexically_normal());
+      }
+      if (seen == Seen::kNew) take_texture(relative);
+    });
   }
 
-  /// The longest name at the end of the line that a file has, or a first tile. If none has: all of it,
-  /// or after options its last word.
-  fs::path texture_of(std::string_view line, const fs::path& folder) const {
-    const std::vector<std::string> tails = tails_of(line);
-    for (const std::string& tail : tails) {
+  /// The longest name at the end of a statement that a file has, or a first tile. If none has: all of
+  /// it, or after options its last word.
+  fs::path texture_of(std::string_view rest, const fs::path& folder) {
+    const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
+    if (!is_new) return known->second;
+    const std::vector<std::string_view> tails = tails_of(rest);
+    const bool has_options = rest.starts_with('-');
+    known->second = folder / with_forward_slashes(has_options ? tails.back() : rest);
+    if (textures_.full) return known->second;
+    for (const std::string_view tail : tails) {
       fs::path relative = folder / with_forward_slashes(tail);
       if (!stays_inside(relative)) continue;
-      if (exists(relative) || exists(with_tile(relative, kFirstTile))) return relative;
+      if (!exists(relative) && !exists(with_tile(relative, kFirstTile))) continue;
+      return known->second = std::move(relative);
     }
-    const std::string& name = tails.front().starts_with('-') ? tails.back() : tails.front();
-    return folder / with_forward_slashes(name);
+    return known->second;
   }
 
   void take_texture(const fs::path& relative) {
@@ -223,6 +224,7 @@ class Collector {
   fs::path mesh_, folder_;
   Names libraries_, textures_;
   std::set<fs::path> destinations_;
+  std::map<std::string, fs::path> textures_of_;  ///< by what a statement says; of one library
   MaterialFiles files_;
   std::map<std::string, fs::path> colours_;
 };

@@ -65,7 +65,7 @@ std::optional<Value> read_choice(const YamlNode& node, const Choices<Value>& cho
 }
 
 inline constexpr std::size_t kLongestName = 64;
-inline constexpr std::size_t kLongestId = kLongestName + 1 + 20;  ///< crowd_18446744073709551615
+inline constexpr std::size_t kLongestId = 2 * kLongestName + 22;  ///< CROWD_FAMILY_NUMBER
 
 /// Whether it is a name that can be a file's on any system: at most `longest` letters (a–z), digits,
 /// '_', '-' and '.', not starting with '.', and not empty.

@@ -143,11 +143,14 @@ bool is_anothers(const CrowdDirectory& directory, const std::string& effective_c
     }
   }
   const std::vector<fs::path> papers = papers_of(directory), folders = folders_of(directory);
-  return std::any_of(papers.begin(), papers.end(),
-                     [&](const fs::path& file) { return fs::exists(file, ignored); }) ||
-         std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
-           return fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored);
-         });
+  const bool holds_any =
+      std::any_of(papers.begin(), papers.end(),
+                  [&](const fs::path& file) { return fs::exists(file, ignored); }) ||
+      std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+        return fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored);
+      });
+  // Another shard may have begun meanwhile: the config is the first that it writes.
+  return holds_any && !fs::exists(directory.config(), ignored);
 }
 
 /// The first line in which two texts differ, from 1.
@@ -271,10 +274,12 @@ std::vector<std::string> ids_in_plan(const std::string& plan) {
 bool is_sheet_file(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string ending = path.extension().string();
-  const bool ours = stem.starts_with("sheet_") || stem.starts_with("heads_") ||
-                    stem.starts_with("family_") || stem == "index" || stem.starts_with("index_") ||
-                    stem == "sheets" || stem.starts_with("sheets_");
-  return ours && (ending == ".png" || ending == ".exr" || ending == ".pdf");
+  if (ending != ".png" && ending != ".exr" && ending != ".pdf") return false;
+  if (stem == "index" || stem == "sheets" || stem.starts_with("family_")) return true;
+  for (const std::string_view start : {"sheet_", "heads_", "index_", "sheets_"}) {
+    if (stem.starts_with(start) && parse_unsigned(stem.substr(start.size()))) return true;
+  }
+  return false;
 }
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {
@@ -325,11 +330,10 @@ void open_crowd_directory(const CrowdDirectory& directory, const std::string& ef
   check_crowd_directory(directory, effective_config, replace);
   make_directories(directory.root);
   std::error_code ignored;
-  if (fs::exists(directory.config(), ignored)
-          ? !same_crowd(read_file(directory.config()), effective_config)
-          : is_anothers(directory, effective_config)) {
-    remove_crowd(directory);
-  }
+  const bool is_others = fs::exists(directory.config(), ignored)
+                             ? !same_crowd(read_file(directory.config()), effective_config)
+                             : is_anothers(directory, effective_config);
+  if (is_others && replace == Replace::kForce) remove_crowd(directory);
   write_file(directory.config(), effective_config);
 }
 

@@ -105,10 +105,10 @@ void tell_casting(const Cast& cast, const std::vector<std::string>& heads) {
 }
 
 bool lies_below(const fs::path& path, const fs::path& folder) {
-  std::error_code error;
-  const fs::path way =
-      fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(folder, error));
-  return !error && !way.empty() && *way.begin() != "..";
+  std::error_code of_path, of_folder;
+  const fs::path way = fs::weakly_canonical(path, of_path)
+                           .lexically_relative(fs::weakly_canonical(folder, of_folder));
+  return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
 }
 
 /// \throws UsageError if an input lies where this run writes files and removes those of an old
@@ -137,30 +137,21 @@ void refuse_to_write_over_config(const Job& job, const CrowdDirectory& directory
                           "folder with --out, or rename it"));
 }
 
-/// Whether the ledger has other bytes of a file.
-bool is_damaged(const CrowdDirectory& directory, const fs::path& file, std::string_view bytes) {
-  const std::vector<LedgerEntry> lines = read_ledger(directory.ledger()).entries;
-  const std::string name = directory.relative(file);
-  return std::any_of(lines.begin(), lines.end(), [&](const auto& e) { return e.item == name; }) &&
-         std::none_of(lines.begin(), lines.end(), [&](const LedgerEntry& entry) {
-           return entry.item == name && entry.key == hash_bytes(bytes);
-         });
-}
-
 /// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
-void refuse_other_heads(const Job& job, const CrowdDirectory& directory) {
+void refuse_other_heads(const Job& job, const CrowdDirectory& directory, Replace replace) {
   std::error_code ignored;
-  if (!fs::exists(directory.plan(), ignored)) return;
+  if (replace == Replace::kForce || !fs::exists(directory.plan(), ignored)) return;
   const std::string plan = read_file(directory.plan());
-  if (is_damaged(directory, directory.plan(), plan)) return;  // it is made anew
+  // Of a plan that is damaged some line tells.
+  if (plan.find(job.settings.hex()) != plan.npos) return;
   const auto first = parse_shallow_json(std::string_view(plan).substr(0, plan.find('\n')));
-  const auto settings = first.is_object() ? first.find("settings") : first.end();
-  if (settings == first.end() || *settings == job.settings.hex()) return;
+  if (!first.is_object() || !first.contains("settings")) return;
   throw UsageError(
       concat(directory.root.string(),
              ": holds a crowd of other heads or masks than they are now, or of another "
              "version of crowdface (\"settings\" in its plan.jsonl); choose another "
-             "folder with --out, or replace it with --force"));
+             "folder with --out, or replace it with --force (before shards: crowdface "
+             "plan --force)"));
 }
 
 /// Refuses a folder that the crowd cannot be written to, or where it would destroy what it reads.
@@ -169,7 +160,7 @@ void check_output(const Job& job, Replace replace) {
   refuse_to_write_over_inputs(job, directory);
   refuse_to_write_over_config(job, directory);
   check_crowd_directory(directory, effective_config(job.config, directory.root), replace);
-  if (replace == Replace::kRefuse) refuse_other_heads(job, directory);
+  refuse_other_heads(job, directory, replace);
 }
 
 /// Prepared heads and the crowd cast from them.
@@ -389,18 +380,24 @@ bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
                        : fs::exists(directory.ledger(shard), ignored);
 }
 
+/// Whether it is certain that faces will be made: a crowd that goes on may have none to make; a new
+/// one is refused before anything is written.
+bool makes_faces(const Job& job, const CrowdDirectory& directory, const GenerateOptions& options) {
+  const bool is_new = options.replace == Replace::kForce || !goes_on(directory, options.shard);
+  return is_new && face_count(job.config) > 0;
+}
+
 /// Casts the crowd and fills its folder, as far as that is not done.
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
   const CrowdDirectory directory{job.config.output.directory};
-  // A crowd that goes on may have no face to make; a new one is refused before anything is written.
-  const bool is_new = purpose == Purpose::kGenerate &&
-                      (options.replace == Replace::kForce || !goes_on(directory, options.shard));
-  if (is_new && face_count(job.config) > 0) refuse_too_little_memory(job, memory_for(options));
+  const bool is_new = purpose == Purpose::kGenerate && makes_faces(job, directory, options);
+  if (is_new) refuse_too_little_memory(job, memory_for(options));
   const CastJob crowd = cast_job(job, options, stages);
   LazyStages face_stages(job, crowd, memory_for(options));
   if (is_new && !crowd.cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
+  refuse_other_heads(job, directory, options.replace);  // another run may have come before this one
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
   const CrowdLog log(directory.log(options.shard));
   memory.replay();
@@ -426,7 +423,9 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
   if (options.dry_run) {
     check_output(job, options.replace);
-    refuse_too_little_memory(job, memory_for(options));
+    if (makes_faces(job, CrowdDirectory{job.config.output.directory}, options)) {
+      refuse_too_little_memory(job, memory_for(options));
+    }
     return tell_dry_run(job, true);
   }
   run_job(job, options, Purpose::kGenerate, memory, stages);
@@ -453,6 +452,7 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
   StageSeconds stages;
   const CastJob crowd = cast_job(job, options, stages);
   const CrowdLock lock(directory, {});
+  refuse_other_heads(job, directory, options.replace);
   open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
   write_plan(job, directory, crowd.cast,
              [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });

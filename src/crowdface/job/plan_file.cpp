@@ -106,7 +106,7 @@ class LineReader {
     std::string name = text(json, key);
     if (!is_name(name, longest)) {
       fail(key, "a name of letters (a-z), digits, '_', '-' or '.', not starting with '.'",
-           quoted(name));
+           quoted(std::string_view(name)));
     }
     return name;
   }
