@@ -113,6 +113,7 @@ void init(const fs::path& heads, const fs::path& out, bool force) {
   for (const fs::path& head : files) facts.names.push_back(head.stem().string());
   facts.head_height = first.col(facts.up.index).maxCoeff() - first.col(facts.up.index).minCoeff();
   facts.units = guess_unit(facts.head_height);
+  facts.vertices = first.rows();
   facts.crowd_name = "crowd";
   facts.tags = tags_beside(heads, facts.names);
   if (!mask.empty()) facts.mask = (facts.heads / mask).string();

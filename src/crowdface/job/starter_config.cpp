@@ -10,6 +10,8 @@
 namespace crowdface {
 namespace {
 
+constexpr Eigen::Index kMostJudged = 200'000;  // vertices of heads whose meshes casting builds
+
 /// In a comment: what is no head's name might end the line.
 std::string shown(const std::string& name) {
   return is_name(name) ? name : quoted(name);
@@ -91,9 +93,14 @@ std::string starter_config(const StarterFacts& facts) {
       "  max_sources: 3\n\n"
       "diversity:\n"
       "  # No face comes nearer to one of the heads: below half a millimetre it is that person.\n"
-      "  min_distance_to_faces: 0.8 mm\n\n"
-      "output:\n  directory: ",
-      write_scalar(concat("out/", facts.crowd_name)),
+      "  min_distance_to_faces: 0.8 mm\n\n",
+      facts.vertices <= kMostJudged ? "believability:\n"
+                                      "  # Casting builds each face and drops it if too much skin "
+                                      "passes through other skin: lips, "
+                                      "lids.\n"
+                                      "  meshes: judge\n\n"
+                                    : "",
+      "output:\n  directory: ", write_scalar(concat("out/", facts.crowd_name)),
       "\n"
       "  meshes: [obj]          # and ply, glb, points; [] for pictures only\n"
       "  contact_sheet: {columns: 6, rows: 4, cell: 256, views: [front]}\n");

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "crowdface/core/units.h"
 
 namespace crowdface {
@@ -16,6 +18,7 @@ struct StarterFacts {
   std::vector<std::string> names;  ///< of the heads
   LengthUnit units = LengthUnit::kCentimetre;  ///< a guess, from the height
   double head_height = 0;                      ///< of the first head, in its own units
+  Eigen::Index vertices = 0;                   ///< of each head
   Axis up = {1, 1};
   Axis front = {2, 1};
   std::string crowd_name = "crowd";
