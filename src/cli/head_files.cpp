@@ -34,7 +34,8 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
       continue;
     }
     throw_if_interrupted();
-    if (hash_file(file.path).digest != file.make().digest()) {
+    const EncodedFile made = file.make();
+    if (!holds(file.path, {made.size(), made.digest()})) {
       problems.add(ExitCode::kUsage,
                    concat(file.path.string(),
                           ": exists already and holds something else; --force replaces it"));

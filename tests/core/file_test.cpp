@@ -71,6 +71,8 @@ TEST(MakeDirectories, RefusesWhereAFileStands) {
   folder.write("a", "file");
   expect_error(ExitCode::kCannotCreate, {"a"}, [&] { make_directories(folder / "a"); });
   EXPECT_NO_THROW(make_directories(folder.path() / "b" / "c"));
+  // `synth --mask m.png` asked for the folder of a bare name.
+  EXPECT_NO_THROW(make_directories(std::filesystem::path("m.png").parent_path()));
 }
 
 }  // namespace

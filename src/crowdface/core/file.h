@@ -56,7 +56,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// none. \return how many.
 std::size_t remove_leftovers(const std::filesystem::path& folder);
 
-/// Creates a folder and its parents. \throws CannotCreate.
+/// Creates a folder and its parents; the empty path is the working directory. \throws CannotCreate.
 void make_directories(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -135,6 +135,7 @@ std::size_t remove_leftovers(const fs::path& folder) {
 }
 
 void make_directories(const fs::path& path) {
+  if (path.empty()) return;
   std::error_code error;
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error)) {
