@@ -57,9 +57,12 @@ TEST(Quotas, GrowingTheCrowdMovesNobody) {
 TEST(Quotas, TargetsComeFromTheQuotasHeadsOrFromNone) {
   const std::vector<WeightedHead> targets = {{0, 1}, {1, 2}, {2, 1}, {4, 3}};
   const std::vector<Quota> quotas = {quota(0.3, {1, 3}), quota(0.3, {2})};
+  const TargetsOfQuota targets_of = targets_by_quota(targets, quotas);
   const auto heads = [&](int q) {
     std::vector<Eigen::Index> list;
-    for (const WeightedHead& t : targets_of_quota(targets, quotas, q)) list.push_back(t.head);
+    for (const WeightedHead& t : targets_of[static_cast<std::size_t>(q + 1)]) {
+      list.push_back(t.head);
+    }
     return list;
   };
   EXPECT_EQ(heads(-1), (std::vector<Eigen::Index>{0, 4}));

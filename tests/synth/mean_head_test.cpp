@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/synth/layout.h"
 #include "crowdface/synth/sculpture.h"
 
 namespace crowdface::synth {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/apply_review.h"
+
 #include <algorithm>
 #include <map>
 
-#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/cast/face_search.h"
+#include "crowdface/cast/quotas.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 
@@ -45,7 +48,10 @@ std::vector<Redraw> read_marks(const Review& review, CrowdCast& cast) {
 class Redrawing {
  public:
   Redrawing(const Casting& casting, const FaceJudge& judge, CrowdCast& cast)
-      : casting_(casting), judge_(judge), cast_(cast), targets_of_(targets_by_quota(casting)) {}
+      : casting_(casting),
+        judge_(judge),
+        cast_(cast),
+        targets_of_(targets_by_quota(casting.sampling.targets, casting.diversity.quotas)) {}
 
   /// \return false if no face was found.
   bool redraw(const Redraw& redraw, std::vector<bool>& settled) {

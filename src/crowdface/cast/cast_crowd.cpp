@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "crowdface/cast/apply_review.h"
 #include "crowdface/cast/face_search.h"
 #include "crowdface/cast/quotas.h"
 #include "crowdface/cast/spread.h"
@@ -51,15 +52,6 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
 
 }  // namespace
 
-TargetsOfQuota targets_by_quota(const Casting& casting) {
-  const auto& quotas = casting.diversity.quotas;
-  TargetsOfQuota targets_of;
-  for (int quota = -1; quota < static_cast<int>(quotas.size()); ++quota) {
-    targets_of.push_back(targets_of_quota(casting.sampling.targets, quotas, quota));
-  }
-  return targets_of;
-}
-
 CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
                      const std::function<void()>& joined) {
   CrowdCast result;
@@ -82,7 +74,8 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
   }
   crowd.begin_sampled();
   result.quotas = schedule_quotas(casting.diversity.quotas, casting.count);
-  const TargetsOfQuota targets_of = targets_by_quota(casting);
+  const TargetsOfQuota targets_of =
+      targets_by_quota(casting.sampling.targets, casting.diversity.quotas);
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
     cast_spread(casting, judge, targets_of, kinship, crowd, joined, result);
   } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/quotas.h"
 #include "crowdface/cast/spread.h"
 #include "crowdface/core/interrupt.h"
 
@@ -33,7 +34,8 @@ std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJud
   // Quotas would need a pass for each; capacity is about the faces there are.
   Casting free = casting;
   free.diversity.quotas.clear();
-  const CandidatePool pool = draw_pool(free, judge, targets_by_quota(free), pool_size);
+  const CandidatePool pool =
+      draw_pool(free, judge, targets_by_quota(free.sampling.targets, {}), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
   FarthestPoints points(pool, nobody);
   std::vector<double> closest;  // of the first n picked

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/face_judge.h"
 
 namespace crowdface {
 

@@ -64,20 +64,20 @@ std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t
   return schedule;
 }
 
-std::vector<WeightedHead> targets_of_quota(const std::vector<WeightedHead>& targets,
-                                           const std::vector<Quota>& quotas, int quota) {
-  const auto holds = [](const Quota& one, Eigen::Index head) {
-    return std::find(one.heads.begin(), one.heads.end(), head) != one.heads.end();
-  };
-  std::vector<WeightedHead> allowed;
+TargetsOfQuota targets_by_quota(const std::vector<WeightedHead>& targets,
+                                const std::vector<Quota>& quotas) {
+  TargetsOfQuota result(quotas.size() + 1);
   for (const WeightedHead& target : targets) {
-    const bool in_any = std::any_of(quotas.begin(), quotas.end(),
-                                    [&](const Quota& one) { return holds(one, target.head); });
-    if (quota < 0 ? !in_any : holds(quotas[static_cast<std::size_t>(quota)], target.head)) {
-      allowed.push_back(target);
+    bool in_any = false;
+    for (std::size_t q = 0; q < quotas.size(); ++q) {
+      const std::vector<Eigen::Index>& heads = quotas[q].heads;
+      if (std::find(heads.begin(), heads.end(), target.head) == heads.end()) continue;
+      result[q + 1].push_back(target);
+      in_any = true;
     }
+    if (!in_any) result[0].push_back(target);
   }
-  return allowed;
+  return result;
 }
 
 }  // namespace crowdface

@@ -16,11 +16,9 @@ namespace crowdface {
 /// due at face ⌈m/q⌉, and a place goes to a quota only if one would otherwise come too late.
 std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t count);
 
-/// Targets for faces of no quota, then for those of each.
+/// The targets that faces of no quota may have, then those of each quota.
 using TargetsOfQuota = std::vector<std::vector<WeightedHead>>;
-
-/// The targets that a face may have which counts for `quota` (−1: for none).
-std::vector<WeightedHead> targets_of_quota(const std::vector<WeightedHead>& targets,
-                                           const std::vector<Quota>& quotas, int quota);
+TargetsOfQuota targets_by_quota(const std::vector<WeightedHead>& targets,
+                                const std::vector<Quota>& quotas);
 
 }  // namespace crowdface

@@ -6,8 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/cast/crowd_cast.h"
 #include "crowdface/cast/crowd_so_far.h"
+#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/face_judge.h"
 #include "crowdface/cast/quotas.h"
 
 namespace crowdface {

@@ -33,7 +33,8 @@ std::string checked_format(const path& file, std::string_view bytes, const Image
                         bytes.empty() ? "an empty file"
                                       : "a file that begins with " + quoted(bytes.substr(0, 8))));
   }
-  if (const std::string defect = container_defect(format, bytes, limits); !defect.empty()) {
+  if (const std::string defect = container_defect(format, bytes, limits.max_side);
+      !defect.empty()) {
     refuse(file, defect);
   }
   return format;

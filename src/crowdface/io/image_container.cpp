@@ -131,7 +131,7 @@ bool has_its_size(const Attribute& attribute) {
 }
 
 /// The decoder makes a table of all lines of the window, and lines of its width.
-std::string window_defect(const Attribute& attribute, const ImageLimits& limits) {
+std::string window_defect(const Attribute& attribute, int max_side) {
   if (attribute.type != "box2i" || attribute.value.size() != 16) return {};
   const auto side = [&](std::size_t axis) {
     const auto low = number_at<std::int32_t>(attribute.value.data() + 4 * axis);
@@ -139,12 +139,12 @@ std::string window_defect(const Attribute& attribute, const ImageLimits& limits)
     return std::int64_t{high} - low + 1;
   };
   const std::int64_t width = side(0), height = side(1);
-  if (width <= limits.max_side && height <= limits.max_side) return {};
-  return concat("expected at most ", limits.max_side, " pixels a side, found a data window of ",
-                width, " x ", height);
+  if (width <= max_side && height <= max_side) return {};
+  return concat("expected at most ", max_side, " pixels a side, found a data window of ", width,
+                " x ", height);
 }
 
-std::string exr_defect(std::string_view bytes, const ImageLimits& limits) {
+std::string exr_defect(std::string_view bytes, int max_side) {
   constexpr std::uint32_t kManyParts = 0x1000;
   const bool many =
       bytes.size() >= 8 && (number_at<std::uint32_t>(bytes.data() + 4) & kManyParts) != 0;
@@ -158,7 +158,7 @@ std::string exr_defect(std::string_view bytes, const ImageLimits& limits) {
                       quoted(attribute->name), " are no ", quoted(attribute->type));
       }
       if (attribute->name != "dataWindow") continue;
-      if (std::string defect = window_defect(*attribute, limits); !defect.empty()) return defect;
+      if (std::string defect = window_defect(*attribute, max_side); !defect.empty()) return defect;
     }
     header.skip_end();
   } while (many && !header.at_end());
@@ -175,12 +175,11 @@ std::string image_format(std::string_view bytes) {
   return {};
 }
 
-std::string container_defect(std::string_view format, std::string_view bytes,
-                             const ImageLimits& limits) {
+std::string container_defect(std::string_view format, std::string_view bytes, int max_side) {
   if (format == "png" && !png_is_whole(bytes)) {
     return "is damaged or cut short: the PNG's end is missing";
   }
-  if (format == "openexr") return exr_defect(bytes, limits);
+  if (format == "openexr") return exr_defect(bytes, max_side);
   return {};
 }
 

@@ -4,8 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "crowdface/io/image.h"
-
 namespace crowdface {
 
 /// The format's name in OpenImageIO, told by the file's first bytes; empty if it is not one we
@@ -14,9 +12,8 @@ std::string image_format(std::string_view bytes);
 
 /// What keeps a file from its decoder, because that would take it for whole, or would take as much
 /// memory as the file claims to need: a PNG whose chunks do not run to their end mark; an OpenEXR
-/// header with an attribute longer than the file, or a data window beyond the limits.
+/// header with an attribute longer than the file, or a data window wider or higher than `max_side` pixels.
 /// \return what is wrong; empty if nothing is.
-std::string container_defect(std::string_view format, std::string_view bytes,
-                             const ImageLimits& limits);
+std::string container_defect(std::string_view format, std::string_view bytes, int max_side);
 
 }  // namespace crowdface

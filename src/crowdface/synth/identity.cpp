@@ -6,7 +6,6 @@
 
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
-#include "crowdface/synth/measures.h"
 
 namespace crowdface::synth {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "crowdface/synth/measures.h"
 #include "crowdface/synth/noise.h"
 
 namespace crowdface::synth {
@@ -22,13 +23,6 @@ struct Person {
 /// Of two successive heads (indices 2k and 2k + 1) one is female and one male; of five (from 5k on)
 /// each is of another fifth of the ages.
 Person draw_person(std::uint64_t seed, std::uint64_t index);
-
-/// A smooth displacement of part of the head: (1 − r²)³ · (shift + stretch · (p − centre)), r being
-/// the distance from the centre in radii. Its mirror image at −x goes with it unless the centre
-/// lies in the middle.
-struct Pull {
-  Eigen::Vector3d centre, radii, shift, stretch;
-};
 
 /// Who a head is: its person and, drawn around what that person's are on average, its measures.
 class Identity {

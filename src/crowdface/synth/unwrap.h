@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "crowdface/synth/layout.h"
+#include "crowdface/synth/lattice.h"
 
 namespace crowdface::synth {
 

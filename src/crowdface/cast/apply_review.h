@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/cast/crowd_cast.h"
+#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/face_judge.h"
+
+namespace crowdface {
+
+/// Draws the faces anew that a review rejects, against all others, and notes what it says. All other
+/// faces stay as they are. \throws InvalidInput if it names a face that is not in the crowd.
+void apply_review(const Casting& casting, const FaceJudge& judge, const Review& review,
+                  CrowdCast& cast);
+
+}  // namespace crowdface

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/face_space.h"
+#include "crowdface/cast/families.h"
+
+namespace crowdface {
+
+/// Where casting had to stop.
+struct Shortfall {
+  std::uint64_t reached = 0;  ///< sampled faces that were found
+  Rejections rejections;      ///< why the next one's candidates were thrown away
+  int quota = -1;             ///< that the next one counts for, or −1
+  std::string family = {};    ///< that could not be cast, if it was one
+  std::string reviewed = {};  ///< the id of a face that could not be drawn anew, if it was one
+};
+
+/// A crowd that was cast.
+struct CrowdCast {
+  std::vector<Recipe> crowd;             ///< recipes, then families, then faces 1 … count
+  std::vector<FaceSpace::Place> places;  ///< of each
+  std::vector<int> quotas;               ///< which quota each sampled face counts for, or −1
+  std::vector<FamilyCast> families;
+  Rejections rejections;
+  std::optional<Shortfall> shortfall;
+};
+
+}  // namespace crowdface
