@@ -24,8 +24,8 @@ PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
   const std::string file = reference.substr(0, hash), id = reference.substr(hash + 1);
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(file, names)) {
-    if (line.recipe.id == id) return std::move(line);
-    ids.push_back(line.recipe.id);
+    if (line.face.id == id) return std::move(line);
+    ids.push_back(line.face.id);
   }
   const auto nearest = nearest_word(id, ids);
   throw InvalidInput(concat(file, ": expected a recipe with the id ", quoted(id), ", found none",
@@ -63,19 +63,19 @@ void blend(const ConfigOptions& options, const std::string& reference, const std
                               options.config, "), found ", line.settings,
                               "; --any-settings blends it all the same"));
   }
-  if (job.config.smoothing.levels != Levels::kExact) check_levels(line.recipe, job, reference);
+  if (job.config.smoothing.levels != Levels::kExact) check_levels(line.face.recipe, job, reference);
   Prepared prepared;
   if (job.config.smoothing.levels == Levels::kExact) {  // one face needs no prepared heads
     prepared.filter.emplace(job.smoothing, job.inputs.faces.heads.front().positions);
   } else {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.cache_path());
   }
-  const Recipe* recipe = &line.recipe;
+  const Recipe* recipe = &line.face.recipe;
   Positions positions;
   FaceBuilder(job, prepared).build(std::span(&recipe, 1), std::span(&positions, 1));
-  const MeshWriters writers(job.config, job.inputs, {*format}, {&line.recipe, 1});
-  write_mesh(writers.encode(line.recipe, positions).front(), file);
-  log_info(concat(line.recipe.id, " written to ", out));
+  const MeshWriters writers(job.config, job.inputs, {*format}, {&line.face, 1});
+  write_mesh(writers.encode(line.face, positions).front(), file);
+  log_info(concat(line.face.id, " written to ", out));
 }
 
 }  // namespace

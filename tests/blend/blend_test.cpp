@@ -9,10 +9,10 @@
 #include "crowdface/blend/crowd_blender.h"
 #include "crowdface/core/instruction_set.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/iterate.h"
 
-#include "support/expect_error.h"
 #include "support/meshes.h"
 
 namespace crowdface {
@@ -66,7 +66,6 @@ class Blend : public ::testing::Test {
 
   static Recipe recipe(Index target, std::vector<RegionRecipe> regions) {
     Recipe result;
-    result.id = "test";
     result.target = target;
     result.regions = std::move(regions);
     return result;
@@ -236,10 +235,9 @@ TEST_F(Blend, RimsKeepTheTargetsBitsWithFittedLevels) {
 
 TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
   const auto refuse = [&](const Recipe& bad, const RegionWeights& regions) {
-    testing::expect_error(ExitCode::kBadData, {},
-                          [&] { blend_exact(faces_, filter(), regions, bad); });
+    EXPECT_THROW(blend_exact(faces_, filter(), regions, bad), BrokenPrecondition);
     const std::vector<CubicFit> fits = cubic_fits(5);
-    testing::expect_error(ExitCode::kBadData, {}, [&] { blender(fits, regions).blend(bad); });
+    EXPECT_THROW(blender(fits, regions).blend(bad), BrokenPrecondition);
   };
   refuse(recipe(0, {region({{1, 1}}, 3)}), two_);
   refuse(recipe(3, {region({{1, 1}}, 3)}), one_);
@@ -253,7 +251,7 @@ TEST_F(Blend, RecipesThatDoNotFitAreRefused) {
 TEST_F(Blend, LevelsAreNeededForEachHead) {
   std::vector<CubicFit> fits = cubic_fits(5);
   fits.pop_back();
-  testing::expect_error(ExitCode::kBadData, {}, [&] { blender(fits, one_); });
+  EXPECT_THROW(blender(fits, one_), BrokenPrecondition);
 }
 
 }  // namespace

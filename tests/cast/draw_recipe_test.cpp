@@ -34,38 +34,39 @@ Casting example() {
 }
 
 /// Hand-written recipes, then the first draw of each face.
-std::vector<Recipe> draw_crowd(const Casting& casting) {
-  std::vector<Recipe> crowd;
+std::vector<CastFace> draw_crowd(const Casting& casting) {
+  std::vector<CastFace> crowd;
   for (const HandRecipe& hand : casting.recipes) crowd.push_back(draw_hand_recipe(casting, hand));
   for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_face(casting, i));
   return crowd;
 }
 
-bool same(const Recipe& a, const Recipe& b) {
-  if (a.id != b.id || a.index != b.index || a.target != b.target || a.attempt != b.attempt) {
+bool same(const CastFace& a, const CastFace& b) {
+  if (a.id != b.id || a.index != b.index || a.recipe.target != b.recipe.target ||
+      a.notes.attempt != b.notes.attempt) {
     return false;
   }
-  for (std::size_t k = 0; k < a.regions.size(); ++k) {
-    const RegionRecipe &x = a.regions[k], &y = b.regions[k];
+  for (std::size_t k = 0; k < a.recipe.regions.size(); ++k) {
+    const RegionRecipe &x = a.recipe.regions[k], &y = b.recipe.regions[k];
     if (x.position != y.position || x.weights != y.weights || x.smoothness != y.smoothness ||
         x.iterations != y.iterations || x.extrapolation != y.extrapolation) {
       return false;
     }
   }
-  return a.regions.size() == b.regions.size();
+  return a.recipe.regions.size() == b.recipe.regions.size();
 }
 
 /// Smallest, mean and largest of one number of all faces.
 struct Spread {
   double low = HUGE_VAL, mean = 0, high = -HUGE_VAL;
 };
-Spread spread(const std::vector<Recipe>& crowd,
-              const std::function<double(const Recipe&)>& number) {
+Spread spread(const std::vector<CastFace>& crowd,
+              const std::function<double(const CastFace&)>& number) {
   Spread result;
-  for (const Recipe& recipe : crowd) {
-    result.low = std::min(result.low, number(recipe));
-    result.high = std::max(result.high, number(recipe));
-    result.mean += number(recipe) / static_cast<double>(crowd.size());
+  for (const CastFace& face : crowd) {
+    result.low = std::min(result.low, number(face));
+    result.high = std::max(result.high, number(face));
+    result.mean += number(face) / static_cast<double>(crowd.size());
   }
   return result;
 }
@@ -87,8 +88,8 @@ TEST(DrawRecipe, SeedsAndIndicesGiveOtherFaces) {
   const auto b = draw_crowd(casting);
   std::set<double> smoothness;
   for (std::size_t i = 0; i < kMany; ++i) {
-    EXPECT_NE(a[i].regions[0].smoothness, b[i].regions[0].smoothness);
-    for (const RegionRecipe& region : a[i].regions) smoothness.insert(region.smoothness);
+    EXPECT_NE(a[i].recipe.regions[0].smoothness, b[i].recipe.regions[0].smoothness);
+    for (const RegionRecipe& region : a[i].recipe.regions) smoothness.insert(region.smoothness);
   }
   EXPECT_EQ(smoothness.size(), 2 * kMany) << "regions are drawn apart";
 }
@@ -97,16 +98,16 @@ TEST(DrawRecipe, IdsCountFromOne) {
   EXPECT_EQ(face_id("mob", 1), "mob_0001");
   EXPECT_EQ(face_id("mob", 9999), "mob_9999");
   EXPECT_EQ(face_id("mob", 123456), "mob_123456");
-  const Recipe recipe = draw_face(example(), 12);
-  EXPECT_EQ(recipe.id, "mob_0012");
-  EXPECT_EQ(recipe.index, 12U);
+  const CastFace face = draw_face(example(), 12);
+  EXPECT_EQ(face.id, "mob_0012");
+  EXPECT_EQ(face.index, 12U);
 }
 
 TEST(DrawRecipe, TargetsComeByWeight) {
   Casting casting = example();
   casting.sampling.targets = {{1, 3}, {4, 1}};
   std::map<Index, double> share;
-  for (const Recipe& r : draw_crowd(casting)) share[r.target] += 1. / kMany;
+  for (const CastFace& r : draw_crowd(casting)) share[r.recipe.target] += 1. / kMany;
   EXPECT_EQ(share.size(), 2U);
   EXPECT_NEAR(share[1], 0.75, 0.03);
 }
@@ -123,8 +124,8 @@ TEST(DrawRecipe, UniformPositionsFillTheHullOfTheSources) {
   const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
   PlanePoint middle(0, 0);
   double near_first = 0;
-  for (const Recipe& r : draw_crowd(casting)) {
-    const PlanePoint m = *r.regions[1].position;
+  for (const CastFace& r : draw_crowd(casting)) {
+    const PlanePoint m = *r.recipe.regions[1].position;
     double parts[3];
     for (std::size_t c = 0; c < 3; ++c) {
       const PlanePoint &a = corner[(c + 1) % 3], &b = corner[(c + 2) % 3];
@@ -143,8 +144,8 @@ TEST(DrawRecipe, AnchoredPositionsStayNearASource) {
   casting.sampling.sources = {0, 1, 3};
   casting.sampling.regions[1].position.pull = 0.2;
   std::map<Index, double> share;
-  for (const Recipe& r : draw_crowd(casting)) {
-    const PlanePoint m = *r.regions[1].position;
+  for (const CastFace& r : draw_crowd(casting)) {
+    const PlanePoint m = *r.recipe.regions[1].position;
     Index nearest = 0;
     for (const Index head : casting.sampling.sources) {
       const auto at = [&](Index h) { return casting.anchors[static_cast<std::size_t>(h)]; };
@@ -158,18 +159,18 @@ TEST(DrawRecipe, AnchoredPositionsStayNearASource) {
 
   casting.sampling.regions[1].position.pull = 0;
   casting.sampling.targets = {{2, 1}};
-  const Recipe on_anchor = draw_face(casting, 1);
-  ASSERT_EQ(on_anchor.regions[1].weights.size(), 1U) << "all weight on one head";
+  const CastFace on_anchor = draw_face(casting, 1);
+  ASSERT_EQ(on_anchor.recipe.regions[1].weights.size(), 1U) << "all weight on one head";
 }
 
 TEST(DrawRecipe, AttemptsDrawAnew) {
   const Casting casting = example();
   std::set<double> smoothness;
   for (std::uint32_t attempt = 0; attempt < 50; ++attempt) {
-    const Recipe recipe = draw_face(casting, 4, attempt);
-    EXPECT_EQ(recipe.attempt, attempt);
-    EXPECT_EQ(recipe.id, "mob_0004");
-    smoothness.insert(recipe.regions[0].smoothness);
+    const CastFace face = draw_face(casting, 4, attempt);
+    EXPECT_EQ(face.notes.attempt, attempt);
+    EXPECT_EQ(face.id, "mob_0004");
+    smoothness.insert(face.recipe.regions[0].smoothness);
   }
   EXPECT_EQ(smoothness.size(), 50U);
 }
@@ -180,11 +181,13 @@ TEST(DrawRecipe, AroundStaysInTheDisc) {
   casting.sampling.regions[1].position = {PositionDistribution::Kind::kAround, std::nullopt, 0.5};
   double inner = 0;
   PlanePoint middle(0, 0);
-  for (const Recipe& r : draw_crowd(casting)) {
-    const PlanePoint offset = *r.regions[0].position - casting.anchors[2];
+  for (const CastFace& r : draw_crowd(casting)) {
+    const PlanePoint offset = *r.recipe.regions[0].position - casting.anchors[2];
     EXPECT_LE(offset.norm(), 0.3 * (1 + 1e-12));
-    EXPECT_LE((*r.regions[1].position - casting.anchors[static_cast<std::size_t>(r.target)]).norm(),
-              0.5 * (1 + 1e-12));
+    EXPECT_LE(
+        (*r.recipe.regions[1].position - casting.anchors[static_cast<std::size_t>(r.recipe.target)])
+            .norm(),
+        0.5 * (1 + 1e-12));
     inner += (offset.norm() < 0.15 ? 1. : 0.) / kMany;
     middle += offset / static_cast<double>(kMany);
   }
@@ -197,9 +200,9 @@ TEST(DrawRecipe, FixedStaysPut) {
   casting.count = 20;
   casting.sampling.regions[0].position = {
       PositionDistribution::Kind::kFixed, {}, 0, PlanePoint(0.25, -0.75)};
-  for (const Recipe& r : draw_crowd(casting)) {
-    EXPECT_EQ(*r.regions[0].position, PlanePoint(0.25, -0.75));
-    EXPECT_NE(*r.regions[1].position, PlanePoint(0.25, -0.75));
+  for (const CastFace& r : draw_crowd(casting)) {
+    EXPECT_EQ(*r.recipe.regions[0].position, PlanePoint(0.25, -0.75));
+    EXPECT_NE(*r.recipe.regions[1].position, PlanePoint(0.25, -0.75));
   }
 }
 
@@ -209,17 +212,17 @@ TEST(DrawRecipe, RangesAreFilledAndKept) {
   casting.sampling.regions[0].extrapolation = {-1, 2};
   casting.sampling.regions[1].extrapolation = {1.5, 1.5};
   const auto crowd = draw_crowd(casting);
-  const Spread smoothness = spread(crowd, [](auto& r) { return r.regions[0].smoothness; });
+  const Spread smoothness = spread(crowd, [](auto& r) { return r.recipe.regions[0].smoothness; });
   EXPECT_GE(smoothness.low, 0.25);
   EXPECT_LE(smoothness.high, 0.5);
   EXPECT_NEAR(smoothness.low, 0.25, 0.005);
   EXPECT_NEAR(smoothness.high, 0.5, 0.005);
   EXPECT_NEAR(smoothness.mean, 0.375, 0.01);
-  const Spread e = spread(crowd, [](auto& r) { return r.regions[0].extrapolation; });
+  const Spread e = spread(crowd, [](auto& r) { return r.recipe.regions[0].extrapolation; });
   EXPECT_GE(e.low, -1);
   EXPECT_LE(e.high, 2);
   EXPECT_NEAR(e.mean, 0.5, 0.06);
-  const Spread fixed = spread(crowd, [](auto& r) { return r.regions[1].extrapolation; });
+  const Spread fixed = spread(crowd, [](auto& r) { return r.recipe.regions[1].extrapolation; });
   EXPECT_EQ(fixed.low, 1.5);
   EXPECT_EQ(fixed.high, 1.5);
 }
@@ -227,8 +230,8 @@ TEST(DrawRecipe, RangesAreFilledAndKept) {
 TEST(DrawRecipe, FractionsBecomeTheNearestIterations) {
   Casting casting = example();
   casting.sampling.regions[0].smoothness.range = {0, 1};
-  for (const Recipe& r : draw_crowd(casting)) {
-    const RegionRecipe& region = r.regions[0];
+  for (const CastFace& r : draw_crowd(casting)) {
+    const RegionRecipe& region = r.recipe.regions[0];
     EXPECT_EQ(static_cast<double>(region.iterations), std::round(region.smoothness * 1000));
   }
   EXPECT_EQ(iterations_of(0, casting.scale), 0U);
@@ -239,10 +242,10 @@ TEST(DrawRecipe, IterationsStandAsDrawn) {
   Casting casting = example();
   casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kIterations, {3, 6}};
   std::map<std::uint64_t, double> share;
-  for (const Recipe& r : draw_crowd(casting)) {
-    share[r.regions[0].iterations] += 1. / kMany;
-    EXPECT_NEAR(r.regions[0].smoothness, static_cast<double>(r.regions[0].iterations) / 1000,
-                1e-12);
+  for (const CastFace& r : draw_crowd(casting)) {
+    share[r.recipe.regions[0].iterations] += 1. / kMany;
+    EXPECT_NEAR(r.recipe.regions[0].smoothness,
+                static_cast<double>(r.recipe.regions[0].iterations) / 1000, 1e-12);
   }
   ASSERT_THAT(share, ::testing::SizeIs(4));
   EXPECT_EQ(share.begin()->first, 3U);
@@ -257,7 +260,7 @@ TEST(DrawRecipe, SizesBecomeTheirIterations) {
     std::uint64_t before = 0;
     for (const double size : {0.0, 8.0, 20.0, 50.0, largest}) {
       casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kSize, {size, size}};
-      const RegionRecipe region = draw_face(casting, 1).regions[0];
+      const RegionRecipe region = draw_face(casting, 1).recipe.regions[0];
       EXPECT_GE(region.iterations, before);
       before = region.iterations;
       // The nearest whole iterations: no neighbour's size is nearer.
@@ -276,8 +279,8 @@ TEST(DrawRecipe, SourcesAndTheirNumberAreKept) {
   casting.sampling.sources = {0, 1, 3, 4};
   casting.sampling.max_sources = 2;
   std::size_t faces = 0, with_target = 0;
-  for (const Recipe& r : draw_crowd(casting)) {
-    const auto& weights = r.regions[0].weights;
+  for (const CastFace& r : draw_crowd(casting)) {
+    const auto& weights = r.recipe.regions[0].weights;
     EXPECT_LE(weights.size(), 3U);  // two sources and the target
     double sum = 0;
     Index previous = -1;
@@ -297,11 +300,11 @@ TEST(DrawRecipe, SourcesAndTheirNumberAreKept) {
 TEST(DrawRecipe, PrintedWeightsLeaveTheTargetOut) {
   Casting casting = example();
   casting.normalization = Normalization::kPrinted;
-  for (const Recipe& r : draw_crowd(casting)) {
-    for (const RegionRecipe& region : r.regions) {
+  for (const CastFace& r : draw_crowd(casting)) {
+    for (const RegionRecipe& region : r.recipe.regions) {
       double sum = 0;
       for (const SourceWeight& w : region.weights) {
-        EXPECT_NE(w.head, r.target);
+        EXPECT_NE(w.head, r.recipe.target);
         sum += w.weight;
       }
       EXPECT_GT(sum, 0);
@@ -315,10 +318,10 @@ TEST(DrawRecipe, AnotherRegionDisturbsNone) {
   Casting more = casting;
   more.region_names = {"new", "top", "low"};
   more.sampling.regions.resize(3);
-  const Recipe a = draw_face(casting, 5), b = draw_face(more, 5);
-  EXPECT_EQ(a.target, b.target);
-  EXPECT_EQ(a.regions[0].position, b.regions[1].position);
-  EXPECT_EQ(a.regions[1].smoothness, b.regions[2].smoothness);
+  const CastFace a = draw_face(casting, 5), b = draw_face(more, 5);
+  EXPECT_EQ(a.recipe.target, b.recipe.target);
+  EXPECT_EQ(a.recipe.regions[0].position, b.recipe.regions[1].position);
+  EXPECT_EQ(a.recipe.regions[1].smoothness, b.recipe.regions[2].smoothness);
 }
 
 TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
@@ -335,11 +338,11 @@ TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
   ASSERT_EQ(crowd.size(), 2U);
   EXPECT_EQ(crowd[0].id, "mine");
   EXPECT_FALSE(crowd[0].index);
-  EXPECT_EQ(crowd[0].target, 3);
-  EXPECT_THAT(crowd[0].regions[0].weights,
+  EXPECT_EQ(crowd[0].recipe.target, 3);
+  EXPECT_THAT(crowd[0].recipe.regions[0].weights,
               ::testing::ElementsAre(SourceWeight{0, 0.25}, SourceWeight{4, 0.75}));
-  EXPECT_FALSE(crowd[0].regions[0].position);
-  EXPECT_EQ(crowd[0].regions[1].weights,
+  EXPECT_FALSE(crowd[0].recipe.regions[0].position);
+  EXPECT_EQ(crowd[0].recipe.regions[1].weights,
             weights_at(casting.anchors, 3, casting.sampling.sources, PlanePoint(0.5, 0.5),
                        Normalization::kPartition, std::nullopt));
   EXPECT_TRUE(same(crowd[1], draw_face(casting, 1)));

@@ -13,6 +13,7 @@
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/sample_cells.h"
+#include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/plane/layout.h"
 
@@ -84,7 +85,7 @@ class FaceSpaceTest : public ::testing::Test {
     casting.sampling.regions[0].extrapolation = {0.8, 1.3};
     casting.scale = {OperatorKind::kUmbrella, kMaxLevel, 2};
     std::vector<Recipe> crowd;
-    for (std::uint64_t i = 1; i <= count; ++i) crowd.push_back(draw_face(casting, i));
+    for (std::uint64_t i = 1; i <= count; ++i) crowd.push_back(draw_face(casting, i).recipe);
     return crowd;
   }
 
@@ -190,15 +191,17 @@ TEST_F(FaceSpaceTest, RigidMotionOfAHeadChangesNoDistance) {
 
 TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
   CrowdCast cast;
-  cast.crowd = crowd(40);
-  cast.crowd[20].regions = cast.crowd[7].regions;  // a twin
-  cast.crowd[20].target = cast.crowd[7].target;
-  for (const Recipe& recipe : cast.crowd) cast.places.push_back(space_->place(recipe));
+  std::vector<Recipe> recipes = crowd(40);
+  recipes[20] = recipes[7];  // a twin
+  for (const Recipe& recipe : recipes) {
+    cast.crowd.emplace_back().id = concat("mob_", cast.crowd.size());
+    cast.places.push_back(space_->place(recipe));
+  }
   find_nearest(FaceJudge(*space_, {}, {}), cast);
   const auto& faces = cast.crowd;
   const auto& places = cast.places;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    ASSERT_TRUE(faces[i].nearest);
+    ASSERT_TRUE(faces[i].notes.nearest);
     double head_mm = HUGE_VAL, crowd_mm = HUGE_VAL;
     Index head = -1;
     std::size_t nearest = i;
@@ -210,15 +213,15 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
       const double d = FaceSpace::distance(places[i], places[j]);
       if (d < crowd_mm) nearest = j, crowd_mm = d;
     }
-    EXPECT_EQ(faces[i].nearest->head, head);
-    EXPECT_NEAR(faces[i].nearest->head_mm, head_mm, 1e-3);
-    EXPECT_EQ(faces[i].nearest->crowd.has_value(), i > 0);
+    EXPECT_EQ(faces[i].notes.nearest->head, head);
+    EXPECT_NEAR(faces[i].notes.nearest->head_mm, head_mm, 1e-3);
+    EXPECT_EQ(faces[i].notes.nearest->crowd.has_value(), i > 0);
     if (i == 0) continue;
-    EXPECT_EQ(*faces[i].nearest->crowd, faces[nearest].id);
-    EXPECT_NEAR(faces[i].nearest->crowd_mm, crowd_mm, 1e-3);
+    EXPECT_EQ(*faces[i].notes.nearest->crowd, faces[nearest].id);
+    EXPECT_NEAR(faces[i].notes.nearest->crowd_mm, crowd_mm, 1e-3);
   }
-  EXPECT_EQ(faces[20].nearest->crowd, faces[7].id);
-  EXPECT_LT(faces[20].nearest->crowd_mm, 1e-3);
+  EXPECT_EQ(faces[20].notes.nearest->crowd, faces[7].id);
+  EXPECT_LT(faces[20].notes.nearest->crowd_mm, 1e-3);
 }
 
 TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {

@@ -86,7 +86,7 @@ TEST(PartsOfAJob, HaveTheSameBytesOnAnyThreadsAndAlone) {
     const FaceBuilder builder(job, prepared);
     const auto plan = read_plan(folder / "many/plan.jsonl", job.names);
     std::vector<const Recipe*> recipes;
-    for (const PlanLine& line : plan) recipes.push_back(&line.recipe);
+    for (const PlanLine& line : plan) recipes.push_back(&line.face.recipe);
     std::vector<Positions> together(recipes.size());
     builder.build(recipes, together);
     for (std::size_t f = 0; f < recipes.size(); ++f) {

@@ -15,17 +15,17 @@ namespace {
 const PlanNames kNames = {{"ann", "bob", "cyd"}, {"top", "low"}};
 const Digest kSettings = {0x0123456789abcdefU, 0xfedcba9876543210U};
 
-Recipe example() {
-  Recipe recipe;
-  recipe.id = "mob_0007";
-  recipe.index = 7;
-  recipe.target = 2;
-  recipe.regions = {
+CastFace example() {
+  CastFace face;
+  face.id = "mob_0007";
+  face.index = 7;
+  face.recipe.target = 2;
+  face.recipe.regions = {
       {PlanePoint(0.1, -1.0 / 3), {{0, 1.0 / 3}, {2, 2.0 / 3}}, 0.45, 9000, 1.1},
       {std::nullopt, {{1, 1.0}}, 0, 0, -0.30000000000000004},
   };
-  recipe.nearest = Nearest{1, 2.41239, "mob_0003", 1.00004};
-  return recipe;
+  face.notes.nearest = Nearest{1, 2.41239, "mob_0003", 1.00004};
+  return face;
 }
 
 TEST(PlanFile, LineHasTheFieldsOfTheContractInOrder) {
@@ -39,38 +39,37 @@ TEST(PlanFile, LineHasTheFieldsOfTheContractInOrder) {
 }
 
 TEST(PlanFile, ReadsBackToTheBit) {
-  const Recipe recipe = example();
-  const PlanLine line = parse_recipe(format_recipe(recipe, kNames, kSettings), kNames, "plan:1");
+  const CastFace face = example();
+  const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
   EXPECT_EQ(line.settings, kSettings.hex());
-  EXPECT_EQ(line.recipe.id, recipe.id);
-  EXPECT_EQ(line.recipe.index, recipe.index);
-  EXPECT_EQ(line.recipe.target, recipe.target);
+  EXPECT_EQ(line.face.id, face.id);
+  EXPECT_EQ(line.face.index, face.index);
+  EXPECT_EQ(line.face.recipe.target, face.recipe.target);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(line.recipe.regions[k].position, recipe.regions[k].position);
-    EXPECT_EQ(line.recipe.regions[k].weights, recipe.regions[k].weights);
-    EXPECT_EQ(line.recipe.regions[k].smoothness, recipe.regions[k].smoothness);
-    EXPECT_EQ(line.recipe.regions[k].iterations, recipe.regions[k].iterations);
-    EXPECT_EQ(line.recipe.regions[k].extrapolation, recipe.regions[k].extrapolation);
+    EXPECT_EQ(line.face.recipe.regions[k].position, face.recipe.regions[k].position);
+    EXPECT_EQ(line.face.recipe.regions[k].weights, face.recipe.regions[k].weights);
+    EXPECT_EQ(line.face.recipe.regions[k].smoothness, face.recipe.regions[k].smoothness);
+    EXPECT_EQ(line.face.recipe.regions[k].iterations, face.recipe.regions[k].iterations);
+    EXPECT_EQ(line.face.recipe.regions[k].extrapolation, face.recipe.regions[k].extrapolation);
   }
   // Distances to four decimals, so that pictures made from the plan tell what the plan tells.
-  ASSERT_TRUE(line.recipe.nearest);
-  EXPECT_EQ(line.recipe.nearest->head, 1);
-  EXPECT_EQ(line.recipe.nearest->head_mm, 2.4124);
-  EXPECT_EQ(line.recipe.nearest->crowd, "mob_0003");
-  EXPECT_EQ(line.recipe.nearest->crowd_mm, 1);
-  EXPECT_EQ(format_recipe(line.recipe, kNames, kSettings),
-            format_recipe(recipe, kNames, kSettings));
+  ASSERT_TRUE(line.face.notes.nearest);
+  EXPECT_EQ(line.face.notes.nearest->head, 1);
+  EXPECT_EQ(line.face.notes.nearest->head_mm, 2.4124);
+  EXPECT_EQ(line.face.notes.nearest->crowd, "mob_0003");
+  EXPECT_EQ(line.face.notes.nearest->crowd_mm, 1);
+  EXPECT_EQ(format_recipe(line.face, kNames, kSettings), format_recipe(face, kNames, kSettings));
 }
 
 TEST(PlanFile, TheLongestIdsAreRead) {
-  Recipe recipe = example();
-  recipe.family = std::string(64, 'f');
-  recipe.id = concat(std::string(64, 'c'), '_', *recipe.family, "_1000");
-  const PlanLine line = parse_recipe(format_recipe(recipe, kNames, kSettings), kNames, "plan:1");
-  EXPECT_EQ(line.recipe.id, recipe.id);
-  EXPECT_EQ(line.recipe.family, recipe.family);
-  recipe.id = concat(std::string(64, 'c'), "_18446744073709551615");
-  EXPECT_NO_THROW(parse_recipe(format_recipe(recipe, kNames, kSettings), kNames, "plan:1"));
+  CastFace face = example();
+  face.family = std::string(64, 'f');
+  face.id = concat(std::string(64, 'c'), '_', *face.family, "_1000");
+  const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
+  EXPECT_EQ(line.face.id, face.id);
+  EXPECT_EQ(line.face.family, face.family);
+  face.id = concat(std::string(64, 'c'), "_18446744073709551615");
+  EXPECT_NO_THROW(parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1"));
 }
 
 TEST(PlanFile, WhatIsWrongAboutNearestIsLeftOut) {
@@ -80,7 +79,7 @@ TEST(PlanFile, WhatIsWrongAboutNearestIsLeftOut) {
     std::string line = good;
     const std::size_t begin = line.find("\"nearest\":") + 10;
     line.replace(begin, line.find('}', begin) + 1 - begin, nearest);
-    EXPECT_FALSE(parse_recipe(line, kNames, "plan:1").recipe.nearest) << nearest;
+    EXPECT_FALSE(parse_recipe(line, kNames, "plan:1").face.notes.nearest) << nearest;
   }
 }
 
@@ -143,10 +142,10 @@ TEST(PlanFile, FileErrorsNameTheLine) {
 }
 
 TEST(PlanFile, TableSaysTheSame) {
-  Recipe by_hand = example();
+  CastFace by_hand = example();
   by_hand.id = "mine";
   by_hand.index.reset();
-  by_hand.nearest.reset();
+  by_hand.notes.nearest.reset();
   EXPECT_EQ(format_csv({example(), by_hand}, kNames),
             "id,index,family,target,top_position_x,top_position_y,top_weights,top_smoothness,"
             "top_iterations,top_extrapolation,low_position_x,low_position_y,low_weights,"

@@ -26,14 +26,14 @@ using ::testing::HasSubstr;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-std::vector<Recipe> three_faces() {
-  std::vector<Recipe> crowd(3);
+std::vector<CastFace> three_faces() {
+  std::vector<CastFace> crowd(3);
   crowd[0].id = "mob_smith_01";
   crowd[0].family = "smith";
   crowd[1].id = "mob_jones_01";
   crowd[1].family = "jones";
   crowd[2].id = "mob_0001";
-  crowd[2].nearest = Nearest{1, 2.345, std::nullopt, 0};
+  crowd[2].notes.nearest = Nearest{1, 2.345, std::nullopt, 0};
   return crowd;
 }
 

@@ -19,7 +19,7 @@ namespace crowdface {
 /// every vertex where D_k = 0 (the target blended with itself).
 /// \param regions  α, #V by #regions, rows summing to one; as many regions as the recipe has.
 /// \return         #V by 3, in the heads' unit.
-/// \throws InvalidInput if recipe, regions and face set do not fit together.
+/// \throws BrokenPrecondition if recipe, regions and face set do not fit together.
 Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe);
 

@@ -7,31 +7,25 @@
 
 #include "crowdface/blend/crowd_product_kernels.h"
 #include "crowdface/blend/recipe_check.h"
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 
 CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
                            const RegionWeights& regions)
     : faces_(faces), levels_(std::move(levels)), regions_(regions) {
-  if (levels_.size() != faces.heads.size()) {
-    throw InvalidInput(
-        concat("expected fitted levels of ", faces.heads.size(), " heads, found ", levels_.size()));
-  }
+  const Index vertices = faces.topology.vertex_count;
+  require(levels_.size() == faces.heads.size(), "blend: fitted levels of ", levels_.size(),
+          " heads for ", faces.heads.size());
   for (const HeadLevels& head : levels_) {
-    const auto expected = static_cast<std::size_t>(3 * head.rank * faces.topology.vertex_count);
-    if (head.fields.size() != expected) {
-      throw InvalidInput(
-          concat("expected ", expected, " numbers of fitted levels, found ", head.fields.size()));
-    }
+    require(head.fields.size() == static_cast<std::size_t>(3 * head.rank * vertices),
+            "blend: ", head.fields.size(), " numbers for ", head.rank, " fields of ", vertices,
+            " vertices");
     field_count_ += static_cast<std::size_t>(head.rank);
   }
-  if (regions.alpha.rows() != faces.topology.vertex_count) {
-    throw InvalidInput(concat("expected masks for ", faces.topology.vertex_count,
-                              " vertices, found ", regions.alpha.rows()));
-  }
+  require(regions.alpha.rows() == vertices, "blend: masks of ", regions.alpha.rows(),
+          " vertices for ", vertices);
   cut_into_blocks();
 }
 

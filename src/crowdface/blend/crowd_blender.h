@@ -34,12 +34,12 @@ class CrowdBlender {
  public:
   /// \param levels   one for each head of the face set; their fields must outlive the blender.
   /// \param regions  α, #V by #regions, rows summing to one.
-  /// \throws InvalidInput if these do not fit together.
+  /// \throws BrokenPrecondition if these do not fit together.
   CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels, const RegionWeights& regions);
 
   /// The faces of the recipes, #V by 3 each, in the heads' unit.
   /// \param results  one for each recipe; what memory they hold is used again.
-  /// \throws InvalidInput if a recipe does not fit the face set or the regions.
+  /// \throws BrokenPrecondition if a recipe does not fit the face set or the regions.
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions blend(const Recipe& recipe) const;
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "crowdface/blend/normalization.h"
@@ -28,26 +27,10 @@ struct RegionRecipe {
   double extrapolation = 1;            ///< e_k, the factor of Fig. 6
 };
 
-/// The nearest neighbours of a face, for people to judge by.
-struct Nearest {
-  Index head = 0;  ///< the input head nearest to it
-  double head_mm = 0;
-  std::optional<std::string> crowd;  ///< the nearest face before it in the plan
-  double crowd_mm = 0;
-};
-
-/// One face: with the face set and the regions it determines the mesh to the bit.
+/// What determines a face: with the face set and the regions it gives the mesh to the bit.
 struct Recipe {
-  std::string id;
-  std::optional<std::uint64_t> index;  ///< from 1; none for a hand-written recipe
-  std::optional<std::string> family;
   Index target = 0;
-  std::uint32_t attempt = 0;          ///< how many draws were thrown away before this one
   std::vector<RegionRecipe> regions;  ///< one for each region
-  std::optional<Nearest> nearest;
-  std::optional<double> age;          ///< −1 … 1, if it was moved along old or young detail
-  std::vector<std::string> inherits;  ///< of a family with parents: #regions, whose detail
-  std::optional<std::string> note;    ///< a reviewer's
 };
 
 /// The weights ω̂ of a position (Eqs. 3 and 4).

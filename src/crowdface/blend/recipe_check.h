@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// \throws InvalidInput if the recipe names a head that the face set has not, or if the regions are
+/// \throws BrokenPrecondition if the recipe names a head that the face set has not, or if the regions are
 /// not as many as the recipe's or not for this topology.
 void require_fit(const FaceSet& faces, const RegionWeights& regions, const Recipe& recipe);
 

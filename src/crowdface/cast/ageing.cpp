@@ -19,7 +19,7 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
   return mixed;
 }
 
-void apply_age(Recipe& recipe, double age, const SamplingOptions& sampling) {
+void apply_age(CastFace& face, double age, const SamplingOptions& sampling) {
   if (age == 0) return;
   const std::vector<Index>& heads = age > 0 ? sampling.old_heads : sampling.young_heads;
   if (heads.empty()) {
@@ -28,11 +28,11 @@ void apply_age(Recipe& recipe, double age, const SamplingOptions& sampling) {
   }
   std::vector<SourceWeight> along;
   for (const Index head : heads) along.push_back({head, 1 / static_cast<double>(heads.size())});
-  for (RegionRecipe& region : recipe.regions) {
+  for (RegionRecipe& region : face.recipe.regions) {
     region.weights = mixed_weights(region.weights, along, age > 0 ? age : -age);
     region.position.reset();
   }
-  recipe.age = age;
+  face.age = age;
 }
 
 }  // namespace crowdface

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/sampling.h"
 
 namespace crowdface {
@@ -11,7 +11,7 @@ namespace crowdface {
 /// share |age| of the weights goes to those heads, evenly, and what was there keeps the rest. The
 /// weights no longer come from a position then, so there is none.
 /// \throws InvalidInput if no head is tagged so.
-void apply_age(Recipe& recipe, double age, const SamplingOptions& sampling);
+void apply_age(CastFace& face, double age, const SamplingOptions& sampling);
 
 /// (1 − t)·a + t·b, head by head.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,

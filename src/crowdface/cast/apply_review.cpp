@@ -37,7 +37,7 @@ std::vector<Redraw> read_marks(const Review& review, CrowdCast& cast) {
       throw InvalidInput(
           concat("the review names ", quoted(mark.id), ", which is not in the crowd"));
     }
-    if (mark.note) cast.crowd[static_cast<std::size_t>(found->second)].note = mark.note;
+    if (mark.note) cast.crowd[static_cast<std::size_t>(found->second)].notes.review = mark.note;
     if (mark.verdict == ReviewMark::Verdict::kReject) redraws.push_back({found->second, &mark});
   }
   std::sort(redraws.begin(), redraws.end(),
@@ -56,7 +56,7 @@ class Redrawing {
   /// \return false if no face was found.
   bool redraw(const Redraw& redraw, std::vector<bool>& settled) {
     const auto at = static_cast<std::size_t>(redraw.face);
-    const Recipe old = cast_.crowd[at];
+    const CastFace old = cast_.crowd[at];
     const FamilyCast* family = family_of(cast_, redraw.face);
     // Relatives are measured apart: a family's own distances hold among them.
     CrowdSoFar others(judge_.space().dimensions());
@@ -91,7 +91,7 @@ class Redrawing {
     const int candidates = old.index ? casting_.diversity.candidates_for(*old.index) : 1;
     FaceSearch search(
         [&](std::uint32_t attempt) { return with_locked(draw(attempt), old, *redraw.mark); },
-        judge_, casting_.diversity, candidates, old.attempt + 1);
+        judge_, casting_.diversity, candidates, old.notes.attempt + 1);
     auto found = search.settle(others, refuses);
     cast_.rejections.add(search.rejections());
     if (!found) {
@@ -109,7 +109,7 @@ class Redrawing {
                          [&](const FamilyOptions& options) { return options.name == family.name; });
   }
 
-  Recipe drawn_face(const Recipe& old, std::uint32_t attempt) const {
+  CastFace drawn_face(const CastFace& old, std::uint32_t attempt) const {
     if (!old.index) {  // hand-written: what it leaves open
       const auto hand = std::find_if(casting_.recipes.begin(), casting_.recipes.end(),
                                      [&](const HandRecipe& recipe) { return recipe.id == old.id; });
@@ -122,14 +122,16 @@ class Redrawing {
   }
 
   /// A region can only stay as it is on the same target.
-  Recipe with_locked(Recipe recipe, const Recipe& old, const ReviewMark& mark) const {
-    if (mark.locked.empty()) return recipe;
-    if (recipe.target != old.target && old.index) {
-      recipe = draw_face(casting_, *old.index, recipe.attempt, {{old.target, 1}});
+  CastFace with_locked(CastFace face, const CastFace& old, const ReviewMark& mark) const {
+    if (mark.locked.empty()) return face;
+    if (face.recipe.target != old.recipe.target && old.index) {
+      face = draw_face(casting_, *old.index, face.notes.attempt, {{old.recipe.target, 1}});
     }
-    recipe.target = old.target;
-    for (const std::size_t region : mark.locked) recipe.regions[region] = old.regions[region];
-    return recipe;
+    face.recipe.target = old.recipe.target;
+    for (const std::size_t region : mark.locked) {
+      face.recipe.regions[region] = old.recipe.regions[region];
+    }
+    return face;
   }
 
   Kinship kinship_without(const FamilyCast* own, const std::vector<bool>& settled) const {
@@ -146,7 +148,7 @@ class Redrawing {
     return kinship;
   }
 
-  void settle(std::size_t at, FaceSearch::Found found, const Recipe& old,
+  void settle(std::size_t at, FaceSearch::Found found, const CastFace& old,
               const std::vector<bool>& settled) {
     Nearest nearest;
     const PlaceIndex::Nearest head = judge_.nearest_head(found.place);
@@ -161,9 +163,9 @@ class Redrawing {
       nearest.crowd = cast_.crowd[i].id;
       nearest.crowd_mm = mm;
     }
-    found.recipe.nearest = nearest;
-    found.recipe.note = old.note;
-    cast_.crowd[at] = std::move(found.recipe);
+    found.face.notes.nearest = nearest;
+    found.face.notes.review = old.notes.review;
+    cast_.crowd[at] = std::move(found.face);
     cast_.places[at] = std::move(found.place);
   }
 

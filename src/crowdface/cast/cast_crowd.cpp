@@ -44,7 +44,7 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
         result.shortfall = Shortfall{index - 1, search.rejections(), result.quotas[index - 1]};
         return;
       }
-      crowd.add(std::move(found->recipe), std::move(found->place));
+      crowd.add(std::move(found->face), std::move(found->place));
       if (joined) joined();
     }
   }
@@ -57,9 +57,9 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
   CrowdCast result;
   CrowdSoFar crowd(judge.space().dimensions());
   for (const HandRecipe& hand : casting.recipes) {
-    Recipe recipe = draw_hand_recipe(casting, hand);
-    FaceSpace::Place place = judge.space().place(recipe);
-    crowd.add(std::move(recipe), std::move(place));
+    CastFace face = draw_hand_recipe(casting, hand);
+    FaceSpace::Place place = judge.space().place(face.recipe);
+    crowd.add(std::move(face), std::move(place));
   }
   Kinship kinship;
   for (const FamilyOptions& family : casting.families) {
@@ -81,7 +81,7 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
   } else {
     cast_first_fit(casting, judge, targets_of, kinship, crowd, joined, result);
   }
-  result.crowd = crowd.recipes();
+  result.crowd = crowd.faces();
   result.places = crowd.places();
   if (result.shortfall) return result;
   find_nearest(judge, result);
@@ -105,7 +105,7 @@ void find_nearest(const FaceJudge& judge, CrowdCast& cast) {
       nearest.crowd = cast.crowd[static_cast<std::size_t>(face.face)].id;
       nearest.crowd_mm = face.mm;
     }
-    cast.crowd[static_cast<std::size_t>(i)].nearest = nearest;
+    cast.crowd[static_cast<std::size_t>(i)].notes.nearest = nearest;
   });
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_space.h"
 #include "crowdface/cast/families.h"
@@ -24,7 +24,7 @@ struct Shortfall {
 
 /// A crowd that was cast.
 struct CrowdCast {
-  std::vector<Recipe> crowd;             ///< recipes, then families, then faces 1 … count
+  std::vector<CastFace> crowd;           ///< recipes, then families, then faces 1 … count
   std::vector<FaceSpace::Place> places;  ///< of each
   std::vector<int> quotas;               ///< which quota each sampled face counts for, or −1
   std::vector<FamilyCast> families;

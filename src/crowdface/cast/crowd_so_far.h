@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/place_index.h"
 
 namespace crowdface {
@@ -13,9 +13,9 @@ class CrowdSoFar {
  public:
   explicit CrowdSoFar(Index dimensions) : index_(dimensions) {}
 
-  void add(Recipe recipe, FaceSpace::Place place) {
+  void add(CastFace face, FaceSpace::Place place) {
     index_.add(place);
-    recipes_.push_back(std::move(recipe));
+    faces_.push_back(std::move(face));
     places_.push_back(std::move(place));
   }
   Index size() const { return index_.size(); }
@@ -24,12 +24,12 @@ class CrowdSoFar {
   /// Candidates compete by their distance from the faces from here on, so that a recipe or a family
   /// more does not change which of them wins (though all faces must be far enough from all).
   Index first_sampled() const { return first_sampled_; }
-  const std::vector<Recipe>& recipes() const { return recipes_; }
+  const std::vector<CastFace>& faces() const { return faces_; }
   const std::vector<FaceSpace::Place>& places() const { return places_; }
   const PlaceIndex& index() const { return index_; }
 
  private:
-  std::vector<Recipe> recipes_;
+  std::vector<CastFace> faces_;
   std::vector<FaceSpace::Place> places_;
   PlaceIndex index_;
   Index first_sampled_ = 0;

@@ -180,36 +180,36 @@ std::string face_id(const std::string& crowd, std::uint64_t index) {
   return concat(crowd, '_', zero_padded(index, 4));
 }
 
-Recipe draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
-                   const std::vector<WeightedHead>& targets) {
+CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
+                     const std::vector<WeightedHead>& targets) {
   const FaceDraws draws(casting.seed, key);
-  Recipe recipe;
-  recipe.id = hand.id;
-  recipe.attempt = key.attempt;
-  recipe.target = hand.target ? *hand.target : draw_target(targets, draws);
+  CastFace face;
+  face.id = hand.id;
+  face.notes.attempt = key.attempt;
+  face.recipe.target = hand.target ? *hand.target : draw_target(targets, draws);
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
     const HandRecipe::Region& region =
         k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
-    recipe.regions.push_back(draw_region(casting, k, recipe.target, draws, region));
+    face.recipe.regions.push_back(draw_region(casting, k, face.recipe.target, draws, region));
   }
-  apply_age(recipe, draws.in(hand.age.value_or(casting.sampling.age), "age", ""), casting.sampling);
-  return recipe;
+  apply_age(face, draws.in(hand.age.value_or(casting.sampling.age), "age", ""), casting.sampling);
+  return face;
 }
 
-Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
-                 const std::vector<WeightedHead>& targets) {
+CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
+                   const std::vector<WeightedHead>& targets) {
   HandRecipe open;
   open.id = face_id(casting.name, index);
-  Recipe recipe = draw_recipe(casting, open, {index, attempt}, targets);
-  recipe.index = index;
-  return recipe;
+  CastFace face = draw_recipe(casting, open, {index, attempt}, targets);
+  face.index = index;
+  return face;
 }
 
-Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt) {
+CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt) {
   return draw_face(casting, index, attempt, casting.sampling.targets);
 }
 
-Recipe draw_hand_recipe(const Casting& casting, const HandRecipe& hand) {
+CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand) {
   return draw_recipe(casting, hand, {0, 0, concat("recipe/", hand.id)}, casting.sampling.targets);
 }
 

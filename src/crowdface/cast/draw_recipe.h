@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/family.h"
 #include "crowdface/cast/review.h"
@@ -53,17 +53,17 @@ struct DrawKey {
 /// Draws what `hand` leaves open; a sampled face leaves everything open. A pure function of the
 /// arguments, so that a face is the same whatever the count or the order.
 /// \param targets  heads that the target is drawn from if `hand` names none.
-Recipe draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
-                   const std::vector<WeightedHead>& targets);
+CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
+                     const std::vector<WeightedHead>& targets);
 
 /// Attempt `attempt` at sampled face `index` (from 1).
-Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
-                 const std::vector<WeightedHead>& targets);
+CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
+                   const std::vector<WeightedHead>& targets);
 /// The same with any target that may be sampled.
-Recipe draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0);
+CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0);
 
 /// A hand-written recipe; what it leaves open is drawn under its own name.
 /// \throws InvalidInput if its weights cannot be normalised.
-Recipe draw_hand_recipe(const Casting& casting, const HandRecipe& hand);
+CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand);
 
 }  // namespace crowdface

@@ -41,13 +41,13 @@ std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJud
   std::vector<double> closest;  // of the first n picked
   std::uint64_t most = 0;
   for (const std::uint64_t count : counts) {
-    if (count * kPoolPerFace <= pool.recipes.size()) most = std::max(most, count);
+    if (count * kPoolPerFace <= pool.faces.size()) most = std::max(most, count);
   }
   while (closest.size() < most) {
     throw_if_interrupted();
     const FarthestPoints::Pick pick = points.farthest(-1);
     if (pick.candidate < 0) break;
-    if (judge.closely(pool.recipes[static_cast<std::size_t>(pick.candidate)])) {
+    if (judge.closely(pool.faces[static_cast<std::size_t>(pick.candidate)].recipe)) {
       points.drop(pick.candidate);
       continue;
     }

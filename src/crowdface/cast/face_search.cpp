@@ -18,9 +18,9 @@ FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions
 void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   while (candidates_.size() < wanted_ && next_attempt_ < last_attempt_) {
     Candidate candidate;
-    candidate.recipe = draw_(next_attempt_++);
-    candidate.place = judge_.space().place(candidate.recipe);
-    if (const auto reason = judge_.at_a_glance(candidate.recipe, candidate.place)) {
+    candidate.face = draw_(next_attempt_++);
+    candidate.place = judge_.space().place(candidate.face.recipe);
+    if (const auto reason = judge_.at_a_glance(candidate.face.recipe, candidate.place)) {
       rejections_.add(*reason);
       continue;
     }
@@ -58,13 +58,13 @@ void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
 void FaceSearch::farthest_first() {
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return a.nearest_mm != b.nearest_mm ? a.nearest_mm > b.nearest_mm
-                                        : a.recipe.attempt < b.recipe.attempt;
+                                        : a.face.notes.attempt < b.face.notes.attempt;
   });
 }
 
 void FaceSearch::judge_closely(Candidate& candidate) const {
   if (candidate.judged) return;
-  candidate.broken = judge_.closely(candidate.recipe);
+  candidate.broken = judge_.closely(candidate.face.recipe);
   candidate.judged = true;
 }
 
@@ -91,7 +91,7 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
         rejections_.add(*candidate.broken);
         continue;
       }
-      return Found{std::move(candidate.recipe), std::move(candidate.place)};
+      return Found{std::move(candidate.face), std::move(candidate.place)};
     }
     candidates_.clear();
   }

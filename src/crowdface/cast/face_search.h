@@ -18,7 +18,7 @@ namespace crowdface {
 class FaceSearch {
  public:
   /// Draws attempt number n. Must be a pure function.
-  using Draw = std::function<Recipe(std::uint32_t attempt)>;
+  using Draw = std::function<CastFace(std::uint32_t attempt)>;
   /// One more reason to refuse a place, given the crowd.
   using Refuses = std::function<bool(const FaceSpace::Place&)>;
 
@@ -29,7 +29,7 @@ class FaceSearch {
   void prepare(const CrowdSoFar& crowd);
 
   struct Found {
-    Recipe recipe;
+    CastFace face;
     FaceSpace::Place place;
   };
   /// The face, against the crowd as it is now; nothing once all attempts are used up.
@@ -39,7 +39,7 @@ class FaceSearch {
 
  private:
   struct Candidate {
-    Recipe recipe;
+    CastFace face;
     FaceSpace::Place place;
     double nearest_mm = 0;
     bool judged = false;  ///< closely

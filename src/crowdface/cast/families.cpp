@@ -64,26 +64,26 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
   for (const Parent& parent : family.parents) {
     if (parent.head) {
       parents_.emplace_back();
-      parents_.back().target = *parent.head;
+      parents_.back().recipe.target = *parent.head;
       continue;
     }
-    const auto& recipes = crowd.recipes();
-    const auto found = std::find_if(recipes.begin(), recipes.end(), [&](const Recipe& recipe) {
-      return recipe.id == parent.id || recipe.id == concat(casting.name, '_', parent.id);
+    const auto& faces = crowd.faces();
+    const auto found = std::find_if(faces.begin(), faces.end(), [&](const CastFace& face) {
+      return face.id == parent.id || face.id == concat(casting.name, '_', parent.id);
     });
-    if (found == recipes.end()) {
+    if (found == faces.end()) {
       throw InvalidInput(
           concat("family ", family.name, ": no face before it is called ", quoted(parent.id)));
     }
     parents_.push_back(*found);
     if (found->family) relatives_.push_back(*found->family);
   }
-  for (std::size_t i = 0; i < crowd.recipes().size(); ++i) {
-    const Recipe& recipe = crowd.recipes()[i];
-    const bool relative = recipe.family && std::find(relatives_.begin(), relatives_.end(),
-                                                     *recipe.family) != relatives_.end();
-    const bool parent = std::any_of(parents_.begin(), parents_.end(), [&](const Recipe& one) {
-      return !one.id.empty() && one.id == recipe.id;
+  for (std::size_t i = 0; i < crowd.faces().size(); ++i) {
+    const CastFace& face = crowd.faces()[i];
+    const bool relative = face.family && std::find(relatives_.begin(), relatives_.end(),
+                                                   *face.family) != relatives_.end();
+    const bool parent = std::any_of(parents_.begin(), parents_.end(), [&](const CastFace& one) {
+      return !one.id.empty() && one.id == face.id;
     });
     (relative || parent ? kin_ : strangers_).add(crowd.places()[i]);
   }
@@ -92,14 +92,14 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
 /// What a parent hands down in a region: a face its recipe's part, a head its own detail.
 RegionRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region,
                                     const RegionRecipe& drawn) const {
-  if (!family_.parents[parent].head) return parents_[parent].regions[region];
+  if (!family_.parents[parent].head) return parents_[parent].recipe.regions[region];
   RegionRecipe own = drawn;
   own.position.reset();
   own.weights = {{*family_.parents[parent].head, 1}};
   return own;
 }
 
-Recipe FamilyDraws::founder(std::uint32_t attempt) const {
+CastFace FamilyDraws::founder(std::uint32_t attempt) const {
   const DrawKey key = {0, attempt, concat("family/", family_.name)};
   HandRecipe open;
   open.target = family_.target;
@@ -107,30 +107,30 @@ Recipe FamilyDraws::founder(std::uint32_t attempt) const {
   if (!open.target && !parents_.empty()) {
     const std::string purpose = concat(key.who, "/whose");
     const double unit = random_unit({casting_.seed, 0, purpose, attempt});
-    open.target = parents_[unit < 0.5 ? 0 : 1].target;
+    open.target = parents_[unit < 0.5 ? 0 : 1].recipe.target;
   }
-  Recipe recipe = draw_recipe(casting_, open, key, casting_.sampling.targets);
-  for (std::size_t k = 0; k < recipe.regions.size() && !parents_.empty(); ++k) {
-    const RegionRecipe drawn = recipe.regions[k];
+  CastFace face = draw_recipe(casting_, open, key, casting_.sampling.targets);
+  for (std::size_t k = 0; k < face.recipe.regions.size() && !parents_.empty(); ++k) {
+    const RegionRecipe drawn = face.recipe.regions[k];
     const int from = family_.inherit[k];
-    recipe.regions[k] =
+    face.recipe.regions[k] =
         from >= 0 ? of_parent(static_cast<std::size_t>(from), k, drawn)
                   : mixed(of_parent(0, k, drawn), of_parent(1, k, drawn), 0.5, casting_.scale);
   }
-  return recipe;
+  return face;
 }
 
 /// The founder's face moved towards another on the same target.
-Recipe FamilyDraws::towards(const Recipe& from, const Recipe& to, double t, double age) const {
-  Recipe recipe = to;
-  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    recipe.regions[k] = mixed(from.regions[k], to.regions[k], t, casting_.scale);
+CastFace FamilyDraws::towards(const Recipe& from, const CastFace& to, double t, double age) const {
+  CastFace face = to;
+  for (std::size_t k = 0; k < from.regions.size(); ++k) {
+    face.recipe.regions[k] = mixed(from.regions[k], to.recipe.regions[k], t, casting_.scale);
   }
-  apply_age(recipe, age, casting_.sampling);
-  return recipe;
+  apply_age(face, age, casting_.sampling);
+  return face;
 }
 
-Recipe FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t attempt) const {
+CastFace FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t attempt) const {
   const DrawKey key = {static_cast<std::uint64_t>(member), attempt,
                        concat("family/", family_.name)};
   const auto unit = [&](const std::string& what) {
@@ -139,16 +139,16 @@ Recipe FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t att
   };
   HandRecipe open;
   open.id = member_id(casting_.name, family_.name, member);
-  open.target = cast.founder.target;
+  open.target = cast.founder.recipe.target;
   open.age = Range{0, 0};
-  Recipe to = draw_recipe(casting_, open, key, casting_.sampling.targets);
+  CastFace to = draw_recipe(casting_, open, key, casting_.sampling.targets);
   to.family = family_.name;
-  for (std::size_t k = 0; k < to.regions.size() && !parents_.empty(); ++k) {
+  for (std::size_t k = 0; k < to.recipe.regions.size() && !parents_.empty(); ++k) {
     const int from = family_.inherit[k];
     const auto parent = static_cast<std::size_t>(
         from >= 0 ? from : (unit(concat("inherits/", casting_.region_names[k]))[0] < 0.5 ? 0 : 1));
-    to.regions[k] =
-        mixed(to.regions[k], of_parent(parent, k, to.regions[k]), kParentShare, casting_.scale);
+    to.recipe.regions[k] = mixed(to.recipe.regions[k], of_parent(parent, k, to.recipe.regions[k]),
+                                 kParentShare, casting_.scale);
     to.inherits.emplace_back(parent == 0 ? "mother" : "father");
   }
   const auto [how_far, how_old] = unit("how");
@@ -156,17 +156,19 @@ Recipe FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t att
   const double reach = (kNearestShare + (1 - kNearestShare) * how_far) * family_.max_distance_mm;
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
-    const FaceSpace::Place place = judge_.space().place(towards(cast.founder, to, t, age));
+    const FaceSpace::Place place =
+        judge_.space().place(towards(cast.founder.recipe, to, t, age).recipe);
     const bool beyond = FaceSpace::distance(place, cast.founder_place) > reach;
     if (t == 1 && !beyond) break;
     t += beyond ? -step : step;
   }
   // The last step may have gone too far; the one before it not.
-  Recipe recipe = towards(cast.founder, to, t, age);
-  if (FaceSpace::distance(judge_.space().place(recipe), cast.founder_place) > reach && t > step) {
-    recipe = towards(cast.founder, to, std::max(t - 2 * step, 0.0), age);
+  CastFace face = towards(cast.founder.recipe, to, t, age);
+  if (FaceSpace::distance(judge_.space().place(face.recipe), cast.founder_place) > reach &&
+      t > step) {
+    face = towards(cast.founder.recipe, to, std::max(t - 2 * step, 0.0), age);
   }
-  return recipe;
+  return face;
 }
 
 bool FamilyDraws::refuses(const FamilyCast& cast, const FaceSpace::Place& place,
@@ -205,9 +207,9 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
     auto found = founder.settle(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    FamilyCast cast{family.name, std::move(found->recipe), std::move(found->place), crowd.size(),
+    FamilyCast cast{family.name, std::move(found->face), std::move(found->place), crowd.size(),
                     crowd.size() + family.members};
-    std::vector<Recipe> members;
+    std::vector<CastFace> members;
     std::vector<FaceSpace::Place> places;
     for (int m = 1; m <= family.members; ++m) {
       FaceSearch search([&](std::uint32_t attempt) { return draws.member(cast, m, attempt); },
@@ -217,7 +219,7 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
       });
       rejections.add(search.rejections());
       if (!member) break;
-      members.push_back(std::move(member->recipe));
+      members.push_back(std::move(member->face));
       places.push_back(std::move(member->place));
     }
     if (static_cast<int>(members.size()) < family.members) continue;

@@ -14,7 +14,7 @@ namespace crowdface {
 /// A family that was cast.
 struct FamilyCast {
   std::string name;
-  Recipe founder;  ///< not in the crowd
+  CastFace founder;  ///< not in the crowd
   FaceSpace::Place founder_place;
   Index begin = 0, end = 0;  ///< its members in the crowd
 };
@@ -48,9 +48,9 @@ class FamilyDraws {
               const CrowdSoFar& crowd);
 
   /// The founder: the parents' regions where there are parents, else a face like any other.
-  Recipe founder(std::uint32_t attempt) const;
+  CastFace founder(std::uint32_t attempt) const;
   /// Member number `member`, from 1.
-  Recipe member(const FamilyCast& cast, int member, std::uint32_t attempt) const;
+  CastFace member(const FamilyCast& cast, int member, std::uint32_t attempt) const;
 
   /// Whether a place will not do for a member beside these others of its family.
   bool refuses(const FamilyCast& cast, const FaceSpace::Place& place,
@@ -58,12 +58,12 @@ class FamilyDraws {
 
  private:
   RegionRecipe of_parent(std::size_t parent, std::size_t region, const RegionRecipe& drawn) const;
-  Recipe towards(const Recipe& from, const Recipe& to, double t, double age) const;
+  CastFace towards(const Recipe& from, const CastFace& to, double t, double age) const;
 
   const Casting& casting_;
   const FamilyOptions& family_;
   const FaceJudge& judge_;
-  std::vector<Recipe> parents_;         ///< recipes of parents that are faces; empty ones for heads
+  std::vector<CastFace> parents_;       ///< those of parents that are faces; for a head its target
   std::vector<std::string> relatives_;  ///< the families of parents
   PlaceIndex kin_, strangers_;          ///< relatives, and everyone else
 };

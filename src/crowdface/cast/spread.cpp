@@ -45,7 +45,7 @@ double squared_up_to(const FaceSpace::Place& a, const FaceSpace::Place& b, doubl
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
                         const TargetsOfQuota& targets_of, std::uint64_t size) {
   const std::vector<int> schedule = schedule_quotas(casting.diversity.quotas, size);
-  std::vector<std::optional<std::pair<Recipe, FaceSpace::Place>>> drawn(size);
+  std::vector<std::optional<std::pair<CastFace, FaceSpace::Place>>> drawn(size);
   std::vector<Rejections> rejections(size);
   parallel_for_each(static_cast<Index>(size), [&](Index p) {
     const auto at = static_cast<std::size_t>(p);
@@ -54,13 +54,13 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
     const auto& targets = targets_of[static_cast<std::size_t>(slot)];
     for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
       const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
-      Recipe recipe = draw_recipe(casting, {}, key, targets);
-      FaceSpace::Place place = judge.space().place(recipe);
-      if (const auto reason = judge.at_a_glance(recipe, place)) {
+      CastFace face = draw_recipe(casting, {}, key, targets);
+      FaceSpace::Place place = judge.space().place(face.recipe);
+      if (const auto reason = judge.at_a_glance(face.recipe, place)) {
         rejections[at].add(*reason);
         continue;
       }
-      drawn[at].emplace(std::move(recipe), std::move(place));
+      drawn[at].emplace(std::move(face), std::move(place));
       return;
     }
   });
@@ -68,7 +68,7 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
   for (std::size_t p = 0; p < size; ++p) {
     pool.rejections.add(rejections[p]);
     if (!drawn[p]) continue;
-    pool.recipes.push_back(std::move(drawn[p]->first));
+    pool.faces.push_back(std::move(drawn[p]->first));
     pool.places.push_back(std::move(drawn[p]->second));
     pool.quotas.push_back(schedule[p]);
   }
@@ -123,7 +123,7 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOf
     FarthestPoints::Pick pick = points.farthest(quota);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      std::optional<Reason> why = judge.closely(pool.recipes[at]);
+      std::optional<Reason> why = judge.closely(pool.faces[at].recipe);
       if (!why && kinship.intrudes(pool.places[at])) why = Reason::kFamily;
       if (!why) break;
       result.rejections.add(*why);
@@ -138,10 +138,10 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOf
     }
     points.pick(pick.candidate);
     const auto at = static_cast<std::size_t>(pick.candidate);
-    Recipe recipe = pool.recipes[at];
-    recipe.id = face_id(casting.name, index);
-    recipe.index = index;
-    crowd.add(std::move(recipe), pool.places[at]);
+    CastFace face = pool.faces[at];
+    face.id = face_id(casting.name, index);
+    face.index = index;
+    crowd.add(std::move(face), pool.places[at]);
     if (joined) joined();
   }
 }

@@ -34,7 +34,7 @@ class Error : public std::runtime_error {
 struct UsageError : Error {
   explicit UsageError(const std::string& message);
 };
-/// Unusable input data, or arguments that break a function's stated precondition (65).
+/// Unusable input data (65). A broken precondition of our own is no Error: core/require.h.
 struct InvalidInput : Error {
   explicit InvalidInput(const std::string& message);
 };

@@ -59,9 +59,9 @@ CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_dista
     distances.regions.push_back(quartiles(pair_distances(space, k, cast.places)));
   }
   std::vector<double> to_head, to_face;
-  for (const Recipe& recipe : cast.crowd) {
-    to_head.push_back(recipe.nearest->head_mm);
-    if (recipe.nearest->crowd) to_face.push_back(recipe.nearest->crowd_mm);
+  for (const CastFace& face : cast.crowd) {
+    to_head.push_back(face.notes.nearest->head_mm);
+    if (face.notes.nearest->crowd) to_face.push_back(face.notes.nearest->crowd_mm);
   }
   distances.to_nearest_head = quartiles(std::move(to_head));
   distances.to_nearest_face = quartiles(std::move(to_face));

@@ -42,13 +42,13 @@ struct FamilyReport {
 /// The hidden head of a family, who is not in the crowd.
 struct FamilyFounder {
   std::string family;
-  Recipe recipe;
+  CastFace face;
 };
 
-/// A crowd cast: where the heads stand on the plane, and one recipe a face.
+/// A crowd cast: where the heads stand on the plane, and its faces.
 struct Cast {
   std::vector<PlanePoint> anchors;  ///< #heads
-  std::vector<Recipe> crowd;        ///< with their nearest neighbours
+  std::vector<CastFace> crowd;      ///< with their nearest neighbours
   std::vector<int> quotas;          ///< of each sampled face, or −1
   Rejections rejections;
   CrowdDistances distances;

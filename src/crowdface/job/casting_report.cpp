@@ -84,15 +84,15 @@ Json families_to_json(const Cast& cast) {
 }  // namespace
 
 std::string format_founders(const Job& job, const std::vector<FamilyFounder>& founders) {
-  std::vector<Recipe> recipes;
+  std::vector<CastFace> faces;
   for (const FamilyFounder& founder : founders) {
-    Recipe recipe = founder.recipe;
-    recipe.id = concat(founder.family, "_founder");
-    recipe.family = founder.family;
-    recipe.index.reset();
-    recipes.push_back(std::move(recipe));
+    CastFace face = founder.face;
+    face.id = concat(founder.family, "_founder");
+    face.family = founder.family;
+    face.index.reset();
+    faces.push_back(std::move(face));
   }
-  return format_plan(job, recipes);
+  return format_plan(job, faces);
 }
 
 std::string format_casting(const Job& job, const Cast& cast) {

@@ -35,7 +35,7 @@ std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& d
       log_info("founders of families stay as they were: heads or settings have changed since");
       return {};
     }
-    founders.push_back({line.recipe.family.value_or(line.recipe.id), std::move(line.recipe)});
+    founders.push_back({line.face.family.value_or(line.face.id), std::move(line.face)});
   }
   return founders;
 }
@@ -64,7 +64,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
                         const Cast& cast, const std::vector<FaceFiles>& files,
                         LazyPictures& pictures, Ledger& ledger) {
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
-  const std::vector<Recipe>& crowd = cast.crowd;
+  const std::vector<CastFace>& crowd = cast.crowd;
   const Digest key = key_of_sheets(job, directory, cast, files);
   // What faces are compared with may have changed since.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
@@ -94,11 +94,11 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             "output.contact_sheet='{columns: 6}'"));
   }
   check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
-  std::vector<Recipe> crowd;
+  std::vector<CastFace> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {
-    ids.push_back(line.recipe.id);
-    crowd.push_back(std::move(line.recipe));
+    ids.push_back(line.face.id);
+    crowd.push_back(std::move(line.face));
   }
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
   const CrowdPictures pictures(job, *job.config.output.contact_sheet, directory);

@@ -40,8 +40,8 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   return hasher.digest();
 }
 
-std::string item_of(const Recipe& recipe) {
-  return concat("faces/", recipe.id);
+std::string item_of(const CastFace& face) {
+  return concat("faces/", face.id);
 }
 
 Json to_json(const SkinDefects& skin) {
@@ -73,16 +73,14 @@ FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& dir
       extras_(extras),
       output_(digest_of_output(job.config, job, extras)) {}
 
-Digest FaceLedger::key_of(const Recipe& recipe) const {
-  Recipe shape = recipe;  // without what says how it was found, which no file depends on
-  shape.nearest.reset();
-  shape.note.reset();
-  shape.attempt = 0;
+Digest FaceLedger::key_of(const CastFace& face) const {
+  CastFace shape = face;
+  shape.notes = {};  // no file depends on how it was found
   return Hasher().add(output_).add(format_recipe(shape, job_.names, job_.settings)).digest();
 }
 
-std::optional<FaceFiles> FaceLedger::done(const Recipe& recipe) const {
-  const auto entry = ledger_.proven(item_of(recipe), key_of(recipe));
+std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
+  const auto entry = ledger_.proven(item_of(face), key_of(face));
   if (!entry) return std::nullopt;
   const std::vector<MeshFormat>& formats = job_.config.output.meshes;
   const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);
@@ -102,18 +100,17 @@ std::optional<FaceFiles> FaceLedger::done(const Recipe& recipe) const {
   return files;
 }
 
-void FaceLedger::record(const Recipe& recipe, const FaceFiles& files) const {
-  LedgerEntry entry{item_of(recipe), key_of(recipe), {}, {}};
+void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
+  LedgerEntry entry{item_of(face), key_of(face), {}, {}};
   for (const MeshFile& mesh : files.meshes) {
     entry.files.push_back(
-        {directory_.relative(directory_.mesh(recipe.id, mesh.format)), {mesh.bytes, mesh.digest}});
+        {directory_.relative(directory_.mesh(face.id, mesh.format)), {mesh.bytes, mesh.digest}});
   }
   if (files.picture) {
-    entry.files.push_back({directory_.relative(directory_.render(recipe.id)), *files.picture});
+    entry.files.push_back({directory_.relative(directory_.render(face.id)), *files.picture});
   }
   if (files.preview) {
-    entry.files.push_back(
-        {directory_.relative(directory_.gallery_face(recipe.id)), *files.preview});
+    entry.files.push_back({directory_.relative(directory_.gallery_face(face.id)), *files.preview});
   }
   if (files.skin) entry.note = to_json(*files.skin).dump();
   ledger_.record(std::move(entry));

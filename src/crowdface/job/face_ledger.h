@@ -25,11 +25,11 @@ class FaceLedger {
   FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory, FaceExtras extras);
 
   /// A face's files if all of them are there as an earlier run wrote them.
-  std::optional<FaceFiles> done(const Recipe& recipe) const;
-  void record(const Recipe& recipe, const FaceFiles& files) const;
+  std::optional<FaceFiles> done(const CastFace& face) const;
+  void record(const CastFace& face, const FaceFiles& files) const;
 
  private:
-  Digest key_of(const Recipe& recipe) const;
+  Digest key_of(const CastFace& face) const;
 
   Ledger& ledger_;
   const Job& job_;

@@ -104,32 +104,32 @@ class FaceOutput {
         check_(check),
         ledger_(ledger) {}
 
-  FaceFiles write(const Recipe& recipe, const Positions& positions) {
+  FaceFiles write(const CastFace& face, const Positions& positions) {
     throw_if_interrupted();
     FaceFiles files;
     std::vector<EncodedMesh> meshes;
     {
       const Busy busy(encode_);
-      meshes = writers_.encode(recipe, positions);
+      meshes = writers_.encode(face, positions);
     }
     {
       const Busy busy(write_);
       for (const EncodedMesh& mesh : meshes) {
-        files.meshes.push_back(write_mesh(mesh, directory_.mesh(recipe.id, mesh.format)));
+        files.meshes.push_back(write_mesh(mesh, directory_.mesh(face.id, mesh.format)));
       }
     }
     if (renders_ != nullptr) {
       const Busy busy(render_);
       const WrittenPictures written =
-          renders_->write(directory_, recipe.id, recipe.target, positions);
+          renders_->write(directory_, face.id, face.recipe.target, positions);
       files.picture = written.picture;
       files.preview = written.preview;
     }
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);
-      files.skin = check_->compare(positions, recipe.target);
+      files.skin = check_->compare(positions, face.recipe.target);
     }
-    ledger_.record(recipe, files);
+    ledger_.record(face, files);
     return files;
   }
 
@@ -162,7 +162,7 @@ void refuse_too_little_memory(const Job& job, std::uint64_t memory) {
   if (least > memory) refuse_memory(concat("more than ", format_bytes(least)), memory);
 }
 
-FaceStages::FaceStages(const Job& job, const Prepared& prepared, const std::vector<Recipe>& crowd,
+FaceStages::FaceStages(const Job& job, const Prepared& prepared, const std::vector<CastFace>& crowd,
                        std::uint64_t memory)
     : writes_meshes_(!job.config.output.meshes.empty()),
       writers_(job.config, job.inputs, job.config.output.meshes, crowd),
@@ -171,7 +171,7 @@ FaceStages::FaceStages(const Job& job, const Prepared& prepared, const std::vect
       at_once_(faces_at_once(job, prepared, builder_, writers_, check_.get(), memory)) {}
 
 BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders* renders,
-                             const FaceLedger& ledger, const std::vector<Recipe>& faces) const {
+                             const FaceLedger& ledger, const std::vector<CastFace>& faces) const {
   BuiltFaces built;
   built.files.resize(faces.size());
   if (writes_meshes_) make_directories(directory.meshes());
@@ -188,7 +188,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
     throw_if_interrupted();
     const std::size_t count = std::min(at_once_, faces.size() - first);
     std::vector<const Recipe*> recipes;
-    for (std::size_t f = 0; f < count; ++f) recipes.push_back(&faces[first + f]);
+    for (std::size_t f = 0; f < count; ++f) recipes.push_back(&faces[first + f].recipe);
     slot.positions.resize(count);
     {
       const Busy busy(blend_seconds);

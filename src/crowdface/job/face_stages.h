@@ -32,14 +32,14 @@ class FaceStages {
   /// \param crowd   recipes of all faces that may be made.
   /// \param memory  bytes that the whole process may take; sets how many faces are blended together.
   /// \throws UsageError if one face at a time does not fit.
-  FaceStages(const Job& job, const Prepared& prepared, const std::vector<Recipe>& crowd,
+  FaceStages(const Job& job, const Prepared& prepared, const std::vector<CastFace>& crowd,
              std::uint64_t memory);
 
   /// Each face is recorded when all its files are there. While one group of faces is written and
   /// rendered the next is blended: two groups at most are in memory.
   /// \param renders  may be null: no pictures.
   BuiltFaces build(const CrowdDirectory& directory, const CrowdRenders* renders,
-                   const FaceLedger& ledger, const std::vector<Recipe>& faces) const;
+                   const FaceLedger& ledger, const std::vector<CastFace>& faces) const;
 
  private:
   bool writes_meshes_;

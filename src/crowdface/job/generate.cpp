@@ -71,10 +71,11 @@ std::optional<std::string> near_heads(const Cast& cast, const std::vector<std::s
   constexpr double kSamePersonMm = 0.5;  // docs/casting.md
   constexpr std::size_t kMostNamed = 8;
   std::vector<std::string> near;
-  for (const Recipe& recipe : cast.crowd) {
-    if (!recipe.index || !recipe.nearest || recipe.nearest->head_mm >= kSamePersonMm) continue;
-    near.push_back(concat(recipe.id, " (", heads[static_cast<std::size_t>(recipe.nearest->head)],
-                          ", ", format_fixed(recipe.nearest->head_mm, 2), " mm)"));
+  for (const CastFace& face : cast.crowd) {
+    if (!face.index || !face.notes.nearest || face.notes.nearest->head_mm >= kSamePersonMm)
+      continue;
+    near.push_back(concat(face.id, " (", heads[static_cast<std::size_t>(face.notes.nearest->head)],
+                          ", ", format_fixed(face.notes.nearest->head_mm, 2), " mm)"));
   }
   if (near.empty()) return std::nullopt;
   const std::size_t count = near.size();
@@ -137,9 +138,9 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cas
 /// Copies material files and textures of all heads that are targets. \return warnings, each once
 /// with the heads it is about.
 std::vector<std::string> copy_materials(const Job& job, const CrowdDirectory& directory,
-                                        const std::vector<Recipe>& crowd, Ledger& ledger) {
+                                        const std::vector<CastFace>& crowd, Ledger& ledger) {
   std::set<Index> targets;
-  for (const Recipe& recipe : crowd) targets.insert(recipe.target);
+  for (const CastFace& face : crowd) targets.insert(face.recipe.target);
   std::map<std::string, std::vector<std::string>> heads_of_warning;
   // Heads of one folder mostly share these files: each is read once.
   std::map<std::pair<fs::path, std::vector<std::string>>, MaterialFiles> known;
@@ -237,15 +238,15 @@ class LazyStages {
 
 /// Builds the faces that are not done; their files take their places in `so_far`.
 /// \return how long threads were busy.
-StageBusy build_missing(const CrowdDirectory& directory, const std::vector<Recipe>& crowd,
+StageBusy build_missing(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
                         const FaceLedger& ledger, LazyStages& face_stages, LazyPictures& pictures,
                         FacesSoFar& so_far) {
   if (so_far.todo.empty()) return {};
-  std::vector<Recipe> recipes;
-  for (const std::size_t i : so_far.todo) recipes.push_back(crowd[i]);
+  std::vector<CastFace> faces;
+  for (const std::size_t i : so_far.todo) faces.push_back(crowd[i]);
   const CrowdRenders* renders = pictures.wanted() ? &pictures.get().renders() : nullptr;
-  BuiltFaces built = face_stages.get().build(directory, renders, ledger, recipes);
-  for (std::size_t f = 0; f < recipes.size(); ++f) {
+  BuiltFaces built = face_stages.get().build(directory, renders, ledger, faces);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
     so_far.files[so_far.todo[f]] = std::move(built.files[f]);
   }
   return built.busy;
@@ -256,7 +257,7 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, const CastJ
                     const GenerateOptions& options, Purpose purpose, LazyStages& face_stages,
                     StageSeconds& stages) {
   const Prepared& prepared = cast_job.prepared;
-  const std::vector<Recipe>& crowd = cast_job.cast.crowd;
+  const std::vector<CastFace>& crowd = cast_job.cast.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard), directory.ledgers());
   const auto write = [&](const fs::path& path, std::string_view bytes) {
     ledger.write(directory.relative(path), bytes);

@@ -28,10 +28,10 @@ bool skin_is_judged(const Job& job) {
           job.inputs.faces.topology.face_count() <= kMostFaces);
 }
 
-std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<Recipe>& crowd) {
+std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<CastFace>& crowd) {
   if (!skin_is_judged(job)) return nullptr;
   std::set<Index> targets;
-  for (const Recipe& recipe : crowd) targets.insert(recipe.target);
+  for (const CastFace& face : crowd) targets.insert(face.recipe.target);
   return std::make_unique<SkinCheck>(check_against(job, targets));
 }
 
@@ -52,7 +52,7 @@ MeshDefects mesh_defects(const Job& job, const Prepared& prepared) {
   };
 }
 
-std::vector<std::string> judge_meshes(const Job& job, const std::vector<Recipe>& crowd,
+std::vector<std::string> judge_meshes(const Job& job, const std::vector<CastFace>& crowd,
                                       const std::vector<FaceFiles>& files) {
   const BelievabilityOptions& limits = job.config.believability;
   std::vector<std::string> beyond;

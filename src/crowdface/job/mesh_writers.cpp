@@ -46,15 +46,15 @@ std::size_t normals_bytes(const Topology& topology) {
 }  // namespace
 
 MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
-                         std::vector<MeshFormat> formats, std::span<const Recipe> crowd)
+                         std::vector<MeshFormat> formats, std::span<const CastFace> crowd)
     : inputs_(inputs), formats_(std::move(formats)) {
   const FaceSet& faces = inputs.faces;
   bool need_normals = false;
-  for (const Recipe& recipe : crowd) {
-    need_normals = need_normals || needs_normals(recipe.target);
-    if (!has(MeshFormat::kObj) || obj_.contains(recipe.target)) continue;
-    const ObjFile& file = inputs.files[static_cast<std::size_t>(recipe.target)];
-    obj_.emplace(recipe.target, ObjTemplate(file, faces.topology));
+  for (const CastFace& face : crowd) {
+    need_normals = need_normals || needs_normals(face.recipe.target);
+    if (!has(MeshFormat::kObj) || obj_.contains(face.recipe.target)) continue;
+    const ObjFile& file = inputs.files[static_cast<std::size_t>(face.recipe.target)];
+    obj_.emplace(face.recipe.target, ObjTemplate(file, faces.topology));
   }
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
@@ -76,23 +76,23 @@ bool MeshWriters::needs_normals(Index target) const {
   return has(MeshFormat::kGlb) || (has(MeshFormat::kPly) && had_normals(target));
 }
 
-std::vector<EncodedMesh> MeshWriters::encode(const Recipe& recipe,
+std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face,
                                              const Positions& positions) const {
-  const std::string& id = recipe.id;
+  const std::string& id = face.id;
   Positions normals;
-  if (needs_normals(recipe.target)) {
+  if (needs_normals(face.recipe.target)) {
     normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
   }
   std::vector<EncodedMesh> meshes;
   for (const MeshFormat format : formats_) {
     switch (format) {
       case MeshFormat::kObj:
-        meshes.push_back({format, obj_.at(recipe.target).encode(positions, id)});
+        meshes.push_back({format, obj_.at(face.recipe.target).encode(positions, id)});
         break;
       case MeshFormat::kPly:
         meshes.push_back(
             {format,
-             ply_->encode(positions, had_normals(recipe.target) ? normals : Positions(), id)});
+             ply_->encode(positions, had_normals(face.recipe.target) ? normals : Positions(), id)});
         break;
       case MeshFormat::kGlb:
         meshes.push_back({format, glb_->encode(positions, normals, id)});

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/core/hash.h"
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_template.h"
@@ -43,11 +43,11 @@ class MeshWriters {
   /// \param crowd   the recipes of all faces that are to be written.
   /// \throws InvalidInput if a format cannot hold such a mesh.
   MeshWriters(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
-              std::span<const Recipe> crowd);
+              std::span<const CastFace> crowd);
 
   /// The face in each of the formats, in their order; refers to this object.
   /// \throws InvalidInput if positions are not finite.
-  std::vector<EncodedMesh> encode(const Recipe& recipe, const Positions& positions) const;
+  std::vector<EncodedMesh> encode(const CastFace& face, const Positions& positions) const;
 
   /// What this object itself takes, and what the encoding of one face takes at most.
   std::size_t memory_bytes() const;

@@ -60,35 +60,35 @@ void CrowdPictures::write_founders(const std::vector<FamilyFounder>& founders,
   std::vector<Positions> built(1);
   for (const FamilyFounder& founder : founders) {
     throw_if_interrupted();
-    const Recipe* recipe = &founder.recipe;
+    const Recipe* recipe = &founder.face.recipe;
     builder.build({&recipe, 1}, built);
     write_file(directory_.founder_render(founder.family),
-               renders_.render_png(built[0], founder.recipe.target));
+               renders_.render_png(built[0], founder.face.recipe.target));
   }
 }
 
-void CrowdPictures::write_faces(const std::vector<Recipe>& crowd) const {
+void CrowdPictures::write_faces(const std::vector<CastFace>& crowd) const {
   renders_.make_folders(directory_);
   Progress progress("pictures", crowd.size());
   parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
     throw_if_interrupted();
-    const Recipe& recipe = crowd[static_cast<std::size_t>(i)];
-    renders_.write(directory_, recipe.id, recipe.target,
-                   read_face(directory_, recipe.id, job_.config.output.meshes,
+    const CastFace& face = crowd[static_cast<std::size_t>(i)];
+    renders_.write(directory_, face.id, face.recipe.target,
+                   read_face(directory_, face.id, job_.config.output.meshes,
                              job_.inputs.faces.topology.vertex_count));
     progress.step();
   });
 }
 
-std::size_t CrowdPictures::finish(const std::vector<Recipe>& crowd,
+std::size_t CrowdPictures::finish(const std::vector<CastFace>& crowd,
                                   const CrowdLikeness& likeness) const {
   std::vector<std::string> ids;
-  for (const Recipe& recipe : crowd) ids.push_back(recipe.id);
+  for (const CastFace& face : crowd) ids.push_back(face.id);
   write_file(directory_.likeness(), format_likeness(likeness, job_.names, ids));
   if (page_) {
     std::vector<std::string> lines;
-    for (const Recipe& recipe : crowd) {
-      lines.push_back(format_recipe(recipe, job_.names, job_.settings));
+    for (const CastFace& face : crowd) {
+      lines.push_back(format_recipe(face, job_.names, job_.settings));
     }
     write_gallery(directory_, job_, *page_, *gallery_, lines, likeness);
     log_info(concat("gallery: ", (directory_.gallery() / "index.html").string()));

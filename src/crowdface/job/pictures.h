@@ -25,11 +25,11 @@ class CrowdPictures {
   void write_heads() const;
   void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilder& builder) const;
   /// Each face again from its mesh.
-  void write_faces(const std::vector<Recipe>& crowd) const;
+  void write_faces(const std::vector<CastFace>& crowd) const;
 
   /// Sheets and gallery, from the pictures in the folder.
   /// \return how many pages of contact sheets.
-  std::size_t finish(const std::vector<Recipe>& crowd, const CrowdLikeness& likeness) const;
+  std::size_t finish(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
 
  private:
   const Job& job_;

@@ -82,10 +82,10 @@ LevelScale level_scale(const Job& job) {
   return level_scale(job.config, job.inputs);
 }
 
-std::string format_plan(const Job& job, const std::vector<Recipe>& crowd) {
+std::string format_plan(const Job& job, const std::vector<CastFace>& crowd) {
   std::string plan;
-  for (const Recipe& recipe : crowd) {
-    plan += format_recipe(recipe, job.names, job.settings);
+  for (const CastFace& face : crowd) {
+    plan += format_recipe(face, job.names, job.settings);
     plan += '\n';
   }
   return plan;

@@ -33,6 +33,6 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
 LevelScale level_scale(const Job& job);
 
 /// The plan as it stands in plan.jsonl.
-std::string format_plan(const Job& job, const std::vector<Recipe>& crowd);
+std::string format_plan(const Job& job, const std::vector<CastFace>& crowd);
 
 }  // namespace crowdface

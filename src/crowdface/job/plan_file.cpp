@@ -51,32 +51,32 @@ class LineReader {
     const Json json = parse_shallow_json(line);
     if (!json.is_object()) fail("line", "a JSON object", "something else");
     PlanLine result;
-    Recipe& recipe = result.recipe;
-    recipe.id = file_name(json, "id", kLongestId);
+    CastFace& face = result.face;
+    face.id = file_name(json, "id", kLongestId);
     if (const Json& index = member(json, "index"); !index.is_null()) {
-      recipe.index = whole(index, "index");
+      face.index = whole(index, "index");
     }
     if (const Json& family = member(json, "family"); !family.is_null()) {
-      recipe.family = file_name(json, "family", kLongestName);
+      face.family = file_name(json, "family", kLongestName);
     }
-    recipe.target = head(text(json, "target"), "target");
-    recipe.attempt = attempt(member(json, "attempt"));
+    face.recipe.target = head(text(json, "target"), "target");
+    face.notes.attempt = attempt(member(json, "attempt"));
     const Json& regions = member(json, "regions");
     if (!regions.is_object() || regions.size() != names_.regions.size()) {
       fail("regions", concat("an object of ", names_.regions.size(), " regions"), regions.dump());
     }
     for (const std::string& name : names_.regions) {
-      recipe.regions.push_back(region(member(regions, name), name));
+      face.recipe.regions.push_back(region(member(regions, name), name));
     }
-    if (const auto age = json.find("age"); age != json.end()) recipe.age = number(*age, "age");
+    if (const auto age = json.find("age"); age != json.end()) face.age = number(*age, "age");
     if (const auto inherits = json.find("inherits"); inherits != json.end()) {
       for (const std::string& name : names_.regions) {
-        recipe.inherits.push_back(text(*inherits, name));
+        face.inherits.push_back(text(*inherits, name));
       }
     }
-    if (json.contains("note")) recipe.note = text(json, "note");
+    if (json.contains("note")) face.notes.review = text(json, "note");
     if (const auto found = json.find("nearest"); found != json.end()) {
-      recipe.nearest = nearest(*found);
+      face.notes.nearest = nearest(*found);
     }
     result.settings = text(json, "settings");
     return result;
@@ -213,26 +213,26 @@ std::string csv_weights(const RegionRecipe& region, const PlanNames& names) {
 
 }  // namespace
 
-std::string format_recipe(const Recipe& recipe, const PlanNames& names, const Digest& settings) {
+std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings) {
   Json json;
-  json["id"] = recipe.id;
-  json["index"] = or_null(recipe.index);
-  json["family"] = or_null(recipe.family);
-  json["target"] = name_at(names.heads, recipe.target);
-  json["attempt"] = recipe.attempt;
-  if (recipe.age) json["age"] = *recipe.age;
-  if (!recipe.inherits.empty()) {
-    for (std::size_t k = 0; k < recipe.inherits.size(); ++k) {
-      json["inherits"][names.regions[k]] = recipe.inherits[k];
+  json["id"] = face.id;
+  json["index"] = or_null(face.index);
+  json["family"] = or_null(face.family);
+  json["target"] = name_at(names.heads, face.recipe.target);
+  json["attempt"] = face.notes.attempt;
+  if (face.age) json["age"] = *face.age;
+  if (!face.inherits.empty()) {
+    for (std::size_t k = 0; k < face.inherits.size(); ++k) {
+      json["inherits"][names.regions[k]] = face.inherits[k];
     }
   }
-  if (recipe.note) json["note"] = *recipe.note;
+  if (face.notes.review) json["note"] = *face.notes.review;
   json["regions"] = Json::object();
-  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    json["regions"][names.regions[k]] = region_to_json(recipe.regions[k], names);
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    json["regions"][names.regions[k]] = region_to_json(face.recipe.regions[k], names);
   }
-  if (recipe.nearest) {
-    const Nearest& nearest = *recipe.nearest;
+  if (face.notes.nearest) {
+    const Nearest& nearest = *face.notes.nearest;
     json["nearest"] = {{"face", name_at(names.heads, nearest.head)},
                        {"face_mm", rounded(nearest.head_mm)},
                        {"crowd", or_null(nearest.crowd)},
@@ -262,7 +262,7 @@ std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNam
   return plan;
 }
 
-std::string format_csv(const std::vector<Recipe>& crowd, const PlanNames& names) {
+std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& names) {
   std::vector<std::string> header = {"id", "index", "family", "target"};
   for (const std::string& region : names.regions) {
     for (const char* column :
@@ -275,11 +275,11 @@ std::string format_csv(const std::vector<Recipe>& crowd, const PlanNames& names)
     header.emplace_back(column);
   }
   std::string table = join(header, ",") + "\r\n";
-  for (const Recipe& recipe : crowd) {
-    std::vector<std::string> row = {csv_field(recipe.id), recipe.index ? concat(*recipe.index) : "",
-                                    csv_field(recipe.family.value_or("")),
-                                    csv_field(name_at(names.heads, recipe.target))};
-    for (const RegionRecipe& region : recipe.regions) {
+  for (const CastFace& face : crowd) {
+    std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
+                                    csv_field(face.family.value_or("")),
+                                    csv_field(name_at(names.heads, face.recipe.target))};
+    for (const RegionRecipe& region : face.recipe.regions) {
       row.push_back(region.position ? format_number(region.position->x()) : "");
       row.push_back(region.position ? format_number(region.position->y()) : "");
       row.push_back(csv_field(csv_weights(region, names)));
@@ -287,12 +287,12 @@ std::string format_csv(const std::vector<Recipe>& crowd, const PlanNames& names)
       row.push_back(concat(region.iterations));
       row.push_back(format_number(region.extrapolation));
     }
-    const bool near = recipe.nearest.has_value();
-    const bool near_crowd = near && recipe.nearest->crowd;
-    row.push_back(near ? csv_field(name_at(names.heads, recipe.nearest->head)) : "");
-    row.push_back(near ? format_number(rounded(recipe.nearest->head_mm)) : "");
-    row.push_back(near_crowd ? csv_field(*recipe.nearest->crowd) : "");
-    row.push_back(near_crowd ? format_number(rounded(recipe.nearest->crowd_mm)) : "");
+    const bool near = face.notes.nearest.has_value();
+    const bool near_crowd = near && face.notes.nearest->crowd;
+    row.push_back(near ? csv_field(name_at(names.heads, face.notes.nearest->head)) : "");
+    row.push_back(near ? format_number(rounded(face.notes.nearest->head_mm)) : "");
+    row.push_back(near_crowd ? csv_field(*face.notes.nearest->crowd) : "");
+    row.push_back(near_crowd ? format_number(rounded(face.notes.nearest->crowd_mm)) : "");
     table += join(row, ",") + "\r\n";
   }
   return table;

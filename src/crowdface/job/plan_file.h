@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/core/hash.h"
 
 namespace crowdface {
@@ -19,11 +19,11 @@ struct PlanNames {
 
 /// One line of plan.jsonl, without line end (docs/crowd-directory.md has the fields). Numbers have
 /// full precision, distances four decimals.
-std::string format_recipe(const Recipe& recipe, const PlanNames& names, const Digest& settings);
+std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings);
 
-/// A recipe as read, with the hash of the settings it was cast under.
+/// A face as read, with the hash of the settings it was cast under.
 struct PlanLine {
-  Recipe recipe;
+  CastFace face;
   std::string settings;
 };
 
@@ -36,6 +36,6 @@ std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNam
 
 /// The crowd as a flat table (RFC 4180) for spreadsheets: one line a face, a group of columns a
 /// region.
-std::string format_csv(const std::vector<Recipe>& crowd, const PlanNames& names);
+std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& names);
 
 }  // namespace crowdface

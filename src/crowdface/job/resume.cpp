@@ -22,7 +22,7 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const std::str
   fs::remove(directory.report(), ignored);
 }
 
-FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<Recipe>& crowd,
+FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
                            const Shard& shard) {
   FacesSoFar so_far;
   so_far.files.resize(crowd.size());
@@ -43,7 +43,7 @@ FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<Recipe>& 
   return so_far;
 }
 
-void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Recipe>& crowd,
+void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
                           const std::vector<std::size_t>& todo) {
   if (todo.empty()) return;
   constexpr std::size_t kNamed = 8;

@@ -21,11 +21,11 @@ struct FacesSoFar {
 };
 
 /// Asks the ledger, in parallel: every file is read once. \throws Interrupted.
-FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<Recipe>& crowd,
+FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
                            const Shard& shard);
 
 /// \throws MissingInput if there are faces to do, naming the first few.
-void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Recipe>& crowd,
+void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
                           const std::vector<std::size_t>& todo);
 
 /// Writes the arrays beside all faces, if a format needs them and they are not there.

@@ -66,7 +66,7 @@ Positions read_reference(const std::filesystem::path& file, Index vertices) {
 class CrowdSheets {
  public:
   CrowdSheets(const Job& job, const Config::ContactSheet& sheet, const CrowdDirectory& directory,
-              const CrowdRenders& renders, const std::vector<Recipe>& crowd,
+              const CrowdRenders& renders, const std::vector<CastFace>& crowd,
               const Likeness& likeness)
       : job_(job),
         sheet_(sheet),
@@ -103,7 +103,8 @@ class CrowdSheets {
   std::optional<Positions> compared_with(std::size_t face) const {
     switch (sheet_.compare.with) {
       case With::kTarget:
-        return job_.inputs.faces.heads[static_cast<std::size_t>(crowd_[face].target)].positions;
+        return job_.inputs.faces.heads[static_cast<std::size_t>(crowd_[face].recipe.target)]
+            .positions;
       case With::kNearest:
         if (likeness_.near[face].empty()) return std::nullopt;
         return mesh_of(likeness_.near[face].front().face);
@@ -276,7 +277,7 @@ class CrowdSheets {
   const Config::ContactSheet& sheet_;
   const CrowdDirectory& directory_;
   const CrowdRenders& renders_;
-  const std::vector<Recipe>& crowd_;
+  const std::vector<CastFace>& crowd_;
   const Likeness& likeness_;
   SheetPages pages_;
   Positions reference_;  ///< the one mesh that all are compared with, or empty
@@ -302,7 +303,7 @@ std::size_t sheet_pages(const Config::ContactSheet& sheet, std::size_t faces) {
   return (faces + per_page - 1) / per_page;
 }
 
-std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<Recipe>& crowd,
+std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,
                                      const Likeness& likeness) {
   if (order == SheetOrder::kLikeness) return likeness.order;
   std::vector<std::size_t> faces(crowd.size());
@@ -317,27 +318,27 @@ std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<Recipe>
   return faces;
 }
 
-std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<Recipe>& crowd,
+std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
                         std::size_t face, const Likeness& likeness,
                         const std::vector<std::string>& heads) {
-  const Recipe& recipe = crowd[face];
+  const CastFace& labelled = crowd[face];
   const auto line = [&](SheetLabel label) -> std::string {
     switch (label) {
       case SheetLabel::kId:
-        return recipe.id;
+        return labelled.id;
       case SheetLabel::kFamily:
-        return recipe.family ? concat("family ", *recipe.family) : std::string();
+        return labelled.family ? concat("family ", *labelled.family) : std::string();
       case SheetLabel::kTarget:
-        return concat("on ", heads[static_cast<std::size_t>(recipe.target)]);
+        return concat("on ", heads[static_cast<std::size_t>(labelled.recipe.target)]);
       case SheetLabel::kNearest: {
         if (likeness.near[face].empty()) return {};
         const Neighbour& near = likeness.near[face].front();
         return concat("near ", crowd[near.face].id, ", ", format_fixed(near.mm, 2), " mm");
       }
       case SheetLabel::kNearestHead:
-        if (!recipe.nearest) return {};
-        return concat("near ", heads[static_cast<std::size_t>(recipe.nearest->head)], ", ",
-                      format_fixed(recipe.nearest->head_mm, 2), " mm");
+        if (!labelled.notes.nearest) return {};
+        return concat("near ", heads[static_cast<std::size_t>(labelled.notes.nearest->head)], ", ",
+                      format_fixed(labelled.notes.nearest->head_mm, 2), " mm");
     }
     return {};
   };
@@ -361,17 +362,17 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
   }
 }
 
-void check_compared_crowd(const Job& job, const std::vector<Recipe>& crowd) {
+void check_compared_crowd(const Job& job, const std::vector<CastFace>& crowd) {
   const auto& sheet = job.config.output.contact_sheet;
   if (!sheet || sheet->compare.with != With::kFile) return;
   const std::filesystem::path& folder = sheet->compare.file;
   if (!std::filesystem::is_directory(folder)) return;
-  for (const Recipe& recipe : crowd) format_of_face({folder}, recipe.id);
+  for (const CastFace& face : crowd) format_of_face({folder}, face.id);
 }
 
 std::size_t write_sheets(const Job& job, const Config::ContactSheet& sheet,
                          const CrowdDirectory& directory, const CrowdRenders& renders,
-                         const std::vector<Recipe>& crowd, const Likeness& likeness) {
+                         const std::vector<CastFace>& crowd, const Likeness& likeness) {
   make_directories(directory.sheets());
   return CrowdSheets(job, sheet, directory, renders, crowd, likeness).write();
 }

@@ -15,14 +15,14 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
 
 /// \throws MissingInput if they are to be compared with those of a crowd that lacks one of them:
 /// better told before the faces are made than after.
-void check_compared_crowd(const Job& job, const std::vector<Recipe>& crowd);
+void check_compared_crowd(const Job& job, const std::vector<CastFace>& crowd);
 
 /// Writes the contact sheets of a crowd from the pictures in its folder: the faces, the heads, each
 /// family, an index; removes what an earlier run left over.
 /// \return  how many pages the faces take.
 std::size_t write_sheets(const Job& job, const Config::ContactSheet& sheet,
                          const CrowdDirectory& directory, const CrowdRenders& renders,
-                         const std::vector<Recipe>& crowd, const Likeness& likeness);
+                         const std::vector<CastFace>& crowd, const Likeness& likeness);
 
 /// Whether a page as the config wants it is not too large to be made.
 bool fits_on_a_page(const Config::ContactSheet& sheet);
@@ -31,11 +31,11 @@ bool fits_on_a_page(const Config::ContactSheet& sheet);
 std::size_t sheet_pages(const Config::ContactSheet& sheet, std::size_t faces);
 
 /// How the faces follow each other: indices into the crowd.
-std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<Recipe>& crowd,
+std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,
                                      const Likeness& likeness);
 
 /// What stands under a face, a line for each label.
-std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<Recipe>& crowd,
+std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
                         std::size_t face, const Likeness& likeness,
                         const std::vector<std::string>& heads);
 
