@@ -5,7 +5,8 @@
 # missing and exits with 69.
 #
 #   scripts/install_dependencies.sh          what building needs, and most tests
-#   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in
+#   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, and Doxygen
+#   scripts/install_dependencies.sh --docs   and what scripts/docs.sh needs
 #   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
 #   scripts/install_dependencies.sh --fuzz   and what scripts/fuzz.sh and scripts/bits.sh need
 set -euo pipefail
@@ -28,10 +29,11 @@ packages=(
 command -v npm >/dev/null || packages+=(nodejs npm)
 case "${1-}" in
   "") ;;
-  --test) packages+=(chromium) ;;
+  --test) packages+=(chromium doxygen) ;;
+  --docs) packages+=(doxygen) ;;
   --check) packages+=(clang-format clang-tidy) ;;
   --fuzz) packages+=(clang llvm-14 libclang-rt-14-dev) ;;
-  *) echo "usage: scripts/install_dependencies.sh [--test | --check | --fuzz]" >&2; exit 64 ;;
+  *) echo "usage: scripts/install_dependencies.sh [--test | --docs | --check | --fuzz]" >&2; exit 64 ;;
 esac
 
 cannot() {
