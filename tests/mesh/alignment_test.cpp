@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "support/expect_error.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
+
 #include "support/meshes.h"
 
 namespace crowdface {
@@ -49,9 +51,10 @@ TEST(FitSimilarity, IgnoresPointsWithoutWeight) {
 }
 
 TEST(FitSimilarity, RefusesUnequalLists) {
-  testing::expect_error(ExitCode::kBadData, {"5 and 4"}, [] {
-    fit_similarity(Positions::Zero(5, 3), Positions::Zero(4, 3), ScaleFit::kRigid);
-  });
+  EXPECT_THROW(fit_similarity(Positions::Zero(5, 3), Positions::Zero(4, 3), ScaleFit::kRigid),
+               BrokenPrecondition);
+  EXPECT_THROW(fit_similarity(Positions::Zero(2, 3), Positions::Zero(2, 3), ScaleFit::kRigid),
+               InvalidInput);
 }
 
 }  // namespace

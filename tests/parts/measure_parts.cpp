@@ -23,12 +23,12 @@
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/morph/band_masks.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/surface_point.h"
-#include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/fixed_order.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"

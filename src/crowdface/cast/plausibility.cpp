@@ -3,40 +3,12 @@
 
 #include <cmath>
 
+#include "crowdface/core/fixed_order.h"
+
 namespace crowdface {
 namespace {
 
 constexpr double kRidge = 0.1;  ///< of the mean variance along the heads' own directions
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/// L with L Lᵀ = A, for a symmetric positive matrix.
-std::vector<std::vector<double>> cholesky(std::vector<std::vector<double>> a) {
-  const std::size_t n = a.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
-    }
-  }
-  return a;
-}
-
-/// ‖L⁻¹ b‖².
-double solved_square(const std::vector<std::vector<double>>& lower, std::vector<double> b) {
-  double total = 0;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) b[i] -= lower[i][k] * b[k];
-    b[i] /= lower[i][i];
-    total += b[i] * b[i];
-  }
-  return total;
-}
 
 }  // namespace
 
@@ -56,18 +28,18 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
   double variance = 0;
   for (auto& head : metric.offsets) {
     for (std::size_t d = 0; d < head.size(); ++d) head[d] -= metric.mean[d];
-    variance += dot(head, head);
+    variance += fixed_dot(head, head);
   }
   const double freedom = std::max<double>(static_cast<double>(count) - 1, 1);
   metric.ridge = std::max(kRidge * variance / (freedom * freedom), 1e-12);
   std::vector<std::vector<double>> gram(count, std::vector<double>(count));
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
-      gram[a][b] = gram[b][a] = dot(metric.offsets[a], metric.offsets[b]);
+      gram[a][b] = gram[b][a] = fixed_dot(metric.offsets[a], metric.offsets[b]);
     }
     gram[a][a] += metric.ridge * freedom;
   }
-  metric.lower = cholesky(std::move(gram));
+  metric.lower = cholesky(std::move(gram), count);
   return metric;
 }
 
@@ -78,8 +50,10 @@ double Plausibility::squared(const Metric& metric, const Eigen::VectorXf& at) {
   for (std::size_t d = 0; d < z.size(); ++d) {
     z[d] = static_cast<double>(at[static_cast<Index>(d)]) - metric.mean[d];
   }
-  for (const auto& head : metric.offsets) along.push_back(dot(head, z));
-  return (dot(z, z) - solved_square(metric.lower, std::move(along))) / metric.ridge;
+  for (const auto& head : metric.offsets) along.push_back(fixed_dot(head, z));
+  const std::vector<double> solved =
+      solve_lower(metric.lower, std::move(along), metric.lower.size());
+  return (fixed_dot(z, z) - fixed_dot(solved, solved)) / metric.ridge;
 }
 
 Plausibility::Plausibility(const FaceSpace& space) {

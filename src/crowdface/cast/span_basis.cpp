@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "crowdface/core/fixed_order.h"
 #include "crowdface/core/parallel.h"
 
 namespace crowdface {
@@ -11,26 +12,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kLanes = 16;
 constexpr Index kRowsAtATime = 64;
 
 }  // namespace
-
-double fixed_dot(const float* a, const float* b, Index size) {
-  constexpr Index kChunk = 64 * kLanes;  // single precision within a chunk, double across them
-  double sum = 0;
-  for (Index begin = 0; begin < size; begin += kChunk) {
-    const Index end = begin + kChunk < size ? begin + kChunk : size;
-    float lanes[kLanes] = {};
-    Index i = begin;
-    for (; i + kLanes <= end; i += kLanes) {
-      for (Index l = 0; l < kLanes; ++l) lanes[l] += a[i + l] * b[i + l];
-    }
-    for (Index l = 0; i < end; ++i, ++l) lanes[l] += a[i] * b[i];
-    for (const float lane : lanes) sum += static_cast<double>(lane);
-  }
-  return sum;
-}
 
 SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
   const Index count = rows.rows(), size = rows.cols();

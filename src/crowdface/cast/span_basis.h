@@ -19,7 +19,4 @@ struct SpanBasis {
 /// same everywhere.
 SpanBasis span_basis(FloatRows rows, double tolerance, Eigen::Index most);
 
-/// Σ a_i b_i in an order that depends on nothing but the length.
-double fixed_dot(const float* a, const float* b, Eigen::Index size);
-
 }  // namespace crowdface

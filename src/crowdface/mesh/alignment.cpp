@@ -8,9 +8,27 @@
 #include <Eigen/SVD>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
+namespace {
+
+struct Turn {
+  Eigen::Matrix3d rotation;
+  double trace = 0;  ///< of Rᵀ M
+};
+
+Turn turn_from(const Eigen::Matrix3d& covariance) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs(1, 1, 1);
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs(2) = -1;
+  return {svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose(),
+          svd.singularValues().dot(signs)};
+}
+
+}  // namespace
 
 double Similarity::angle_degrees() const {
   // From the skew part as well as the trace: acos alone loses small angles.
@@ -34,19 +52,15 @@ Positions Similarity::apply(const Positions& positions) const {
 }
 
 Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1, 1, 1);
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs(2) = -1;
-  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  return turn_from(covariance).rotation;
 }
 
 Similarity fit_similarity(const Positions& from, const Positions& to, ScaleFit scale,
                           const Eigen::VectorXd& weights) {
-  if (from.rows() != to.rows() || from.rows() < 3 ||
-      (weights.size() != 0 && weights.size() != from.rows())) {
-    throw InvalidInput(concat("alignment needs two equal lists of at least 3 points, got ",
-                              from.rows(), " and ", to.rows()));
+  require(from.rows() == to.rows() && (weights.size() == 0 || weights.size() == from.rows()),
+          "alignment: ", from.rows(), " points onto ", to.rows(), ", ", weights.size(), " weights");
+  if (from.rows() < 3) {
+    throw InvalidInput(concat("expected at least 3 points to align, found ", from.rows()));
   }
   const auto weight = [&](Index i) { return weights.size() == 0 ? 1.0 : weights(i); };
   double total = 0;
@@ -66,15 +80,10 @@ Similarity fit_similarity(const Positions& from, const Positions& to, ScaleFit s
     covariance += weight(i) * b * a.transpose();
     variance += weight(i) * a.squaredNorm();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1, 1, 1);
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs(2) = -1;
+  const Turn turn = turn_from(covariance);
   Similarity fit;
-  fit.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  if (scale == ScaleFit::kUniform && variance > 0) {
-    fit.scale = svd.singularValues().dot(signs) / variance;
-  }
+  fit.rotation = turn.rotation;
+  if (scale == ScaleFit::kUniform && variance > 0) fit.scale = turn.trace / variance;
   fit.translation = to_mean - fit.scale * fit.rotation * from_mean;
   return fit;
 }

@@ -28,7 +28,7 @@ enum class ScaleFit { kRigid, kUniform };
 /// \param weights  #V, not negative; empty: all rows count the same.
 /// Source: Umeyama 1991, "Least-squares estimation of transformation parameters between two point
 /// patterns".
-/// \throws InvalidInput if the sizes differ or fewer than three rows are given.
+/// \throws BrokenPrecondition if the sizes differ; InvalidInput if fewer than three rows are given.
 Similarity fit_similarity(const Positions& from, const Positions& to, ScaleFit scale,
                           const Eigen::VectorXd& weights = {});
 

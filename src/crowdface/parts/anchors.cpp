@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/small_program.h"
 #include "crowdface/parts/some_of.h"
-#include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {

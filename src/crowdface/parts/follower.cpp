@@ -64,6 +64,63 @@ EyeSocket bind_eye(const FaceSet& faces, const FacesAround& around, const Part& 
   return {std::move(lids), std::move(maps), faces.heads};
 }
 
+/// What parts are bound to: the mean head and its skin.
+struct SkinOfMean {
+  const FaceSet& faces;
+  const FacesAround& around;
+  const HeadAxes& axes;
+  const Positions& mean;
+  std::vector<double> areas;            ///< a share of each vertex, #V
+  std::vector<std::uint32_t> vertices;  ///< of no part, in some face
+  PointGrid grid;                       ///< of those
+  double extent;                        ///< of the largest component
+};
+
+std::vector<std::uint32_t> skin_vertices(const PartList& parts, const FacesAround& around,
+                                         Index vertex_count) {
+  std::vector<bool> is_skin(static_cast<std::size_t>(vertex_count), true);
+  for (const Part& part : parts.parts) {
+    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
+  }
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
+    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
+  }
+  return skin;
+}
+
+/// The skin around a rigid part: reached farther for until there is enough, as a part that floats
+/// far from the skin follows what is nearest to it.
+Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
+  // How far skin is from a part need not be known better than the part's points lie apart.
+  const PointGrid rough_grid(skin.mean, some_of<std::uint32_t>(part.vertices, kMostRough));
+  Socket socket;
+  for (int tries = 0; tries < 8 && socket.vertices.size() < 12; ++tries, reach *= 2) {
+    socket = find_socket(skin.mean, rough_grid, skin.vertices, skin.areas, reach);
+  }
+  return socket;
+}
+
+RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& skin) {
+  RigidPart bound;
+  bound.vertices = part.vertices;
+  bound.ones.assign(part.vertices.size(), 1.0);
+  bound.eyeball = part.eyeball;
+  if (!part.eyeball) {
+    bound.socket = socket_of(part, kReach * skin.extent, skin);
+    bound.contact = Contact(skin.faces.topology, skin.around, skin.mean, skin.grid, skin.vertices,
+                            part.vertices, kContactReach * skin.extent, skin.faces.heads);
+    return bound;
+  }
+  const ComponentShape& ball = parts.shapes[part.ball];
+  const PointGrid grid(skin.mean, part.vertices);
+  bound.socket = socket_of(part, kEyeReach * ball.radius, skin);
+  bound.eye =
+      bind_eye(skin.faces, skin.around, part, ball, skin.axes, skin.mean,
+               find_lids(skin.mean, grid, ball.centre, ball.radius, skin.axes, skin.vertices));
+  return bound;
+}
+
 }  // namespace
 
 struct PartFollower::State {
@@ -84,24 +141,22 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
                            PartShape shape) {
   auto state =
       std::make_unique<State>(State{faces, FacesAround(faces.topology), shape, 0, {}, {}, {}, {}});
+  for (const ComponentShape& component : parts.shapes) {
+    state->extent = std::max(state->extent, component.extent);
+  }
   const Positions mean = mean_head(faces);
-  const FacesAround& around = state->around;
-  const std::vector<double> areas = vertex_areas(faces.topology, mean);
-  std::vector<bool> is_skin(static_cast<std::size_t>(faces.topology.vertex_count), true);
-  for (const Part& part : parts.parts) {
-    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
-  }
-  std::vector<std::uint32_t> skin, bound;
-  double extent = 0;
-  for (const ComponentShape& component : parts.shapes) extent = std::max(extent, component.extent);
-  state->extent = extent;
-  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
-    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
-  }
-  const PointGrid skin_grid(mean, skin);
-  const auto heads = static_cast<std::ptrdiff_t>(faces.heads.size());
+  const auto skin_rows = skin_vertices(parts, state->around, faces.topology.vertex_count);
+  const SkinOfMean skin{faces,
+                        state->around,
+                        axes,
+                        mean,
+                        vertex_areas(faces.topology, mean),
+                        skin_rows,
+                        PointGrid(mean, skin_rows),
+                        state->extent};
 
   std::vector<const Part*> rigid;
+  std::vector<std::uint32_t> bound;
   for (const Part& part : parts.parts) {
     if (part.part_class == PartClass::kBound) {
       bound.insert(bound.end(), part.vertices.begin(), part.vertices.end());
@@ -109,40 +164,21 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
       rigid.push_back(&part);
     }
   }
-  state->rigid.resize(rigid.size());
-  const auto bind = [&](std::ptrdiff_t p) {
-    const Part& part = *rigid[static_cast<std::size_t>(p)];
-    RigidPart& bound_part = state->rigid[static_cast<std::size_t>(p)];
-    bound_part.vertices = part.vertices;
-    bound_part.ones.assign(part.vertices.size(), 1.0);
-    const PointGrid grid(mean, part.vertices);
-    const ComponentShape& ball = parts.shapes[part.ball];
-    // How far skin is from a part need not be known better than the part's points lie apart.
-    const PointGrid rough_grid(mean, some_of<std::uint32_t>(part.vertices, kMostRough));
-    // A part that floats far from the skin follows what is nearest to it.
-    double reach = part.eyeball ? kEyeReach * ball.radius : kReach * extent;
-    for (int tries = 0; tries < 8 && bound_part.socket.vertices.size() < 12; ++tries, reach *= 2) {
-      bound_part.socket = find_socket(mean, rough_grid, skin, areas, reach);
-    }
-    if (part.eyeball) {
-      bound_part.eyeball = true;
-      bound_part.eye = bind_eye(faces, around, part, ball, axes, mean,
-                                find_lids(mean, grid, ball.centre, ball.radius, axes, skin));
-    } else {
-      bound_part.contact = Contact(faces.topology, around, mean, skin_grid, skin, part.vertices,
-                                   kContactReach * extent, faces.heads);
-    }
-  };
-  parallel_for_each(static_cast<std::ptrdiff_t>(rigid.size()), bind);
   std::sort(bound.begin(), bound.end());
+  state->rigid.resize(rigid.size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(rigid.size()), [&](std::ptrdiff_t p) {
+    const Part& part = *rigid[static_cast<std::size_t>(p)];
+    state->rigid[static_cast<std::size_t>(p)] = bind_rigid(part, parts, skin);
+  });
+
   std::vector<std::span<const std::uint32_t>> tying;
   for (const RigidPart& part : state->rigid) {
     if (!part.eyeball) tying.emplace_back(part.vertices);
   }
-  state->ties = Ties(mean, tying, bound, kTieReach * extent);
-  state->anchors = Anchors(faces.topology, around, mean, skin_grid, std::move(bound));
+  state->ties = Ties(mean, tying, bound, kTieReach * state->extent);
+  state->anchors = Anchors(faces.topology, state->around, mean, skin.grid, std::move(bound));
   state->places.resize(faces.heads.size());
-  parallel_for_each(heads, [&](std::ptrdiff_t h) {
+  parallel_for_each(static_cast<std::ptrdiff_t>(faces.heads.size()), [&](std::ptrdiff_t h) {
     const auto i = static_cast<std::size_t>(h);
     state->places[i] = state->anchors.places(faces.heads[i].positions);
   });

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

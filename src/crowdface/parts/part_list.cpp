@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "crowdface/core/interrupt.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/grouping.h"
-#include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "crowdface/core/fixed_order.h"
+
 namespace crowdface {
 namespace {
 
@@ -15,28 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDependent = 1e-12;
 
 double dot(const Vector& a, const Vector& b, std::size_t n) {
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/// Lower L with L Lᵀ = g.
-Matrix cholesky(const Matrix& g, std::size_t n) {
-  Matrix l{};
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      const double rest = g[i][j] - dot(l[i], l[j], j);
-      l[i][j] = i == j ? std::sqrt(rest) : rest / l[j][j];
-    }
-  }
-  return l;
-}
-
-/// L⁻¹ b.
-Vector forward(const Matrix& l, const Vector& b, std::size_t n) {
-  Vector x{};
-  for (std::size_t i = 0; i < n; ++i) x[i] = (b[i] - dot(l[i], x, i)) / l[i][i];
-  return x;
+  return fixed_dot({a.data(), n}, {b.data(), n});
 }
 
 /// L⁻ᵀ b.
@@ -65,7 +46,7 @@ struct Active {
       right[i] = dot(normals[i], a, n);
     }
     const Matrix l = cholesky(gram, count);
-    return backward(l, forward(l, right, count), count);
+    return backward(l, solve_lower(l, right, count), count);
   }
   void add(const Vector& normal, double force) {
     normals[count] = normal;
@@ -208,7 +189,7 @@ SmallProgram::Vector SmallProgram::solve(double tolerance) const {
   // In y = Lᵀ x the quadratic form is a plain distance, and normals are made of unit length.
   const Matrix l = cholesky(quadratic_, n);
   const Table table(bounds_, l, n);
-  Vector y = forward(l, linear_, n);
+  Vector y = solve_lower(l, linear_, n);
   std::vector<double> missing(bounds_.size());
   Active active;
   for (int step = 0; step < kMostSteps; ++step) {

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
-#include "crowdface/core/error.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/fixed_order.h"
+#include "crowdface/core/require.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -14,16 +15,6 @@ namespace {
 constexpr std::size_t kMostNodes = 48;
 /// The share of negative eigenvalues: what a mesh's own pattern, the checkerboard, has of a shape.
 constexpr double kNegativeWeight = 1e-2;
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-void subtract(double factor, const std::vector<double>& from, std::vector<double>& to) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] -= factor * from[i];
-}
 
 /// By squaring: std::pow differs between C libraries.
 double power(double base, std::uint64_t exponent) {
@@ -61,7 +52,7 @@ std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
 
 LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed)
     : max_level_(max_level) {
-  if (max_level == 0) throw InvalidInput("nodes of levels need a largest level of at least 1");
+  require(max_level > 0, "nodes of levels need a largest level of at least 1");
   // s = 1 − |λ| falls from 1 in equal ratios to where no level up to L_max sees it any more. The
   // amplitude of a face's shape grows with the wavelength, of which s is the inverse square.
   constexpr double kRatio = 1.1;
@@ -92,23 +83,22 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
   std::vector<Spectrum> left;  // what the nodes so far do not represent
   left.reserve(candidates.size());
   for (const std::uint64_t level : candidates) left.push_back(displacement(level));
-  const double enough = missed * missed * dot(left.back(), left.back());
+  const double enough = missed * missed * fixed_dot(left.back(), left.back());
   std::vector<std::uint64_t> chosen;
   while (chosen.size() < std::min(kMostNodes, candidates.size())) {
     std::size_t worst = 0;
     double most = -1;
     for (std::size_t i = 0; i < left.size(); ++i) {
-      const double length = dot(left[i], left[i]);
+      const double length = fixed_dot(left[i], left[i]);
       if (length > most) most = length, worst = i;
     }
     if (most <= enough) break;
     Spectrum direction = left[worst];
-    for (int twice = 0; twice < 2; ++twice) {  // the second time for rounding
-      for (const Spectrum& other : directions_) subtract(dot(direction, other), other, direction);
-    }
-    const double length = std::sqrt(dot(direction, direction));
-    for (double& value : direction) value /= length;
-    for (Spectrum& spectrum : left) subtract(dot(spectrum, direction), direction, spectrum);
+    orthonormalize(
+        direction, directions_.size(), [&](std::size_t m) { return std::span(directions_[m]); },
+        [](std::size_t, double) {});
+    for (Spectrum& spectrum : left)
+      subtract_scaled(fixed_dot(spectrum, direction), direction, spectrum);
     chosen.push_back(candidates[worst]);
     directions_.push_back(std::move(direction));
   }
@@ -119,15 +109,14 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
         std::lower_bound(levels_.begin(), levels_.end(), level) - levels_.begin()));
     const Spectrum node = displacement(level);
     std::vector<double> row;
-    for (std::size_t q = 0; q <= triangle_.size(); ++q) row.push_back(dot(node, directions_[q]));
+    for (std::size_t q = 0; q <= triangle_.size(); ++q)
+      row.push_back(fixed_dot(node, directions_[q]));
     triangle_.push_back(std::move(row));
   }
 }
 
 std::vector<double> LevelNodes::weights(std::uint64_t level) const {
-  if (level > max_level_) {
-    throw InvalidInput(concat("expected a level up to ", max_level_, ", found ", level));
-  }
+  require(level <= max_level_, "level ", level, " is above the largest, ", max_level_);
   std::vector<double> result(levels_.size(), 0.0);
   if (level == 0) return result;
   if (const auto node = std::lower_bound(levels_.begin(), levels_.end(), level);
@@ -140,7 +129,7 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   const Spectrum wanted = displacement(level);
   std::vector<double> share;
   share.reserve(directions_.size());
-  for (const Spectrum& direction : directions_) share.push_back(dot(wanted, direction));
+  for (const Spectrum& direction : directions_) share.push_back(fixed_dot(wanted, direction));
   for (std::size_t p = choice_.size(); p-- > 0;) {
     const double weight = share[p] / triangle_[p][p];
     for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangle_[p][q];

@@ -5,22 +5,15 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <span>
 
+#include "crowdface/core/fixed_order.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/smooth/level_size.h"
 #include "crowdface/smooth/symmetric_eigen.h"
 
 namespace crowdface {
 namespace {
-
-// Sums here are plain loops in a fixed order: Eigen's own products and dots depend on how they are
-// compiled, and the bits of meshes hang on these.
-
-double dot(const Eigen::MatrixXd& a, Index p, const Eigen::MatrixXd& b, Index q) {
-  double sum = 0;
-  for (Index i = 0; i < a.rows(); ++i) sum += a(i, p) * b(i, q);
-  return sum;
-}
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.rows(), b.cols());
@@ -32,20 +25,18 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return result;
 }
 
-/// The upper triangle T with functions = Q·T, Q orthonormal (Gram and Schmidt, twice for rounding).
+/// The upper triangle T with functions = Q·T, Q orthonormal.
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd functions) {
   const Index count = functions.cols();
+  const auto column = [&](Index n) {
+    return std::span(functions.col(n).data(), static_cast<std::size_t>(functions.rows()));
+  };
   Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(count, count);
   for (Index n = 0; n < count; ++n) {
-    for (int twice = 0; twice < 2; ++twice) {
-      for (Index m = 0; m < n; ++m) {
-        const double share = dot(functions, m, functions, n);
-        triangle(m, n) += share;
-        functions.col(n) -= share * functions.col(m);
-      }
-    }
-    triangle(n, n) = std::sqrt(dot(functions, n, functions, n));
-    functions.col(n) /= triangle(n, n);
+    triangle(n, n) = orthonormalize(
+        column(n), static_cast<std::size_t>(n),
+        [&](std::size_t m) { return column(static_cast<Index>(m)); },
+        [&](std::size_t m, double part) { triangle(static_cast<Index>(m), n) += part; });
   }
   return triangle;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/mesh/vector3.h"
+
 namespace crowdface {
 namespace {
 
@@ -11,15 +13,6 @@ using Vector = Eigen::Vector3d;
 
 Vector at(const Positions& positions, std::uint32_t vertex) {
   return positions.row(vertex).transpose();
-}
-
-double dot(const Vector& a, const Vector& b) {
-  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-          a.x() * b.y() - a.y() * b.x()};
 }
 
 /// Where triangle `t`, whose corners have these distances from the other's plane, meets the line
@@ -67,11 +60,11 @@ TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const P
   for (const Triangle& t : triangles) {
     const Vector u = at(target, t[1]) - at(target, t[0]);
     const Vector v = at(target, t[2]) - at(target, t[0]);
-    const Vector normal = cross(u, v);
-    if (!(dot(normal, normal) > kSliver * kSliver * dot(u, u) * dot(v, v))) continue;
-    const double length = std::sqrt(dot(u, u));
-    const double shift = dot(u, v) / length;
-    frames_.push_back({t, normal, length, shift, std::sqrt(dot(normal, normal)) / length});
+    const Vector normal = cross3(u, v);
+    if (!(dot3(normal, normal) > kSliver * kSliver * dot3(u, u) * dot3(v, v))) continue;
+    const double length = std::sqrt(dot3(u, u));
+    const double shift = dot3(u, v) / length;
+    frames_.push_back({t, normal, length, shift, std::sqrt(dot3(normal, normal)) / length});
   }
 }
 
@@ -84,15 +77,15 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const Vector origin = at(positions, frame.corners[0]);
     const Vector u = at(positions, frame.corners[1]) - origin;
     const Vector v = at(positions, frame.corners[2]) - origin;
-    const Vector normal = cross(u, v);
-    const bool turned = dot(normal, frame.normal) < 0;
+    const Vector normal = cross3(u, v);
+    const bool turned = dot3(normal, frame.normal) < 0;
     const bool collapsed =
-        dot(normal, normal) < kCollapsed * kCollapsed * dot(frame.normal, frame.normal);
+        dot3(normal, normal) < kCollapsed * kCollapsed * dot3(frame.normal, frame.normal);
     if (turned || collapsed) ++defects.flipped;
     // The largest singular value, squared, of the map from the frame: images of its two axes.
     const Vector x = u / frame.length;
     const Vector y = (v - frame.shift * x) / frame.height;
-    const double a = dot(x, x), b = dot(x, y), c = dot(y, y);
+    const double a = dot3(x, x), b = dot3(x, y), c = dot3(y, y);
     stretches.push_back(0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b));
   }
   defects.compared = static_cast<Index>(stretches.size());
@@ -111,17 +104,17 @@ bool triangles_intersect(const Positions& positions, const Triangle& a, const Tr
     p[c] = at(positions, a[c]);
     q[c] = at(positions, b[c]);
   }
-  const Vector n = cross(p[1] - p[0], p[2] - p[0]);
+  const Vector n = cross3(p[1] - p[0], p[2] - p[0]);
   std::array<double, 3> q_side;
-  for (std::size_t c = 0; c < 3; ++c) q_side[c] = dot(n, q[c] - p[0]);
+  for (std::size_t c = 0; c < 3; ++c) q_side[c] = dot3(n, q[c] - p[0]);
   if (std::min({q_side[0], q_side[1], q_side[2]}) >= 0) return false;
   if (std::max({q_side[0], q_side[1], q_side[2]}) <= 0) return false;
-  const Vector m = cross(q[1] - q[0], q[2] - q[0]);
+  const Vector m = cross3(q[1] - q[0], q[2] - q[0]);
   std::array<double, 3> p_side;
-  for (std::size_t c = 0; c < 3; ++c) p_side[c] = dot(m, p[c] - q[0]);
+  for (std::size_t c = 0; c < 3; ++c) p_side[c] = dot3(m, p[c] - q[0]);
   if (std::min({p_side[0], p_side[1], p_side[2]}) >= 0) return false;
   if (std::max({p_side[0], p_side[1], p_side[2]}) <= 0) return false;
-  const Vector line = cross(n, m);
+  const Vector line = cross3(n, m);
   int axis = 0;
   for (int c = 1; c < 3; ++c) {
     if (std::abs(line[c]) > std::abs(line[axis])) axis = c;
