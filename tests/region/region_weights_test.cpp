@@ -12,6 +12,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -182,7 +183,7 @@ TEST(RegionWeights, ChannelCountsAreChecked) {
   EXPECT_THAT(message_of(three(), {}, 2), HasSubstr("no image"));
   EXPECT_THAT(message_of(three(), {grey, MaskSource("extra.png", image_of(1, 1, 1, {1}))}, 1),
               AllOf(HasSubstr("extra.png"), HasSubstr("left over")));
-  EXPECT_THAT(message_of(three(), {grey}, 0), HasSubstr("at least one region"));
+  EXPECT_THROW(message_of(three(), {grey}, 0), BrokenPrecondition);
 }
 
 class MaskFiles : public testing::Test {

@@ -20,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFirstTile = 1001;
 constexpr const char* kBlanks = " \t\r";
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 

@@ -5,12 +5,22 @@
 #include <string>
 #include <system_error>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
 
 namespace fs = std::filesystem;
+
+int tile_number(double column, double row) {
+  if (!(column >= 0 && column < 10 && row >= 0 && row < 900)) {
+    throw InvalidInput(
+        concat("expected texture coordinates inside the UDIM tiles, u in [0, 10] and ",
+               "v in [0, 900], found the tile at column ", column, ", row ", row));
+  }
+  return kFirstTile + static_cast<int>(column) + 10 * static_cast<int>(row);
+}
 
 fs::path with_tile(const fs::path& path, int tile) {
   std::string text = path.string();

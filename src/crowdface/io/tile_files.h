@@ -7,6 +7,12 @@
 
 namespace crowdface {
 
+/// Textures beside each other, ten columns to a row, each of side 1 (UDIM): that at the origin.
+inline constexpr int kFirstTile = 1001;
+
+/// kFirstTile + column + 10 · row. \throws InvalidInput unless 0 ≤ column < 10 and 0 ≤ row < 900.
+int tile_number(double column, double row);
+
 /// Stands in a file's name for the number of a UDIM tile, four digits.
 constexpr std::string_view kTileWord = "<UDIM>";
 

@@ -16,7 +16,6 @@
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/tile_files.h"
-#include "crowdface/region/uv_samples.h"
 
 namespace crowdface {
 namespace {
@@ -79,24 +78,24 @@ class TextureShelf {
 };
 
 /// The number of the UDIM tile that a face lies in, told by its middle, so that corners on a border
-/// do no harm. 1001 for a face without coordinates or outside all tiles.
+/// do no harm. The first for a face without coordinates or outside all tiles.
 int tile_of(const FaceSet& faces, Index face) {
   const Topology& topology = faces.topology;
   Eigen::RowVector2d sum(0, 0);
   double corners = 0;
   const auto f = static_cast<std::size_t>(face);
   for (auto c = topology.face_offsets[f]; c < topology.face_offsets[f + 1]; ++c) {
-    if (topology.corner_uvs[c] == kNoIndex) return 1001;
+    if (topology.corner_uvs[c] == kNoIndex) return kFirstTile;
     sum += faces.uvs.row(topology.corner_uvs[c]);
     corners += 1;
   }
   const Eigen::RowVector2d middle = sum / corners;
-  if (!(middle.minCoeff() >= 0 && middle.x() < 10 && middle.y() < 900)) return 1001;
+  if (!(middle.minCoeff() >= 0 && middle.x() < 10 && middle.y() < 900)) return kFirstTile;
   return tile_number(std::floor(middle.x()), std::floor(middle.y()));
 }
 
 std::vector<int> tiles_of(const FaceSet& faces) {
-  std::vector<int> tiles(static_cast<std::size_t>(faces.topology.face_count()), 1001);
+  std::vector<int> tiles(static_cast<std::size_t>(faces.topology.face_count()), kFirstTile);
   if (faces.topology.corner_uvs.empty()) return tiles;
   for (std::size_t f = 0; f < tiles.size(); ++f) tiles[f] = tile_of(faces, static_cast<Index>(f));
   return tiles;

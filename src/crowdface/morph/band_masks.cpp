@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/tile_files.h"
 
 namespace crowdface {
 namespace {
@@ -112,7 +114,7 @@ class Tile {
 
 std::map<int, std::vector<std::uint8_t>> band_masks(const Mesh& neutral, const FaceHeights& heights,
                                                     int size) {
-  if (size < 1) throw InvalidInput(concat("expected a mask size of at least 1, found ", size));
+  require(size >= 1, "a mask of ", size, " pixels");
   if (heights.eyes <= heights.mouth) {
     throw InvalidInput(concat("expected eyes above the mouth, found eyes at ", heights.eyes,
                               " and the mouth at ", heights.mouth));
@@ -134,7 +136,7 @@ std::map<int, std::vector<std::uint8_t>> band_masks(const Mesh& neutral, const F
     middle /= static_cast<double>(at.size());
     const double column = std::floor(middle.x()), row = std::floor(middle.y());
     for (Vector2d& p : at) p = size * Vector2d(p.x() - column, 1 - (p.y() - row));
-    const int number = 1001 + static_cast<int>(column) + 10 * static_cast<int>(row);
+    const int number = tile_number(column, row);
     Tile& tile = tiles.try_emplace(number, size).first->second;
     for (std::size_t k = 2; k < at.size(); ++k) {
       tile.paint({at[0], at[k - 1], at[k]},

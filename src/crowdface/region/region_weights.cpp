@@ -10,13 +10,14 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/problems.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/tile_files.h"
 #include "crowdface/region/uv_samples.h"
 
 namespace crowdface {
 namespace {
 
-constexpr int kFirstTile = 1001;
 constexpr Index kBlock = 4096;
 
 struct LoadedTile {
@@ -27,14 +28,13 @@ struct LoadedTile {
 /// A mask with the tiles it needs in memory.
 struct LoadedMask {
   bool tiled = false;
-  std::map<int, LoadedTile> tiles;  ///< a single picture stands as tile 1001
+  std::map<int, LoadedTile> tiles;  ///< a single picture stands as kFirstTile
 
   std::size_t channels() const { return tiles.empty() ? 0 : tiles.begin()->second.channels.size(); }
   double at(const UvSample& sample, std::size_t channel) const {
     const LoadedTile& tile = tiles.at(tiled ? sample.tile : kFirstTile);
-    const int place = tiled ? sample.tile - kFirstTile : 0;
-    const int column = place % 10;
-    const int row = place / 10;
+    const int number = tiled ? sample.tile - kFirstTile : 0;
+    const int column = number % 10, row = number / 10;
     return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
 };
@@ -129,7 +129,7 @@ RegionWeights whole_head(const Topology& topology) {
 
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions) {
-  if (regions < 1) throw InvalidInput(concat("expected at least one region, found ", regions));
+  require(regions >= 1, "region: weights of ", regions, " regions");
   if (masks.empty() && regions == 1) return whole_head(topology);
   const bool tiled = std::any_of(masks.begin(), masks.end(), [](auto& m) { return m.tiled(); });
   const UvSamples samples = gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne);

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/tile_files.h"
 
 namespace crowdface {
 namespace {
-
-constexpr int kFirstTile = 1001;
 
 /// The mean of a face's texture coordinates, over the corners that have one.
 Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const TextureCoordinates& uvs) {
@@ -27,20 +27,6 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
 UvSample sample_at(const Eigen::RowVector2d& uv, const Eigen::RowVector2d& mean, Tiles tiles) {
   if (tiles == Tiles::kOne) return {kFirstTile, uv[0], uv[1]};
   return {tile_number(tile_step(uv[0], mean[0]), tile_step(uv[1], mean[1])), uv[0], uv[1]};
-}
-
-void check_rows(const Topology& topology, const TextureCoordinates& uvs) {
-  for (const std::uint32_t uv : topology.corner_uvs) {
-    if (uv != kNoIndex && uv >= static_cast<std::uint64_t>(uvs.rows())) {
-      throw InvalidInput(concat("a corner names texture coordinate ", std::uint64_t{uv} + 1,
-                                ", expected at most ", uvs.rows()));
-    }
-  }
-  for (Index i = 0; i < uvs.rows(); ++i) {
-    if (!uvs.row(i).allFinite()) {
-      throw InvalidInput(concat("texture coordinate ", i + 1, " is not finite"));
-    }
-  }
 }
 
 /// For each corner its sample; the samples of a vertex lie together, in the order of its corners.
@@ -91,17 +77,11 @@ double tile_step(double coordinate, double polygon_mean) {
   return whole == coordinate ? std::floor(polygon_mean) : whole;
 }
 
-int tile_number(double column, double row) {
-  if (!(column >= 0 && column < 10 && row >= 0 && row < 900)) {
-    throw InvalidInput(
-        concat("expected texture coordinates inside the UDIM tiles, u in [0, 10] and ",
-               "v in [0, 900], found the tile at column ", column, ", row ", row));
-  }
-  return kFirstTile + static_cast<int>(column) + 10 * static_cast<int>(row);
-}
-
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
-  check_rows(topology, uvs);
+  require(uvs.allFinite() &&
+              std::all_of(topology.corner_uvs.begin(), topology.corner_uvs.end(),
+                          [&](std::uint32_t uv) { return uv == kNoIndex || uv < uvs.rows(); }),
+          "region: texture coordinates that are not finite or not there");
   CornerSamples corners = samples_by_vertex(topology, uvs, tiles);
   check_every_used_vertex(topology, corners);
   UvSamples out;

@@ -40,16 +40,12 @@ struct UvSamples {
 /// its polygon's coordinates.
 double tile_step(double coordinate, double polygon_mean);
 
-/// The UDIM tile 1001 + column + 10 · row. \throws InvalidInput unless 0 ≤ column < 10 and
-/// 0 ≤ row < 900.
-int tile_number(double column, double row);
-
-/// One picture for all coordinates (every sample's tile is 1001), or UDIM tiles.
+/// One picture for all coordinates (every sample's tile is kFirstTile), or UDIM tiles.
 enum class Tiles { kOne, kUdim };
 
 /// The places of every vertex; a vertex in no face has none.
-/// \throws InvalidInput if a vertex of a face has no texture coordinate at any of its corners, a
-///         coordinate is not finite, or it lies outside all UDIM tiles (where there are tiles).
+/// \throws InvalidInput if a vertex of a face has no texture coordinate at any of its corners, or one
+///         outside all UDIM tiles (where there are tiles).
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles);
 
 /// The tiles that some sample lies in.
