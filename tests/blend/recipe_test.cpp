@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/expect_error.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -106,7 +106,7 @@ TEST(NormalizedWeights, NegativeInfiniteAndZeroSumAreRefused) {
                                                  {{0, 2}, {1, -1}},
                                                  {{0, std::nan("")}},
                                                  {{0, std::numeric_limits<double>::infinity()}}}) {
-    testing::expect_error(ExitCode::kBadData, {}, [&] { normalized_weights(bad); });
+    EXPECT_THROW(normalized_weights(bad), BrokenPrecondition);
   }
 }
 

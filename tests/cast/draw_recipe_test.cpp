@@ -9,10 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/core/require.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/smooth/level_size.h"
-
-#include "support/expect_error.h"
 
 namespace crowdface {
 namespace {
@@ -348,7 +347,7 @@ TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
   EXPECT_TRUE(same(crowd[1], draw_face(casting, 1)));
 
   casting.recipes[0].regions[0].weights = {{4, 0}};
-  testing::expect_error(ExitCode::kBadData, {}, [&] { draw_crowd(casting); });
+  EXPECT_THROW(draw_crowd(casting), BrokenPrecondition);
 }
 
 }  // namespace

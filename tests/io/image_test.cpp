@@ -11,6 +11,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -139,9 +140,9 @@ TEST_F(ImageFiles, PngInMemoryComesBackAndIsReproducible) {
 
 TEST_F(ImageFiles, PngEncodingRefusesWrongSizes) {
   const std::vector<std::uint8_t> twelve(12);
-  EXPECT_THROW(encode_png(2, 2, 4, twelve), InvalidInput);
-  EXPECT_THROW(encode_png(0, 2, 3, {}), InvalidInput);
-  EXPECT_THROW(encode_png(2, 1, 6, twelve), InvalidInput);
+  EXPECT_THROW(encode_png(2, 2, 4, twelve), BrokenPrecondition);
+  EXPECT_THROW(encode_png(0, 2, 3, {}), BrokenPrecondition);
+  EXPECT_THROW(encode_png(2, 1, 6, twelve), BrokenPrecondition);
 }
 
 TEST_F(ImageFiles, ContentDecidesNotTheName) {
@@ -248,7 +249,7 @@ TEST_F(ImageFiles, ExrReadsBackWithinHalfPrecisionAndHoldsNoTime) {
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     EXPECT_NEAR(image.pixels[i], pixels[i], 6e-4F * pixels[i]);
   }
-  EXPECT_THROW(encode_exr(2, 2, pixels), InvalidInput);
+  EXPECT_THROW(encode_exr(2, 2, pixels), BrokenPrecondition);
 }
 
 }  // namespace

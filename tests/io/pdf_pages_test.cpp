@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/io/image.h"
 
 namespace crowdface {
@@ -59,10 +59,10 @@ TEST(Pdf, HoldsThePicturesDataAsTheyAre) {
 }
 
 TEST(Pdf, RefusesWhatIsNoRgbPicture) {
-  EXPECT_THROW(encode_pdf({}), InvalidInput);
-  EXPECT_THROW(encode_pdf(std::vector{picture(8, 8, 4)}), InvalidInput);
-  EXPECT_THROW(encode_pdf(std::vector{picture(8, 8).substr(0, 50)}), InvalidInput);
-  EXPECT_THROW(encode_pdf(std::vector{std::string("no picture")}), InvalidInput);
+  EXPECT_THROW(encode_pdf({}), BrokenPrecondition);
+  EXPECT_THROW(encode_pdf(std::vector{picture(8, 8, 4)}), BrokenPrecondition);
+  EXPECT_THROW(encode_pdf(std::vector{picture(8, 8).substr(0, 50)}), BrokenPrecondition);
+  EXPECT_THROW(encode_pdf(std::vector{std::string("no picture")}), BrokenPrecondition);
 }
 
 }  // namespace

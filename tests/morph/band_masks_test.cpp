@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/require.h"
+
 #include "support/expect_error.h"
 #include "support/meshes.h"
 
@@ -55,7 +57,7 @@ TEST(BandMasks, WhereFacesShareAPlaceTheFirstCounts) {
 }
 
 TEST(BandMasks, WhatCannotBePaintedIsRefused) {
-  expect_error(ExitCode::kBadData, {"size"}, [] { band_masks(two_tiles(), {5, 3}, 0); });
+  EXPECT_THROW(band_masks(two_tiles(), {5, 3}, 0), BrokenPrecondition);
   expect_error(ExitCode::kBadData, {"eyes above the mouth"}, [] {
     band_masks(two_tiles(), {3, 3}, 8);
   });

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/mesh/normals.h"
 
 #include "support/meshes.h"
@@ -89,7 +89,7 @@ TEST(PackedFace, FrameLeavesAQuarterAroundTheHeads) {
   EXPECT_DOUBLE_EQ(frame.low.x(), -2);
   EXPECT_DOUBLE_EQ(frame.low.y(), -5);
   EXPECT_DOUBLE_EQ(frame.low.x() + 65535 * frame.step, 10);
-  EXPECT_THROW(PackingFrame::around({}), InvalidInput);
+  EXPECT_THROW(PackingFrame::around({}), BrokenPrecondition);
 }
 
 TEST(PackedFace, WhatLiesBeyondTheFrameIsMovedToItsRim) {
@@ -106,7 +106,7 @@ TEST(PackedFace, RefusesAnotherNumberOfVertices) {
   const ReducedMesh mesh = reduce_mesh(ball.topology, ball.positions, {}, 1000);
   EXPECT_THROW(pack_face(ball.topology, mesh, reduced_fans(ball.topology, mesh), {},
                          ball.positions.topRows(5)),
-               InvalidInput);
+               BrokenPrecondition);
 }
 
 TEST(Base64, GivesTheExamplesOfTheStandard) {

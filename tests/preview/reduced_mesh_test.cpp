@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 
 #include "support/meshes.h"
 
@@ -71,9 +71,9 @@ TEST(ReducedMesh, LeavesOutWhatIsNotDrawn) {
 }
 
 TEST(ReducedMesh, RefusesOtherSizes) {
-  EXPECT_THROW(reduce_mesh(grid_topology(3, 2), flat_grid(2, 2), {}, 9), InvalidInput);
+  EXPECT_THROW(reduce_mesh(grid_topology(3, 2), flat_grid(2, 2), {}, 9), BrokenPrecondition);
   EXPECT_THROW(reduce_mesh(grid_topology(3, 2), flat_grid(3, 2), std::vector<bool>(5), 9),
-               InvalidInput);
+               BrokenPrecondition);
 }
 
 }  // namespace

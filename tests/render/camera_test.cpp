@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 
 #include "render/shapes.h"
 
@@ -125,10 +126,10 @@ TEST(Camera, OneSinglePointIsNoTrouble) {
 }
 
 TEST(Camera, RefusesWhatItCannotSee) {
-  EXPECT_THROW(fit_camera({}, {}, View::kFront), InvalidInput);
+  EXPECT_THROW(fit_camera({}, {}, View::kFront), BrokenPrecondition);
   Positions point = Positions::Zero(1, 3);
   const Positions* heads[] = {&point};
-  EXPECT_THROW(fit_camera(heads, {{1, 1}, {1, -1}}, View::kFront), InvalidInput);
+  EXPECT_THROW(fit_camera(heads, {{1, 1}, {1, -1}}, View::kFront), BrokenPrecondition);
   point(0, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(fit_camera(heads, {}, View::kFront), InvalidInput);
 }

@@ -8,6 +8,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/render/text_label.h"
 
 namespace crowdface {
@@ -23,12 +24,12 @@ std::vector<SheetCell> red_cells(std::size_t count, int width = 60, int height =
   return cells;
 }
 
-/// Whether every pixel of the columns left and right of `from` to `to` is paper.
+/// Whether every pixel of the columns left and right of `from` to `to` is background.
 bool is_blank(const Rgb8Image& image, int from, int to, const LabelStyle& style) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = from; x < to; ++x) {
       for (std::size_t c = 0; c < 3; ++c) {
-        if (image.at(x, y)[c] != style.paper[c]) return false;
+        if (image.at(x, y)[c] != style.background[c]) return false;
       }
     }
   }
@@ -124,9 +125,9 @@ TEST(SheetLayout, HasAsManyRowsAsFitAndNoMore) {
 
 TEST(ContactSheet, RefusesWhatDoesNotFit) {
   auto cells = red_cells(4);
-  EXPECT_THROW(contact_sheet({}, {}), InvalidInput);
-  EXPECT_THROW(contact_sheet(cells, {.columns = 0}), InvalidInput);
-  EXPECT_THROW(contact_sheet(cells, {.columns = 1, .rows = 3}), InvalidInput);
+  EXPECT_THROW(contact_sheet({}, {}), BrokenPrecondition);
+  EXPECT_THROW(contact_sheet(cells, {.columns = 0}), BrokenPrecondition);
+  EXPECT_THROW(contact_sheet(cells, {.columns = 1, .rows = 3}), BrokenPrecondition);
   EXPECT_THROW(contact_sheet(cells, {.columns = 1'000'000}), InvalidInput);
   cells[2].image = Rgb8Image(61, 50);
   EXPECT_THROW(contact_sheet(cells, {}), InvalidInput);
@@ -181,7 +182,7 @@ TEST(SideBySide, PutsViewsInARow) {
   EXPECT_EQ(row.at(3, 1)[0], 9);
   const std::vector<Rgb8Image> unequal = {Rgb8Image(3, 2), Rgb8Image(3, 3)};
   EXPECT_THROW(side_by_side(unequal), InvalidInput);
-  EXPECT_THROW(side_by_side({}), InvalidInput);
+  EXPECT_THROW(side_by_side({}), BrokenPrecondition);
 }
 
 TEST(ContactSheet, LabelsOfSeveralLinesStandBelowEachOther) {
@@ -224,7 +225,7 @@ TEST(Shrunk, KeepsOneColourAndMixesTwoInLinearLight) {
     }
   }
   EXPECT_NEAR(shrunk(stripes, 20).at(7, 7)[1], 188, 1);  // half the light of white
-  EXPECT_THROW(shrunk(stripes, 41), InvalidInput);
+  EXPECT_THROW(shrunk(stripes, 41), BrokenPrecondition);
 }
 
 TEST(Padded, KeepsThePictureInItsCorner) {
@@ -232,7 +233,7 @@ TEST(Padded, KeepsThePictureInItsCorner) {
   EXPECT_EQ(sheet.width, 9);
   EXPECT_EQ(sheet.at(4, 3)[0], kRed[0]);
   EXPECT_NE(sheet.at(5, 3)[0], kRed[0]);
-  EXPECT_THROW(padded(Rgb8Image(5, 4, kRed), 4, 7), InvalidInput);
+  EXPECT_THROW(padded(Rgb8Image(5, 4, kRed), 4, 7), BrokenPrecondition);
 }
 
 }  // namespace

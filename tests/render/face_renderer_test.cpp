@@ -10,6 +10,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/render/shading.h"
 
 #include "render/shapes.h"
@@ -258,16 +259,16 @@ TEST(FaceRenderer, FacesWithoutAreaDoNoHarm) {
 TEST(FaceRenderer, RefusesWhatDoesNotFit) {
   const Mesh sphere = make_sphere(1);
   const Camera camera = camera_for(sphere.positions);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {.size_px = 0}), InvalidInput);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {.samples_per_side = 0}), InvalidInput);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {.occlusion_rays = -1}), InvalidInput);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {{SurfaceKind::kSkin}}), InvalidInput);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.size_px = 0}), BrokenPrecondition);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.samples_per_side = 0}), BrokenPrecondition);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.occlusion_rays = -1}), BrokenPrecondition);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {{SurfaceKind::kSkin}}), BrokenPrecondition);
   const FaceRenderer renderer(sphere.topology, {.size_px = 16});
-  EXPECT_THROW(renderer.render(sphere.positions.topRows(5), camera), InvalidInput);
+  EXPECT_THROW(renderer.render(sphere.positions.topRows(5), camera), BrokenPrecondition);
   const Positions five = sphere.positions.topRows(5);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {}, &five), InvalidInput);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {}, {}, &five), BrokenPrecondition);
   const VertexColours few = VertexColours::Zero(5, 3);
-  EXPECT_THROW(renderer.render(sphere.positions, camera, &few), InvalidInput);
+  EXPECT_THROW(renderer.render(sphere.positions, camera, &few), BrokenPrecondition);
   Positions broken = sphere.positions;
   broken(7, 1) = std::numeric_limits<double>::infinity();
   EXPECT_THROW(renderer.render(broken, camera), InvalidInput);

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/render/face_renderer.h"
 
 namespace crowdface {
@@ -76,7 +76,8 @@ TEST(FaceRenderer, TexturesColourTheFacesTheyCover) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(x, 32)[c], plain.at(x, 32)[c]) << x;
   }
   coat.of_face.pop_back();
-  EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &coat), InvalidInput);
+  EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &coat),
+               BrokenPrecondition);
 }
 
 }  // namespace

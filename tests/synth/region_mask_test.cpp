@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/synth/layout.h"
 #include "crowdface/synth/synthetic_head.h"
 
@@ -72,7 +72,7 @@ TEST(RegionMask, NoseIsMiddleMouthIsBottomForeheadIsTop) {
 }
 
 TEST(RegionMask, RefusesNoSize) {
-  EXPECT_THROW(synthetic_region_mask(0), InvalidInput);
+  EXPECT_THROW(synthetic_region_mask(0), BrokenPrecondition);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/synth/layout.h"
 
 namespace crowdface {
@@ -109,8 +109,8 @@ TEST(SyntheticHeads, SameSurfaceAtEveryResolution) {
 }
 
 TEST(SyntheticHeads, RefusesSizesOutOfRange) {
-  EXPECT_THROW(SyntheticHeads(4999), InvalidInput);
-  EXPECT_THROW(SyntheticHeads(1200001), InvalidInput);
+  EXPECT_THROW(SyntheticHeads(4999), BrokenPrecondition);
+  EXPECT_THROW(SyntheticHeads(1200001), BrokenPrecondition);
 }
 
 }  // namespace

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/core/error.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -64,14 +63,10 @@ std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Ind
 std::vector<SourceWeight> normalized_weights(std::vector<SourceWeight> weights) {
   double sum = 0;
   for (const SourceWeight& source : weights) {
-    if (!(source.weight >= 0) || !std::isfinite(source.weight)) {
-      throw InvalidInput(concat("expected weights of zero or more, found ", source.weight));
-    }
+    require(source.weight >= 0 && std::isfinite(source.weight), "a weight of ", source.weight);
     sum += source.weight;
   }
-  if (!(sum > 0) || !std::isfinite(sum)) {
-    throw InvalidInput(concat("expected weights with a positive, finite sum, found ", sum));
-  }
+  require(sum > 0 && std::isfinite(sum), "weights that sum to ", sum);
   std::erase_if(weights, [](const SourceWeight& source) { return source.weight == 0; });
   std::sort(weights.begin(), weights.end(),
             [](const auto& a, const auto& b) { return a.head < b.head; });

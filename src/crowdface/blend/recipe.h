@@ -46,7 +46,7 @@ std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Ind
                                      Normalization normalization, std::optional<int> max_sources);
 
 /// Hand-written weights, divided by their sum; zero weights are left out.
-/// \throws InvalidInput if one is negative or not finite, or if they sum to zero.
+/// \throws BrokenPrecondition if one is negative or not finite, or if they sum to zero.
 std::vector<SourceWeight> normalized_weights(std::vector<SourceWeight> weights);
 
 }  // namespace crowdface

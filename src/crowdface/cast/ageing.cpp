@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 
@@ -22,10 +22,7 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
 void apply_age(CastFace& face, double age, const SamplingOptions& sampling) {
   if (age == 0) return;
   const std::vector<Index>& heads = age > 0 ? sampling.old_heads : sampling.young_heads;
-  if (heads.empty()) {
-    throw InvalidInput(age > 0 ? "an age above 0 needs heads tagged old"
-                               : "an age below 0 needs heads tagged young");
-  }
+  require(!heads.empty(), "an age of ", age, " without heads of that age");
   std::vector<SourceWeight> along;
   for (const Index head : heads) along.push_back({head, 1 / static_cast<double>(heads.size())});
   for (RegionRecipe& region : face.recipe.regions) {

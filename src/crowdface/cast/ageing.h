@@ -10,7 +10,7 @@ namespace crowdface {
 /// does when it carries an older person's detail over to a younger one (Fig. 2): in every region a
 /// share |age| of the weights goes to those heads, evenly, and what was there keeps the rest. The
 /// weights no longer come from a position then, so there is none.
-/// \throws InvalidInput if no head is tagged so.
+/// \throws BrokenPrecondition if no head is tagged so.
 void apply_age(CastFace& face, double age, const SamplingOptions& sampling);
 
 /// (1 − t)·a + t·b, head by head.

@@ -14,7 +14,7 @@ namespace crowdface {
 /// and the nearest face that was there before it. Effort is bounded; what cannot be met ends in a
 /// shortfall, not in an exception.
 /// \param joined  called after each sampled face, if given.
-/// \throws InvalidInput if a hand-written recipe's weights cannot be normalised.
+/// \throws InvalidInput if a family or a review names a face that is not there.
 CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
                      const std::function<void()>& joined = {});
 

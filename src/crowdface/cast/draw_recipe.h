@@ -63,7 +63,7 @@ CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t at
 CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0);
 
 /// A hand-written recipe; what it leaves open is drawn under its own name.
-/// \throws InvalidInput if its weights cannot be normalised.
+/// \throws BrokenPrecondition if its weights cannot be normalised.
 CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand);
 
 }  // namespace crowdface

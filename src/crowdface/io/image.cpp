@@ -12,6 +12,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image_container.h"
 
@@ -154,6 +155,29 @@ void check_finite(const path& file, const Image& image) {
   }
 }
 
+void require_size(int width, int height, int channels, std::size_t values) {
+  require(width > 0 && height > 0 &&
+              values == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                            static_cast<std::size_t>(channels),
+          "an image of ", width, " x ", height, " pixels and ", channels, " channels from ", values,
+          " values");
+}
+
+/// \param format  the writer's name in OpenImageIO.
+std::string encode(const std::string& format, const OIIO::ImageSpec& spec,
+                   const OIIO::TypeDesc& type, const void* pixels) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  auto output = OIIO::ImageOutput::create(format);
+  if (!output) throw Error(ExitCode::kBug, concat("no writer of ", format, ": ", OIIO::geterror()));
+  output->set_ioproxy(&memory);
+  if (!output->open("memory." + format, spec) || !output->write_image(type, pixels) ||
+      !output->close()) {
+    throw Error(ExitCode::kBug, concat("encoding ", format, " failed: ", output->geterror()));
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
 }  // namespace
 
 Image read_image(const path& file, const ImageLimits& limits) {
@@ -174,48 +198,21 @@ Image read_image(const path& file, const ImageLimits& limits) {
 }
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
-  const bool sizes = width > 0 && height > 0 && channels > 0 && channels <= 4;
-  if (!sizes || pixels.size() != static_cast<std::size_t>(width) *
-                                     static_cast<std::size_t>(height) *
-                                     static_cast<std::size_t>(channels)) {
-    throw InvalidInput(concat("a PNG of ", width, " x ", height, " pixels and ", channels,
-                              " channels cannot hold ", pixels.size(), " values"));
-  }
+  require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
+  require_size(width, height, channels, pixels.size());
   OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
   spec.alpha_channel = channels % 2 == 0 ? channels - 1 : -1;
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  auto output = OIIO::ImageOutput::create("png");
-  if (!output) throw Error(ExitCode::kBug, concat("no PNG writer: ", OIIO::geterror()));
-  output->set_ioproxy(&memory);
-  if (!output->open("memory.png", spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close()) {
-    throw Error(ExitCode::kBug, concat("PNG encoding failed: ", output->geterror()));
-  }
-  return {bytes.begin(), bytes.end()};
+  return encode("png", spec, OIIO::TypeDesc::UINT8, pixels.data());
 }
 
 std::string encode_exr(int width, int height, std::span<const float> pixels) {
-  if (width <= 0 || height <= 0 ||
-      pixels.size() != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-    throw InvalidInput(concat("an EXR of ", width, " x ", height, " pixels cannot hold ",
-                              pixels.size(), " values"));
-  }
+  require_size(width, height, 3, pixels.size());
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::HALF);
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "linear");
   spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the time of writing
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  auto output = OIIO::ImageOutput::create("openexr");
-  if (!output) throw Error(ExitCode::kBug, concat("no EXR writer: ", OIIO::geterror()));
-  output->set_ioproxy(&memory);
-  if (!output->open("memory.exr", spec) ||
-      !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
-    throw Error(ExitCode::kBug, concat("EXR encoding failed: ", output->geterror()));
-  }
-  return {bytes.begin(), bytes.end()};
+  return encode("openexr", spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
 }  // namespace crowdface

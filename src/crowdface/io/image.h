@@ -45,12 +45,12 @@ Image read_image(const std::filesystem::path& path, const ImageLimits& limits = 
 /// An 8-bit PNG file in memory: the same bytes for the same pixels, no time stamp.
 /// \param channels  1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; alpha is not premultiplied.
 /// \param pixels    height · width · channels.
-/// \throws InvalidInput if sizes do not fit.
+/// \throws BrokenPrecondition if sizes do not fit.
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
 /// An OpenEXR file in memory: three channels of 16-bit floats, linear, no time stamp.
 /// \param pixels  height · width · 3.
-/// \throws InvalidInput if sizes do not fit.
+/// \throws BrokenPrecondition if sizes do not fit.
 std::string encode_exr(int width, int height, std::span<const float> pixels);
 
 }  // namespace crowdface

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -31,24 +31,26 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
 
 PackedPicture unwrap(const std::string& png) {
   constexpr std::size_t kSignature = 8, kChunkFrame = 12, kHeader = 13;
-  const auto fail = [] { throw InvalidInput("a PDF's page needs a whole PNG with 8-bit RGB"); };
+  const auto check = [](bool sound) {
+    require(sound, "a PDF's page needs a whole PNG of 8-bit RGB");
+  };
   PackedPicture picture;
   for (std::size_t at = kSignature; at + kChunkFrame <= png.size();) {
     const std::size_t length = big_endian(png, at);
-    if (length > png.size() - at - kChunkFrame) fail();
+    check(length <= png.size() - at - kChunkFrame);
     const std::string_view kind(png.data() + at + 4, 4);
     const std::size_t content = at + 8;
     if (kind == "IHDR" && length == kHeader) {
       picture.width = big_endian(png, content);
       picture.height = big_endian(png, content + 4);
       // Eight bits, RGB, no interlacing.
-      if (png[content + 8] != 8 || png[content + 9] != 2 || png[content + 12] != 0) fail();
+      check(png[content + 8] == 8 && png[content + 9] == 2 && png[content + 12] == 0);
     } else if (kind == "IDAT") {
       picture.data.append(png, content, length);
     }
     at = content + length + 4;
   }
-  if (picture.width == 0 || picture.height == 0 || picture.data.empty()) fail();
+  check(picture.width != 0 && picture.height != 0 && !picture.data.empty());
   return picture;
 }
 
@@ -99,7 +101,7 @@ void add_page(const PackedPicture& picture, std::size_t first_object, PdfWriter&
 }  // namespace
 
 std::string encode_pdf(std::span<const std::string> pngs) {
-  if (pngs.empty()) throw InvalidInput("a PDF needs at least one page");
+  require(!pngs.empty(), "a PDF without a page");
   constexpr std::size_t kFirst = 3, kObjectsAPage = 3;
   PdfWriter pdf;
   pdf.object("<< /Type /Catalog /Pages 2 0 R >>");

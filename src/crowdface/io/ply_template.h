@@ -23,7 +23,7 @@ class PlyTemplate {
   /// The file with these positions; refers to this object.
   /// \param normals  #V by 3, or no rows: the file has none.
   /// \param what     names the mesh in messages.
-  /// \throws InvalidInput if positions are not #V by 3 or not finite.
+  /// \throws InvalidInput if positions are not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals,
                      const std::string& what) const;
 

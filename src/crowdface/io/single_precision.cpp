@@ -6,6 +6,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
 
@@ -23,9 +24,8 @@ Positions read_singles(const char* bytes, Index rows, std::size_t stride) {
 }
 
 void require_finite(const Positions& positions, Index vertices, const std::string& what) {
-  if (positions.rows() != vertices) {
-    throw InvalidInput(concat(what, ": expected ", vertices, " positions, got ", positions.rows()));
-  }
+  require(positions.rows() == vertices, what, ": ", positions.rows(), " positions for ", vertices,
+          " vertices");
   constexpr Index kRowsPerBlock = 1 << 16;
   std::atomic<bool> finite = true;
   parallel_blocks(vertices, kRowsPerBlock, [&](Index begin, Index end) {

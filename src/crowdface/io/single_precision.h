@@ -21,7 +21,8 @@ inline float to_single(double value) {
 Positions read_singles(const char* bytes, Index rows, std::size_t stride);
 
 /// \param what  names the mesh in messages.
-/// \throws InvalidInput unless there are `vertices` rows and all are finite in single precision.
+/// \throws BrokenPrecondition unless there are `vertices` rows; InvalidInput unless all are finite in
+/// single precision.
 void require_finite(const Positions& positions, Index vertices, const std::string& what);
 
 }  // namespace crowdface

@@ -14,7 +14,7 @@ namespace crowdface {
 /// middle (eyes and nose), bottom (mouth and below), which add up to 255 and run softly into one
 /// another. Painted where the texture's faces lie and some way beyond their borders, black elsewhere; where
 /// faces share a place, the first one's height counts.
-/// \throws InvalidInput if size < 1, a face has no texture coordinates or eyes are not above mouth.
+/// \throws InvalidInput if a face has no texture coordinates or eyes are not above mouth.
 std::map<int, std::vector<std::uint8_t>> band_masks(const Mesh& neutral, const FaceHeights& heights,
                                                     int size);
 

@@ -6,8 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "crowdface/core/error.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -55,10 +54,7 @@ std::vector<PlanePoint> grid_layout(Index heads) {
 
 std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances) {
   const Index n = distances.rows();
-  if (distances.cols() != n) {
-    throw InvalidInput(concat("similarity layout needs a square matrix of distances, got ", n,
-                              " by ", distances.cols()));
-  }
+  require(distances.cols() == n, "similarity layout: ", n, " by ", distances.cols(), " distances");
   // Double centring: the Gram matrix of the points whose distances these are.
   const Eigen::MatrixXd squared = distances.array().square();
   const Eigen::VectorXd row_means = squared.rowwise().mean();
@@ -111,7 +107,7 @@ std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points) {
 
 PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick, double a,
                             double b) {
-  if (polygon.empty()) throw InvalidInput("a position needs a polygon with at least one corner");
+  require(!polygon.empty(), "a point in a polygon without corners");
   if (polygon.size() == 1) return polygon[0];
   if (polygon.size() == 2) return polygon[0] + a * (polygon[1] - polygon[0]);
   double total = 0;

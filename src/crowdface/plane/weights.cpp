@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 
 std::vector<double> inverse_square_weights(const std::vector<PlanePoint>& anchors,
                                            const PlanePoint& position) {
-  if (anchors.empty()) throw InvalidInput("weights need at least one anchor, got none");
+  require(!anchors.empty(), "weights: no anchor");
   std::vector<double> weights(anchors.size());
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const double dx = position.x() - anchors[i].x();

@@ -6,8 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "crowdface/core/error.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 #include "crowdface/mesh/normals.h"
 
 namespace crowdface {
@@ -46,7 +45,7 @@ PackingFrame PackingFrame::around(std::span<const Positions* const> heads) {
     box.extend(Eigen::Vector3d(head->colwise().minCoeff().transpose()));
     box.extend(Eigen::Vector3d(head->colwise().maxCoeff().transpose()));
   }
-  if (box.isEmpty()) throw InvalidInput("a frame for packed faces needs at least one vertex");
+  require(!box.isEmpty(), "a frame for packed faces of no vertex");
   const double half = std::max(0.75 * box.sizes().maxCoeff(), 1e-12);
   return {box.center() - Eigen::Vector3d::Constant(half), 2 * half / kSteps};
 }
@@ -75,10 +74,8 @@ ReducedFans reduced_fans(const Topology& topology, const ReducedMesh& mesh) {
 
 std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const ReducedFans& fans,
                       const PackingFrame& frame, const Positions& positions) {
-  if (positions.rows() != topology.vertex_count) {
-    throw InvalidInput(
-        concat("expected ", topology.vertex_count, " vertices to pack, found ", positions.rows()));
-  }
+  require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
+          topology.vertex_count, " vertices");
   std::string bytes;
   bytes.reserve(10 * mesh.vertices.size());
   for (const std::uint32_t vertex : mesh.vertices) {

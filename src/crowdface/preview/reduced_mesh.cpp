@@ -6,7 +6,7 @@
 #include <meshoptimizer.h>
 
 #include "crowdface/core/error.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -45,14 +45,10 @@ ReducedMesh compact(const std::vector<unsigned int>& triangles, std::size_t vert
 
 ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
                         const std::vector<bool>& drawn, std::size_t most_triangles) {
-  if (typical.rows() != topology.vertex_count) {
-    throw InvalidInput(
-        concat("expected ", topology.vertex_count, " vertices to reduce, found ", typical.rows()));
-  }
-  if (!drawn.empty() && static_cast<Index>(drawn.size()) != topology.face_count()) {
-    throw InvalidInput(
-        concat("expected ", topology.face_count(), " faces to reduce, found ", drawn.size()));
-  }
+  require(typical.rows() == topology.vertex_count, "reduce: ", typical.rows(), " positions, ",
+          topology.vertex_count, " vertices");
+  require(drawn.empty() || static_cast<Index>(drawn.size()) == topology.face_count(),
+          "reduce: ", drawn.size(), " marks, ", topology.face_count(), " faces");
   if (!typical.allFinite()) throw InvalidInput("a mesh to reduce needs finite positions");
   std::vector<unsigned int> triangles = triangles_of(topology, drawn);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);

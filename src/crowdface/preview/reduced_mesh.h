@@ -22,7 +22,7 @@ struct ReducedMesh {
 /// \param typical  #V by 3.
 /// \param drawn    one a face, or empty: all. Faces that are not drawn are left out.
 /// \return         no triangles if nothing is drawn.
-/// \throws InvalidInput if sizes do not fit or a position is not finite.
+/// \throws BrokenPrecondition if sizes do not fit, InvalidInput if a position is not finite.
 ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
                         const std::vector<bool>& drawn, std::size_t most_triangles);
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -31,10 +32,8 @@ double turn_degrees(View view) {
 }
 
 Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
-  if (frame.up.index == frame.front.index) {
-    throw InvalidInput(concat("up and front must be different axes, found up ", name_of(frame.up),
-                              " and front ", name_of(frame.front)));
-  }
+  require(frame.up.index != frame.front.index, "camera: up ", name_of(frame.up), ", front ",
+          name_of(frame.front));
   const double radians = std::numbers::pi / 180;
   Camera camera;
   camera.half_tangent = std::tan(options.field_of_view_degrees / 2 * radians);
@@ -109,7 +108,7 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
       along.add(point.dot(camera.up), z);
     }
   }
-  if (nearest < furthest) throw InvalidInput("a camera needs at least one vertex to look at");
+  require(nearest >= furthest, "camera: no vertex to look at");
   // The target lies half-way through the heads, so that half_extent() is about a head's size.
   const double middle = (nearest + furthest) / 2;
   camera.target =

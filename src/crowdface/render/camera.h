@@ -44,8 +44,8 @@ struct FramingOptions {
 /// The nearest camera that shows every vertex of every head, margin kept (but for what `cut_below`
 /// gives up): one for all faces of a set, so that their sizes compare.
 /// \param heads  at least one; each #V by 3 in the files' unit, with at least one vertex.
-/// \throws InvalidInput if there is no vertex, a coordinate is not finite, or up and front are one
-/// axis.
+/// \throws BrokenPrecondition if there is no vertex, or up and front are one axis; InvalidInput if a
+/// coordinate is not finite.
 Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
                   const FramingOptions& options = {});
 

@@ -9,6 +9,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/render/heat_colours.h"
 #include "crowdface/render/shading.h"
@@ -17,7 +18,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::array<std::uint8_t, 3> kPaper = {34, 35, 37};
+constexpr std::array<std::uint8_t, 3> kBackground = {34, 35, 37};
 constexpr int kLargestSide = 65500;
 constexpr std::int64_t kMostPixels = 500'000'000;
 
@@ -35,7 +36,7 @@ int lines_of(const std::string& label) {
 void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& layout, int cell) {
   const int line_height = layout.label_height / layout.label_lines;
   LabelStyle style;
-  style.paper = kPaper;
+  style.background = kBackground;
   style.text_px = std::max(9, line_height * 13 / 20);
   int top = layout.top(cell) + layout.cell_height;
   for (std::size_t begin = 0; begin <= label.size(); top += line_height) {
@@ -50,7 +51,7 @@ void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& l
 void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions& options) {
   const int inner = layout.width() - 2 * layout.margin;
   LabelStyle style;
-  style.paper = kPaper;
+  style.background = kBackground;
   style.text_px = layout.header_height * 2 / 5;
   style.align = TextAlign::kLeft;
   const int title_width = options.note.empty() ? inner : inner * 2 / 3;
@@ -104,18 +105,13 @@ bool is_small_enough(const SheetLayout& layout) {
 }  // namespace
 
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options) {
-  if (count == 0) throw InvalidInput("a contact sheet needs at least one picture");
-  if (options.columns < 1 || options.rows < 0) {
-    throw InvalidInput(concat("a contact sheet needs at least one column, found ", options.columns,
-                              " columns and ", options.rows, " rows"));
-  }
+  require(count > 0 && options.columns >= 1 && options.rows >= 0, "contact sheet: ", count,
+          " pictures in ", options.columns, " columns and ", options.rows, " rows");
   const auto columns = static_cast<std::size_t>(options.columns);
   const std::size_t rows =
       options.rows > 0 ? static_cast<std::size_t>(options.rows) : (count + columns - 1) / columns;
-  if (count > rows * columns) {
-    throw InvalidInput(concat("a contact sheet of ", columns, " x ", rows, " cells cannot hold ",
-                              count, " pictures"));
-  }
+  require(count <= rows * columns, "contact sheet: ", count, " pictures in ", columns, " x ", rows,
+          " cells");
   SheetOptions whole = options;
   whole.rows = static_cast<int>(std::min<std::size_t>(rows, kLargestSide));
   const SheetLayout layout = place_cells(cell, whole);
@@ -143,13 +139,13 @@ int most_rows(const CellSize& cell, const SheetOptions& options) {
 
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options) {
   const SheetLayout layout = layout_sheet(cells, options);
-  Rgb8Image sheet(layout.width(), layout.height(), kPaper);
+  Rgb8Image sheet(layout.width(), layout.height(), kBackground);
   if (!options.title.empty() || !options.note.empty()) draw_header(sheet, layout, options);
   if (options.legend) {
     const int width = std::min(layout.width() - 2 * layout.margin, 900);
     const int margin = layout.legend_height / 6;
     paste(heat_scale(options.legend->most_mm, options.legend->title, width,
-                     layout.legend_height - margin, kPaper),
+                     layout.legend_height - margin, kBackground),
           sheet, layout.margin, layout.height() - layout.margin - layout.legend_height + margin);
   }
   // Each cell is written by one task only.
@@ -163,10 +159,8 @@ Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& op
 }
 
 Rgb8Image shrunk(const Rgb8Image& image, int width_px) {
-  if (width_px < 1 || width_px > image.width) {
-    throw InvalidInput(concat("a picture of ", image.width, " pixels cannot be made ", width_px,
-                              " pixels wide by making it smaller"));
-  }
+  require(width_px >= 1 && width_px <= image.width, "shrink ", image.width, " pixels to ",
+          width_px);
   const int height_px =
       std::max(1, static_cast<int>(std::int64_t{image.height} * width_px / image.width));
   std::array<float, 256> linear{};
@@ -202,17 +196,15 @@ Rgb8Image shrunk(const Rgb8Image& image, int width_px) {
 }
 
 Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px) {
-  if (image.width > width_px || image.height > height_px) {
-    throw InvalidInput(concat("a picture of ", image.width, " x ", image.height,
-                              " pixels does not fit on ", width_px, " x ", height_px));
-  }
-  Rgb8Image sheet(width_px, height_px, kPaper);
+  require(image.width <= width_px && image.height <= height_px, "pad ", image.width, " x ",
+          image.height, " pixels to ", width_px, " x ", height_px);
+  Rgb8Image sheet(width_px, height_px, kBackground);
   paste(image, sheet, 0, 0);
   return sheet;
 }
 
 Rgb8Image side_by_side(std::span<const Rgb8Image> images) {
-  if (images.empty()) throw InvalidInput("there is no picture to put beside another");
+  require(!images.empty(), "no picture to put beside another");
   int width = 0;
   for (const Rgb8Image& image : images) {
     if (image.height != images[0].height) {

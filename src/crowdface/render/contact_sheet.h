@@ -54,8 +54,8 @@ struct CellSize {
   int label_lines = 1;
 };
 
-/// \throws InvalidInput if there is no cell, there are more of them than columns · rows, or the sheet
-/// would have more than 65,500 pixels a side or 5·10⁸ in all.
+/// \throws BrokenPrecondition if there is no cell, or there are more of them than columns · rows;
+///         InvalidInput if the sheet would have more than 65,500 pixels a side or 5·10⁸ in all.
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
 /// The same for these cells. \throws InvalidInput also if they differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
@@ -71,11 +71,11 @@ Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& op
 /// \param width_px  1 … image.width; the height follows.
 Rgb8Image shrunk(const Rgb8Image& image, int width_px);
 
-/// The picture on a larger sheet of the sheets' paper, in its upper left corner.
+/// The picture on a larger sheet of the sheets' background colour, in its upper left corner.
 Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px);
 
 /// Pictures of one height side by side: several views of one face in one cell.
-/// \throws InvalidInput if there is none or heights differ.
+/// \throws BrokenPrecondition if there is none; InvalidInput if heights differ.
 Rgb8Image side_by_side(std::span<const Rgb8Image> images);
 
 }  // namespace crowdface

@@ -11,9 +11,8 @@
 
 #include <Eigen/Geometry>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
@@ -123,10 +122,8 @@ void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, In
 }
 
 void check_size(const Topology& topology, const Positions& positions) {
-  if (positions.rows() != topology.vertex_count) {
-    throw InvalidInput(concat("expected ", topology.vertex_count, " vertices to render, found ",
-                              positions.rows()));
-  }
+  require(positions.rows() == topology.vertex_count, "render: ", positions.rows(), " positions, ",
+          topology.vertex_count, " vertices");
 }
 
 /// Whatever the camera: it turns a tree and makes it larger, but another tree is none the better.
@@ -138,18 +135,14 @@ std::vector<float> unscaled(const Positions& positions) {
 }
 
 void check(const Topology& topology, const RenderOptions& options, const Surfaces& surfaces) {
-  if (options.size_px < 1 || options.size_px > 16384) {
-    throw InvalidInput(concat("a render is 1 to 16384 pixels wide, found ", options.size_px));
-  }
-  if (options.samples_per_side < 1 || options.samples_per_side > 16 || options.occlusion_rays < 0 ||
-      options.occlusion_rays > 256) {
-    throw InvalidInput(concat("a render takes 1 to 16 samples a side and 0 to 256 occlusion rays, ",
-                              "found ", options.samples_per_side, " and ", options.occlusion_rays));
-  }
+  require(options.size_px >= 1 && options.size_px <= 16384, "render: ", options.size_px, " pixels");
+  require(options.samples_per_side >= 1 && options.samples_per_side <= 16 &&
+              options.occlusion_rays >= 0 && options.occlusion_rays <= 256,
+          "render: ", options.samples_per_side, " samples a side, ", options.occlusion_rays,
+          " occlusion rays");
   for (const std::size_t found : {surfaces.kinds.size(), surfaces.paints.size()}) {
-    if (found == 0 || static_cast<Index>(found) == topology.face_count()) continue;
-    throw InvalidInput(
-        concat("expected a surface for each of ", topology.face_count(), " faces, found ", found));
+    require(found == 0 || static_cast<Index>(found) == topology.face_count(), "render: ", found,
+            " surfaces, ", topology.face_count(), " faces");
   }
 }
 
@@ -189,14 +182,10 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                                const VertexColours* colours, const TextureCoat* coat) const {
   const Topology& topology = prepared_->topology;
   check_size(topology, positions);
-  if (colours != nullptr && colours->rows() != topology.vertex_count) {
-    throw InvalidInput(
-        concat("expected ", topology.vertex_count, " vertex colours, found ", colours->rows()));
-  }
-  if (coat != nullptr && static_cast<Index>(coat->of_face.size()) != topology.face_count()) {
-    throw InvalidInput(concat("expected a texture for each of ", topology.face_count(),
-                              " faces, found ", coat->of_face.size()));
-  }
+  require(colours == nullptr || colours->rows() == topology.vertex_count,
+          "render: colours of another number than vertices");
+  require(coat == nullptr || static_cast<Index>(coat->of_face.size()) == topology.face_count(),
+          "render: textures of another number than faces");
   std::vector<float> points = to_camera(positions, camera);
   const Eigen::Vector3f gaze = to_camera(camera, prepared_->options.front);
   std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, points, gaze);

@@ -29,7 +29,7 @@ class FaceRenderer {
   /// \param typical  #V by 3, how faces look about, and how they are wound. The ray tracer's tree is then built once for it
   ///                 and fitted to each face, which saves most of a large mesh's time; without it
   ///                 the tree is built for every face anew.
-  /// \throws InvalidInput if sizes or options make no sense.
+  /// \throws BrokenPrecondition if sizes or options make no sense.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
                         const Surfaces& surfaces = {}, const Positions* typical = nullptr);
   ~FaceRenderer();
@@ -40,7 +40,7 @@ class FaceRenderer {
   ///                   mirrored one is), it is turned.
   /// \param colours    #V by 3 instead of the surfaces' own, or nullptr.
   /// \param coat       textures for the faces they cover, or nullptr.
-  /// \throws InvalidInput if a size does not fit or a position is not finite.
+  /// \throws BrokenPrecondition if a size does not fit, InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
                    const VertexColours* colours = nullptr, const TextureCoat* coat = nullptr) const;
 

@@ -68,8 +68,8 @@ std::vector<double> scale_ticks(double most) {
 }
 
 Rgb8Image heat_scale(double most_mm, const std::string& title, int width_px, int height_px,
-                     std::array<std::uint8_t, 3> paper) {
-  Rgb8Image image(width_px, height_px, paper);
+                     std::array<std::uint8_t, 3> background) {
+  Rgb8Image image(width_px, height_px, background);
   const int left = width_px / 3;
   const int bar_width = width_px - left - std::max(24, width_px / 12);
   const int bar_height = std::max(6, height_px * 3 / 10);
@@ -81,7 +81,7 @@ Rgb8Image heat_scale(double most_mm, const std::string& title, int width_px, int
     }
   }
   LabelStyle style;
-  style.paper = paper;
+  style.background = background;
   style.text_px = std::max(10, height_px * 3 / 10);
   const std::vector<double> ticks = scale_ticks(most_mm);
   const int tick_width = bar_width / std::max(1, static_cast<int>(ticks.size()));

@@ -23,6 +23,6 @@ std::vector<double> scale_ticks(double most);
 /// The scale as a picture: a bar with its numbers under it and the title on its left.
 /// \throws MissingInput without the font.
 Rgb8Image heat_scale(double most_mm, const std::string& title, int width_px, int height_px,
-                     std::array<std::uint8_t, 3> paper);
+                     std::array<std::uint8_t, 3> background);
 
 }  // namespace crowdface

@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -97,10 +98,8 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
 RayScene::~RayScene() = default;
 
 void RayScene::move_points(std::vector<float> points) {
-  if (points.size() + 1 != state_->points.size()) {
-    throw InvalidInput(
-        concat("expected ", state_->points.size() / 3, " points, found ", points.size() / 3));
-  }
+  require(points.size() + 1 == state_->points.size(), "ray scene: ", points.size() / 3,
+          " points in place of ", state_->points.size() / 3);
   state_->points = std::move(points);
   state_->points.push_back(0);
   state_->commit_points();

@@ -56,7 +56,8 @@ const Studio& studio() {
 
 constexpr float kPi = 3.14159265358979F;
 
-/// Diffuse light with the terminator moved to a cosine of −wrap, total energy kept.
+/// Diffuse light with the terminator moved to a cosine of −wrap: the mean of a linear and a quadratic
+/// fall-off, in all five sixths of Lambert's light whatever the wrap.
 Light wrapped(float cosine, const Light& wrap) {
   const Light lit = ((cosine + wrap) / (1 + wrap)).max(0.0F);
   return lit * lit / (1 + wrap).square() * (1 + wrap) * 0.5F + lit / (1 + wrap) * 0.5F;

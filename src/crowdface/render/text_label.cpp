@@ -122,7 +122,7 @@ void draw(Rgb8Image& image, const FittedText& fitted, const LabelStyle& style, i
 }  // namespace
 
 Rgb8Image label_strip(std::string_view text, int width_px, int height_px, const LabelStyle& style) {
-  Rgb8Image image(width_px, height_px, style.paper);
+  Rgb8Image image(width_px, height_px, style.background);
   const int padding = std::min(4, width_px / 8);
   if (text.empty() || width_px < 8 || height_px < 6) return image;
   const FittedText fitted = fit(text, width_px - 2 * padding, height_px, style);

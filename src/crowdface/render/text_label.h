@@ -17,7 +17,7 @@ struct LabelStyle {
       9;  ///< not smaller than this: beyond, the middle of the text gives way to "..."
   TextAlign align = TextAlign::kCentre;
   std::array<std::uint8_t, 3> text = {214, 214, 216};
-  std::array<std::uint8_t, 3> paper = {34, 35, 37};
+  std::array<std::uint8_t, 3> background = {34, 35, 37};
 };
 
 /// A strip of width_px by height_px with one line of text, never cut off.

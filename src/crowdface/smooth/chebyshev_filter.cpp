@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -168,10 +167,8 @@ ChebyshevFilter::ChebyshevFilter(const SmoothingOperator& smoothing, const Posit
 
 template <class T>
 std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) const {
-  if (x.rows() != vertex_count() || x.cols() % 3 != 0) {
-    throw InvalidInput(concat("smoothing expects ", vertex_count(),
-                              " rows of coordinate triples, got ", x.rows(), " by ", x.cols()));
-  }
+  require(x.rows() == vertex_count() && x.cols() % 3 == 0, "smooth: ", x.rows(), " by ", x.cols(),
+          " coordinates of ", vertex_count(), " vertices");
   std::vector<Row<T>> rows(tiling_.order.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (Index c = 0; c < 3; ++c) {
@@ -242,10 +239,8 @@ std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Position
 
 Columns filter_each(const ChebyshevFilter& filter, const Columns& x,
                     const std::vector<ChebyshevSeries>& series) {
-  if (x.cols() != 3 * static_cast<Index>(series.size())) {
-    throw InvalidInput(concat("filtering ", series.size(), " heads expects ", 3 * series.size(),
-                              " columns, got ", x.cols()));
-  }
+  require(x.cols() == 3 * static_cast<Index>(series.size()), "smooth: ", x.cols(), " columns of ",
+          series.size(), " heads");
   std::vector<FilterInput<double>> inputs;
   for (std::size_t g = 0; g < series.size(); ++g) {
     inputs.push_back({filter.rows_of<double>(x, static_cast<Index>(g)), {series[g]}});

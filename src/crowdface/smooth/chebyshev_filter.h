@@ -64,14 +64,14 @@ class ChebyshevFilter {
 /// Several polynomials of one set of coordinates in one pass, in double precision:
 /// result[o] = Σ_k series[o][k] T_k(W) x.
 /// \param x  #V by 3.
-/// \throws InvalidInput if the row count is not the filter's.
+/// \throws BrokenPrecondition if the row count is not the filter's.
 std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
                                    std::vector<ChebyshevSeries> series);
 
 /// One polynomial for each head that stands in the columns: columns 3g, 3g + 1, 3g + 2 are filtered
 /// by series[g], all in one pass over the mesh.
 /// \param x  #V by 3·series.size()
-/// \throws InvalidInput if rows or columns are of another number.
+/// \throws BrokenPrecondition if rows or columns are of another number.
 Columns filter_each(const ChebyshevFilter& filter, const Columns& x,
                     const std::vector<ChebyshevSeries>& series);
 

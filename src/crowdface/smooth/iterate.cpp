@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/iterate.h"
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 
 Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::uint64_t level) {
-  if (values.rows() != smoothing.vertex_count()) {
-    throw InvalidInput(
-        concat("smoothing expects ", smoothing.vertex_count(), " rows, got ", values.rows()));
-  }
+  require(values.rows() == smoothing.vertex_count(), "smooth: ", values.rows(), " rows for ",
+          smoothing.vertex_count(), " vertices");
   // On purpose the plainest code: what the fast filter is compared with.
   Columns now = values, next(values.rows(), values.cols());
   for (std::uint64_t l = 0; l < level; ++l) {

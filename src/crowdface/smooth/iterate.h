@@ -11,7 +11,7 @@ namespace crowdface {
 /// `values` after `level` applications of the operator, one after the other (Eq. 1): the definition
 /// that the filter is held against. Costs `level` products.
 /// \param values  #V by C.
-/// \throws InvalidInput if the row count is not the operator's.
+/// \throws BrokenPrecondition if the row count is not the operator's.
 Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::uint64_t level);
 
 }  // namespace crowdface

@@ -26,7 +26,7 @@ class LevelNodes {
   const std::vector<std::uint64_t>& levels() const { return levels_; }
 
   /// w_p(L): exactly a unit vector at a node, exactly zero at L = 0.
-  /// \throws InvalidInput if level > max_level().
+  /// \throws BrokenPrecondition if level > max_level().
   std::vector<double> weights(std::uint64_t level) const;
 
  private:

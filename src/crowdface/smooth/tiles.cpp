@@ -5,9 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
@@ -171,10 +170,8 @@ class TileBuilder {
 Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& positions,
                       Index tile_rows, int ring_count) {
   const Index vertices = smoothing.vertex_count();
-  if (positions.rows() != vertices) {
-    throw InvalidInput(
-        concat("cutting into tiles expects ", vertices, " positions, got ", positions.rows()));
-  }
+  require(positions.rows() == vertices, "tiles: ", positions.rows(), " positions, ", vertices,
+          " vertices");
   Tiling tiling;
   tiling.ring_count = ring_count;
   if (vertices == 0) return tiling;

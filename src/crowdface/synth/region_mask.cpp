@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/core/error.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 #include "crowdface/synth/layout.h"
 #include "crowdface/synth/smooth_step.h"
 #include "crowdface/synth/synthetic_head.h"
@@ -19,7 +18,7 @@ std::uint8_t to_byte(double x) {
 }  // namespace
 
 std::vector<std::uint8_t> synthetic_region_mask(int size) {
-  if (size < 1) throw InvalidInput(concat("expected a mask size of at least 1, found ", size));
+  require(size >= 1, "a mask of ", size, " pixels");
   using synth::row_unit;
   using synth::strip_v;
   // Between brow and eye, and between nose and lips; half as far to either side.

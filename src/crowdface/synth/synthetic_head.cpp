@@ -4,9 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 #include "crowdface/synth/identity.h"
 #include "crowdface/synth/layout.h"
 #include "crowdface/synth/loose_parts.h"
@@ -31,10 +30,7 @@ struct SyntheticHeads::State {
 };
 
 SyntheticHeads::SyntheticHeads(Index vertices, Parts parts) : state_(std::make_unique<State>()) {
-  if (vertices < kFewest || vertices > kMost) {
-    throw InvalidInput(concat("expected ", kFewest, " to ", kMost,
-                              " vertices for synthetic heads, found ", vertices));
-  }
+  require(vertices >= kFewest && vertices <= kMost, "synthetic heads of ", vertices, " vertices");
   // The smallest layout, 5,000 vertices, has edges of 5 mm.
   const auto edge_of = [](Index count) {
     return 0.5 * std::sqrt(5000.0 / static_cast<double>(count));

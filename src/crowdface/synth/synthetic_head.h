@@ -20,7 +20,7 @@ class SyntheticHeads {
     kEyesAndTeeth,  ///< two eyeballs and two rows of teeth are components of their own
   };
   /// \param vertices  wanted number, 5,000 … 1,200,000; nearest the layout can give, within 10 %.
-  /// \throws InvalidInput outside that range.
+  /// \throws BrokenPrecondition outside that range.
   explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin);
   ~SyntheticHeads();
   SyntheticHeads(SyntheticHeads&&) noexcept;
@@ -51,7 +51,7 @@ class SyntheticHeads {
 /// A region mask that fits the heads' texture coordinates at every resolution: `size` × `size` × 3
 /// bytes, row by row, first row at v = 1; channels top (brows and above), middle (eyes and nose),
 /// bottom (mouth and below), which add up to 255 and run softly into one another.
-/// \throws InvalidInput if size < 1.
+/// \throws BrokenPrecondition if size < 1.
 std::vector<std::uint8_t> synthetic_region_mask(int size);
 
 }  // namespace crowdface

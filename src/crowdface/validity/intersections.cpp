@@ -88,7 +88,7 @@ std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
   rtcCollide(scene.get(), scene.get(), keep_pairs, &query);
   query.after.take();
   if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE) {
-    throw InvalidInput(concat("Embree failed with error ", static_cast<int>(error)));
+    throw Error(ExitCode::kBug, concat("Embree failed with error ", static_cast<int>(error)));
   }
   std::sort(query.found.begin(), query.found.end());
   query.found.erase(std::unique(query.found.begin(), query.found.end()), query.found.end());
