@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Bundles the gallery's page (gallery/, with three.js from npm) for the program of a preset. Silent
-# when nothing has changed since the last time; needs node and npm.
+# Fetches the packages of gallery/package.json, among them those that tests need, and bundles the gallery's
+# page (gallery/, with three.js) for the program of a preset. Silent when nothing has changed since the
+# last time; needs node and npm.
 #
 #   scripts/build_gallery.sh PRESET      into build/PRESET/share/crowdface/gallery
 set -euo pipefail
@@ -10,8 +11,11 @@ preset=${1:?"usage: scripts/build_gallery.sh PRESET"}
 work=build/gallery
 place=build/$preset/share/crowdface/gallery
 
+fetched() {
+  cmp -s gallery/package-lock.json "$work/package-lock.json" && [ -d "$work/node_modules/three" ]
+}
 state=$(cat gallery/package-lock.json gallery/build.mjs gallery/index.html gallery/src/* | cksum)
-[ -f "$place/gallery.js" ] && [ "$(cat "$place/.state" 2>/dev/null)" = "$state" ] && exit 0
+fetched && [ -f "$place/gallery.js" ] && [ "$(cat "$place/.state" 2>/dev/null)" = "$state" ] && exit 0
 command -v node >/dev/null && command -v npm >/dev/null || {
   echo "node and npm are needed for the gallery: apt-get install nodejs npm" >&2
   exit 69
@@ -19,7 +23,7 @@ command -v node >/dev/null && command -v npm >/dev/null || {
 
 mkdir -p "$work"
 log=$work/build.log
-if ! cmp -s gallery/package-lock.json "$work/package-lock.json" || [ ! -d "$work/node_modules/three" ]; then
+if ! fetched; then
   cp gallery/package.json gallery/package-lock.json "$work/"
   npm ci --silent --no-audit --no-fund --ignore-scripts --prefix "$work" >"$log" 2>&1 </dev/null || {
     rm -f "$work/package-lock.json"

@@ -1,34 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs the Khronos glTF validator on GLB files; an error or a warning fails. Installs the validator
-# (npm's gltf-validator) into build/gltf-validator when it is not there; needs node and npm.
+# Runs the Khronos glTF validator on GLB files; an error or a warning fails. The validator is one of the
+# packages of gallery/package.json, which scripts/build.sh fetches; where it is not there, exits with 69.
 #
 #   scripts/check_glb.sh FILE.glb …
-#   scripts/check_glb.sh --installed FILE.glb …   installs nothing; exits with 77 if there is none
 set -euo pipefail
-root=$(cd "$(dirname "$0")/.." && pwd)
-place=$root/build/gltf-validator
+modules=$(cd "$(dirname "$0")/.." && pwd)/build/gallery/node_modules
 
-install=yes
-if [ "${1-}" = --installed ]; then
-  install=no
-  shift
-fi
-[ $# -gt 0 ] || { echo "usage: scripts/check_glb.sh [--installed] FILE.glb …" >&2; exit 64; }
-if ! command -v node >/dev/null || [ ! -d "$place/node_modules/gltf-validator" ]; then
-  if [ $install = no ]; then
-    echo "no glTF validator: scripts/check_glb.sh FILE.glb installs it"
-    exit 77
-  fi
-  command -v node >/dev/null && command -v npm >/dev/null || {
-    echo "node and npm are needed: apt-get install nodejs npm" >&2
-    exit 69
-  }
-  mkdir -p "$place"
-  npm install --silent --no-audit --no-fund --prefix "$place" gltf-validator@2.0.0-dev.3.10 >&2
+[ $# -gt 0 ] || { echo "usage: scripts/check_glb.sh FILE.glb …" >&2; exit 64; }
+if ! command -v node >/dev/null || [ ! -d "$modules/gltf-validator" ]; then
+  echo "no glTF validator: scripts/build_gallery.sh fetches it, with npm from its registry" >&2
+  exit 69
 fi
 
-NODE_PATH=$place/node_modules node - "$@" <<'JS'
+NODE_PATH=$modules node - "$@" <<'JS'
 const validator = require('gltf-validator');
 const fs = require('fs');
 async function check(file) {

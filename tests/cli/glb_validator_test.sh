@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What the program writes as GLB passes the Khronos validator. Skipped (77) where that is not
-# installed; scripts/check_glb.sh installs it.
+# What the program writes as GLB passes the Khronos validator. Skipped (69) where npm could not
+# fetch that.
 #   glb_validator_test.sh PROGRAM ROOT
 set -euo pipefail
 program=$1 root=$2
@@ -15,4 +15,4 @@ faces: {directory: heads, units: cm}
 output: {directory: out, meshes: [glb], contact_sheet: none}
 YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
-"$root/scripts/check_glb.sh" --installed "$folder"/out/meshes/*.glb
+"$root/scripts/check_glb.sh" "$folder"/out/meshes/*.glb
