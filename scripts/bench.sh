@@ -9,12 +9,13 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install_dependencies.sh
-scripts/build.sh release
 if [ $# -gt 0 ]; then
-  subject=$1
+  program=crowdface_${1}_bench
   shift
-  exec "build/release/bin/crowdface_${subject}_bench" "$@"
+  scripts/build.sh release "$program"
+  exec "build/release/bin/$program" "$@"
 fi
+scripts/build.sh release benchmarks
 for program in build/release/bin/crowdface_*_bench; do
   echo "== $(basename "$program")"
   "$program"

@@ -14,27 +14,28 @@ else
 fi
 
 status=0
+sources=()
 for file in "${files[@]}"; do
-  [ -f "$file" ] || continue
-  line=1
   case "$file" in
-    *.h | *.cpp | *.h.in) ;;
-    *.sh | .ci/run) line=2 ;;
-    *) continue ;;
+    *.h | *.cpp | *.h.in | *.sh | .ci/run) [ ! -f "$file" ] || sources+=("$file") ;;
   esac
-  if [[ $(sed -n "${line}{p;q}" "$file") != *"SPDX-License-Identifier: Apache-2.0" ]]; then
-    echo "$file:$line: expected '// SPDX-License-Identifier: Apache-2.0'"
-    status=1
-  fi
 done
+awk '
+  FNR == (FILENAME ~ /(\.sh|run)$/ ? 2 : 1) {
+    if (!/SPDX-License-Identifier: Apache-2.0$/) {
+      print FILENAME ":" FNR ": expected // SPDX-License-Identifier: Apache-2.0"
+      wrong = 1
+    }
+    nextfile
+  }
+  END { exit wrong }' "${sources[@]}" || status=1
 
 # Written in pieces, so that this file does not match itself.
 places='(^|[^[:alnum:]_.~}$<>/-])/(home|root|User''s|work|mnt|srv|data)/[[:alnum:]]'
-for file in "${files[@]}"; do
-  [ -f "$file" ] || continue
-  if grep -HnIE "$places" "$file"; then
-    echo "$file: expected no absolute path of a machine"
-    status=1
-  fi
-done
+found=$(printf '%s\0' "${files[@]}" | xargs -0 grep -HnIE --no-messages "$places" || true)
+if [ -n "$found" ]; then
+  echo "expected no absolute path of a machine, found:"
+  echo "$found"
+  status=1
+fi
 exit $status
