@@ -5,10 +5,12 @@
 #   scripts/lint.sh                         clang-format and clang-tidy over everything
 #   scripts/lint.sh --format                only clang-format: seconds
 #   scripts/lint.sh --tidy [FILE.cpp …]     only clang-tidy, over everything or these files
-#   scripts/lint.sh --tidy --since COMMIT   clang-tidy over what changed since then
+#   scripts/lint.sh --tidy --since COMMIT   clang-tidy over what changed since then and as many other
+#                                           files as there is time for, at each commit from another on
 #
-# clang-tidy takes 5 to 30 seconds a file. TIDY_SECONDS=300 begins no further file after that time
-# and says how many are left.
+# clang-tidy takes 5 to 30 seconds a file; files that passed are not seen again until they, a header of
+# ours that they include or .clang-tidy change (build/lint/passed). TIDY_SECONDS=300 begins no further file
+# after that time and says how many were not seen.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -48,15 +50,59 @@ changed_since() {
   done | sort -u
 }
 
+# The files that --since names: the changed ones, then all others, from a place on that moves by the
+# number of files which a few minutes allow.
+by_turns() {
+  local others
+  changed_since "$1"
+  mapfile -t others < <(sources 'src/*.cpp' 'tests/*.cpp' | grep -vxF -f <(changed_since "$1") || true)
+  local start=$((40 * $(git rev-list --count HEAD) % (${#others[@]} + 1)))
+  printf '%s\n' "${others[@]:start}" "${others[@]:0:start}"
+}
+
+# "FILE KEY" a line: the key changes with the file, with the headers of ours that it includes, directly
+# or not, and with what clang-tidy checks.
+with_keys() {
+  local settings
+  settings=$(clang-tidy --version | cat - .clang-tidy CMakeLists.txt cmake/* | sha256sum)
+  {
+    sources 'src/*.h' 'src/*.cpp' 'tests/*.h' 'tests/*.cpp' | xargs sha256sum
+    sources 'src/*.h' 'src/*.cpp' 'tests/*.h' 'tests/*.cpp' | xargs grep -HE '^ *# *include *"'
+    printf '%s\n' "$@"
+  } | awk '
+    NF == 2 && length($1) == 64 { sum[$2] = $1; next }
+    /^[^ ]*: *# *include/ {
+      from = $0; sub(/:.*/, "", from)
+      to = $0; sub(/^[^"]*"/, "", to); sub(/".*/, "", to)
+      includes[from] = includes[from] " src/" to " tests/" to
+      next
+    }
+    function collect(file,   i, count, next_ones) {
+      if (file in seen || !(file in sum)) return
+      seen[file]
+      all = all sum[file]
+      count = split(includes[file], next_ones, " ")
+      for (i = 1; i <= count; ++i) collect(next_ones[i])
+    }
+    { delete seen; all = ""; collect($1); print $1, all }' |
+    while read -r file sums; do
+      echo "$file $(sha256sum <<<"$settings$file$sums" | cut -c 1-32)"
+    done
+}
+
+# tidy_one FILE KEY
 tidy_one() {
+  [ ! -f "build/lint/passed/$2" ] || return 0
   if [ -n "${TIDY_SECONDS-}" ] && [ "$(date +%s)" -ge "$((TIDY_START + TIDY_SECONDS))" ]; then
-    echo "$1" >>build/lint/left
+    echo "$1" >>build/lint/unseen
     return
   fi
   local said
   # The build's flags are for g++; clang does not know them all.
-  said=$(clang-tidy -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option "$1" 2>&1) &&
+  if said=$(clang-tidy -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option "$1" 2>&1); then
+    touch "build/lint/passed/$2"
     return
+  fi
   # Counts of what was suppressed in the libraries' headers are of no interest.
   grep -vE '^[0-9]+ warnings? generated' <<<"$said"
   return 1
@@ -65,7 +111,7 @@ tidy_one() {
 check_tidy() {
   local files
   if [ "${1-}" = --since ]; then
-    mapfile -t files < <(changed_since "${2:?--since needs a commit}")
+    mapfile -t files < <(by_turns "${2:?--since needs a commit}")
   elif [ $# -gt 0 ]; then
     files=("$@")
   else
@@ -73,13 +119,10 @@ check_tidy() {
   fi
   # tests/structure/consumer is a project of its own.
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -v -e '^$' -e '^tests/structure/')
-  if [ ${#files[@]} -eq 0 ]; then
-    echo "clang-tidy: nothing to check"
-    return
-  fi
-  mkdir -p build/lint
-  rm -f build/lint/left
-  cmake -G Ninja -B build/lint -DCMAKE_BUILD_TYPE=Release >build/lint/configure.log 2>&1 || {
+  mkdir -p build/lint/passed
+  : >build/lint/unseen
+  cmake -G Ninja -B build/lint -DCMAKE_BUILD_TYPE=Release -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+    >build/lint/configure.log 2>&1 || {
     cat build/lint/configure.log >&2
     return 1
   }
@@ -87,18 +130,17 @@ check_tidy() {
   TIDY_START=$(date +%s)
   export TIDY_START
   # shellcheck disable=SC2016
-  printf '%s\0' "${files[@]}" |
-    xargs -0 -n 1 -P "$(nproc)" bash -c 'tidy_one "$1"' tidy || return 1
-  local left=0
-  [ ! -f build/lint/left ] || left=$(wc -l <build/lint/left)
-  echo "clang-tidy: $((${#files[@]} - left)) files without a warning"
-  [ "$left" -eq 0 ] || echo "clang-tidy: no time for $left more; scripts/lint.sh --tidy checks all"
+  with_keys "${files[@]}" | xargs -n 2 -P "$(nproc)" bash -c 'tidy_one "$1" "$2"' tidy || return 1
+  local unseen
+  unseen=$(wc -l <build/lint/unseen)
+  echo "clang-tidy: $((${#files[@]} - unseen)) of ${#files[@]} files without a warning, $unseen not seen"
+  [ "$unseen" -eq 0 ] || echo "clang-tidy: those are in build/lint/unseen; scripts/lint.sh --tidy sees all"
 }
 
 case "${1-}" in
   "" | --format | --tidy) ;;
   *)
-    sed -n '5,8s/^#   //p' "$0" >&2
+    sed -n '5,9s/^#   //p' "$0" >&2
     exit 64
     ;;
 esac
