@@ -34,6 +34,7 @@ synth 3
 morph 3
 parts 3
 blend 4
+wrap 4
 cast 5
 job 6
 cli 7'

@@ -24,5 +24,6 @@ Run add_import(CLI::App& program);
 Run add_check(CLI::App& program);
 Run add_init(CLI::App& program);
 Run add_cache(CLI::App& program);
+Run add_wrap(CLI::App& program);
 
 }  // namespace crowdface::cli

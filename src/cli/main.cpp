@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
         crowdface::cli::add_plan, crowdface::cli::add_prepare, crowdface::cli::add_blend,
         crowdface::cli::add_smooth, crowdface::cli::add_gather, crowdface::cli::add_verify,
         crowdface::cli::add_sheet, crowdface::cli::add_synth, crowdface::cli::add_import,
-        crowdface::cli::add_cache}) {
+        crowdface::cli::add_cache, crowdface::cli::add_wrap}) {
     const std::size_t before = program.get_subcommands({}).size();
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(

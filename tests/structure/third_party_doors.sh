@@ -33,6 +33,6 @@ door 'embree' 'crowdface/render/[a-z_]*\.cpp' 'crowdface/validity/[a-z_]*\.cpp'
 door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'
 door 'yaml-cpp/' 'crowdface/job/[a-z_]*\.cpp'
 door 'nlohmann/' 'crowdface/job/shallow_json\.h' 'crowdface/job/[a-z_]*\.cpp' 'crowdface/io/[a-z_]*\.cpp' \
-  'crowdface/morph/[a-z_]*\.cpp'
+  'crowdface/morph/[a-z_]*\.cpp' 'crowdface/wrap/[a-z_]*\.cpp'
 door 'CLI/' 'cli/[a-z_]*\.(cpp|h)'
 exit $status

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/landmark_file.h"
+
+#include "crowdface/core/problems.h"
+#include "crowdface/core/text.h"
+#include "crowdface/job/config_values.h"
+#include "crowdface/job/yaml.h"
+
+namespace crowdface::cli {
+namespace {
+
+constexpr std::size_t kMost = 100;
+constexpr double kFarthest = 1e9;
+constexpr std::uint64_t kMostVertices = 0xfffffffe;
+
+std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Complaints& out) {
+  std::map<std::string, LandmarkFile::Place> places;
+  if (node == nullptr || node->kind == YamlNode::Kind::kNothing) return places;
+  if (node->kind != YamlNode::Kind::kMap) {
+    out.expected(*node, "a mapping of names to vertices, such as {chin: 966}");
+    return places;
+  }
+  if (node->entries.size() > kMost) {
+    out.about(*node, concat("expected at most ", kMost, " landmarks, found ",
+                            node->entries.size()));
+    return places;
+  }
+  for (const YamlEntry& entry : node->entries) {
+    LandmarkFile::Place place;
+    place.where = entry.value.place.text();
+    if (entry.value.kind == YamlNode::Kind::kList) {
+      if (entry.value.items.size() != 3) {
+        out.expected(entry.value, "a vertex number or [x, y, z]");
+        continue;
+      }
+      bool whole = true;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto number = read_number(entry.value.items[c], -kFarthest, kFarthest, out);
+        whole = whole && number;
+        place.point(static_cast<Index>(c)) = number.value_or(0);
+      }
+      if (!whole) continue;
+    } else {
+      const auto number = read_whole(entry.value, 0, kMostVertices, out);
+      if (!number) continue;
+      place.is_vertex = true;
+      place.vertex = *number;
+    }
+    places[entry.key] = place;
+  }
+  return places;
+}
+
+std::uint32_t vertex_of(const LandmarkFile::Place& place, Index count, const char* what) {
+  if (place.vertex >= static_cast<std::uint64_t>(count)) {
+    throw UsageError(concat(place.where, ": expected a vertex of the ", what, " from 0 to ",
+                            count - 1, ", found ", place.vertex));
+  }
+  return static_cast<std::uint32_t>(place.vertex);
+}
+
+std::uint32_t nearest_vertex(const Positions& positions, const Eigen::Vector3d& point) {
+  Index nearest = 0;
+  (positions.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  return static_cast<std::uint32_t>(nearest);
+}
+
+}  // namespace
+
+LandmarkFile read_landmarks(const std::filesystem::path& path) {
+  Complaints complaints;
+  LandmarkFile file;
+  const std::optional<YamlNode> root = read_yaml(path.string(), complaints);
+  if (root && root->kind != YamlNode::Kind::kMap) {
+    complaints.expected(*root, "a mapping of template and scan");
+  } else if (root) {
+    const MapReader map(&*root, {"template", "scan"}, complaints);
+    file.of_template = read_places(map.find("template"), complaints);
+    file.of_scan = read_places(map.find("scan"), complaints);
+  }
+  Problems problems;
+  complaints.tell(problems);
+  problems.throw_if_any();
+  return file;
+}
+
+std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file, const Positions& of_template,
+                                          const Scan& scan) {
+  std::vector<WrapLandmark> landmarks;
+  for (const auto& [name, place] : file.of_template) {
+    const auto on_scan = file.of_scan.find(name);
+    if (on_scan == file.of_scan.end()) continue;
+    WrapLandmark landmark;
+    landmark.name = name;
+    landmark.vertex = place.is_vertex ? vertex_of(place, of_template.rows(), "template")
+                                      : nearest_vertex(of_template, place.point);
+    landmark.place =
+        on_scan->second.is_vertex
+            ? scan.positions.row(vertex_of(on_scan->second, scan.positions.rows(), "scan"))
+                  .transpose()
+            : on_scan->second.point;
+    landmarks.push_back(landmark);
+  }
+  return landmarks;
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+#include "crowdface/wrap/scan.h"
+#include "crowdface/wrap/shape_fit.h"
+
+namespace crowdface::cli {
+
+/// Named places as a file of landmarks has them: numbers of vertices, from 0, or x y z.
+struct LandmarkFile {
+  struct Place {
+    bool is_vertex = false;
+    std::uint64_t vertex = 0;
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    std::string where;  ///< "file:line:column", for messages
+  };
+  std::map<std::string, Place> of_template, of_scan;
+};
+
+/// Reads a YAML file of `template: {chin: 966}` and `scan: {chin: [x, y, z]}`; either may lack, at most
+/// 100 names each.
+/// \throws UsageError, MissingInput naming every place that is wrong.
+LandmarkFile read_landmarks(const std::filesystem::path& path);
+
+/// The names that both have: rows of the template, places on the scan. A point given for the template
+/// stands for the vertex nearest to it.
+/// \throws UsageError if a vertex has no such number.
+std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file, const Positions& of_template,
+                                          const Scan& scan);
+
+}  // namespace crowdface::cli

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/bend_skin.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/parts/vector3.h"
+#include "crowdface/wrap/elastic_solve.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kLeastCosine = 0.5;        // normals within 60°
+constexpr double kLeastOpenness = 0.04;     // a vertex that sees less is inside
+constexpr double kOpennessOfSkin = 0.25;    // from here on the scan counts in full
+constexpr std::size_t kMostScanPoints = 30000;
+#include <cstdlib>
+namespace{double envd(const char*n,double d){const char*e=std::getenv(n);return e?std::atof(e):d;}}
+#define FLOOR envd("FLOOR",0.5)
+
+constexpr double kPrior = 1000;  ///< mm⁴: how the model's coefficients are held, against bending
+
+/// What one vertex, or one point of the scan, found.
+struct Pull {
+  bool found = false;
+  Eigen::Vector3d normal, offset;  ///< of the scan; from the skin to it
+  double weight = 0;
+};
+
+double robust(double distance, double spread) {
+  const double share = distance / spread;
+  const double root = 1 / (1 + share * share);
+  return root * root;
+}
+
+/// The distance that half of them stay below, times three.
+double spread_of(const std::vector<Pull>& pulls, double least) {
+  std::vector<double> distances;
+  for (const Pull& pull : pulls) {
+    if (pull.found) distances.push_back(std::abs(dot3(pull.normal, pull.offset)));
+  }
+  if (distances.empty()) return least;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return std::max(least, 4.5 * *middle);
+}
+
+/// Everything that stays the same while one skin is bent onto one scan.
+class Bending {
+ public:
+  Bending(const SkinMesh& skin, const Positions& base, const ShapeModel& model,
+          const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
+          const BendOptions& options)
+      : skin_(skin),
+        model_(model),
+        scan_(scan),
+        landmarks_(landmarks),
+        options_(options),
+        base_(base),
+        displacements_(Positions::Zero(base.rows(), 3)),
+        coefficients_(Eigen::VectorXd::Zero(static_cast<Index>(model.modes.size()))),
+        areas_(vertex_areas(skin.triangles, base)),
+        laplacian_(laplacian(skin.triangles, base)),
+        scan_areas_(vertex_areas(scan.scan().triangles, scan.scan().positions)),
+        skin_rim_(rim_vertices(skin.triangles, base.rows())) {
+    visible_.resize(skin.openness.size());
+    for (std::size_t v = 0; v < visible_.size(); ++v) {
+      visible_[v] = std::clamp(
+          (skin.openness[v] - kLeastOpenness) / (kOpennessOfSkin - kLeastOpenness), 0.0, 1.0);
+    }
+    choose_scan_points();
+  }
+
+  Positions run() {
+    const std::size_t rounds = options_.stiffness_mm.size();
+    for (std::size_t r = 0; r < rounds; ++r) {
+      const double share = rounds > 1 ? static_cast<double>(r) / static_cast<double>(rounds - 1) : 1;
+      run_round(options_.stiffness_mm[r],
+                options_.reach_first_mm *
+                    std::pow(options_.reach_last_mm / options_.reach_first_mm, share),
+                options_.landmarks_first +
+                    share * (options_.landmarks_last - options_.landmarks_first),
+                options_.tangential_first +
+                    share * (options_.tangential_last - options_.tangential_first));
+    }
+    return base_ + displacements_;
+  }
+
+ private:
+  void choose_scan_points() {
+    std::vector<std::uint32_t> inside;
+    std::vector<bool> used(static_cast<std::size_t>(scan_.scan().positions.rows()), false);
+    for (const Triangle& t : scan_.scan().triangles) {
+      for (const std::uint32_t v : t) used[v] = true;
+    }
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (used[v] && !scan_.rim()[v]) inside.push_back(v);
+    }
+    const std::size_t count = std::min(inside.size(), kMostScanPoints);
+    for (std::size_t i = 0; i < count; ++i) {
+      scan_points_.push_back(inside[i * inside.size() / count]);
+    }
+    scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / static_cast<double>(count);
+  }
+
+  void run_round(double length, double reach, double landmarks, double tangential) {
+    const double fourth = std::pow(length, 4);
+    Eigen::VectorXd factors(areas_.size()), typical(areas_.size());
+    for (Index v = 0; v < areas_.size(); ++v) {
+      const double seen = visible_[static_cast<std::size_t>(v)];
+      const double hidden = std::pow(std::max(length, options_.hidden_stiffness_mm), 4);
+      factors(v) = seen * fourth + (1 - seen) * hidden;
+      typical(v) = areas_(v) * (0.8 * seen + 1e-4);
+    }
+    const double for_landmarks = landmarks * length * length;
+    for (const WrapLandmark& landmark : landmarks_) typical(landmark.vertex) += for_landmarks;
+    const SparseMatrix stiffness = bending_energy(laplacian_, areas_, factors);
+    const ElasticSolver solver(stiffness, typical);
+    for (int i = 0; i < options_.steps; ++i) {
+      const Positions current = base_ + displacements_;
+      Wishes wishes(base_.rows());
+      ask_scan(current, reach, tangential, wishes);
+      if (options_.backward > 0) ask_skin(current, reach, tangential, wishes);
+      for (const WrapLandmark& landmark : landmarks_) {
+        wishes.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
+                   landmark.place - base_.row(landmark.vertex).transpose());
+      }
+      solver.solve(wishes, {}, displacements_);
+      take_up_model(stiffness);
+    }
+  }
+
+  /// What the scan nearest to each vertex asks of it.
+  void ask_scan(const Positions& current, double reach, double tangential,
+                Wishes& wishes) const {
+    const Positions normals = skin_normals(skin_, current);
+    std::vector<Pull> pulls(visible_.size());
+    parallel_blocks(current.rows(), 128, [&](auto begin, auto end) {
+      for (auto v = begin; v < end; ++v) {
+        Pull& pull = pulls[static_cast<std::size_t>(v)];
+        const double seen = visible_[static_cast<std::size_t>(v)];
+        if (seen == 0) continue;
+        const Eigen::Vector3d point = current.row(v).transpose();
+        const auto place = scan_.nearest(point, normals.row(v).transpose(), kLeastCosine, reach);
+        if (place.found) pull = {true, place.normal, place.point - point, areas_(v) * seen};
+      }
+    });
+    const double spread = spread_of(pulls, FLOOR * reach);
+    for (std::uint32_t v = 0; v < pulls.size(); ++v) {
+      const Pull& pull = pulls[v];
+      if (!pull.found) continue;
+      const double weight = pull.weight * robust(length3(pull.offset), spread);
+      wishes.add(v, pull.normal, weight * (1 - tangential), weight * tangential,
+                 pull.offset + displacements_.row(v).transpose());
+    }
+  }
+
+  /// What points of the scan ask of the skin nearest to them.
+  void ask_skin(const Positions& current, double reach, double tangential,
+                Wishes& wishes) const {
+    const SurfaceTree tree(current, skin_.triangles);
+    std::vector<Pull> pulls(scan_points_.size());
+    std::vector<SurfaceHit> hits(scan_points_.size());
+    parallel_blocks(static_cast<std::ptrdiff_t>(pulls.size()), 128, [&](auto begin, auto end) {
+      for (auto i = begin; i < end; ++i) {
+        const std::uint32_t s = scan_points_[static_cast<std::size_t>(i)];
+        const Eigen::Vector3d point = scan_.scan().positions.row(s).transpose();
+        const Eigen::Vector3d normal = scan_.normals().row(s).transpose();
+        SurfaceHit& hit = hits[static_cast<std::size_t>(i)];
+        hit = tree.nearest_facing(point, normal, kLeastCosine, reach);
+        if (hit.triangle == kNoIndex || at_rim(hit)) continue;
+        pulls[static_cast<std::size_t>(i)] = {true, normal, point - hit.point,
+                                              options_.backward * scan_weight_ * scan_areas_(s)};
+      }
+    });
+    const double spread = spread_of(pulls, FLOOR * reach);
+    for (std::size_t i = 0; i < pulls.size(); ++i) {
+      const Pull& pull = pulls[i];
+      if (!pull.found) continue;
+      const double weight = pull.weight * robust(length3(pull.offset), spread);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = skin_.triangles[hits[i].triangle][k];
+        const double share = weight * hits[i].shares[k] * visible_[v];
+        if (share == 0) continue;
+        wishes.add(v, pull.normal, share * (1 - tangential), share * tangential,
+                   pull.offset + displacements_.row(v).transpose());
+      }
+    }
+  }
+
+  bool at_rim(const SurfaceHit& hit) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (hit.shares[k] > 0 && !skin_rim_[skin_.triangles[hit.triangle][k]]) return false;
+    }
+    return true;
+  }
+
+  /// Of the displacements, what another person of the model explains becomes part of the base, so
+  /// that only the rest is bending: c minimises (d − U c)ᵀ B (d − U c) and stays near 0.
+  void take_up_model(const SparseMatrix& stiffness) {
+    const auto modes = static_cast<Index>(model_.modes.size());
+    if (modes == 0) return;
+    std::vector<Positions> bent;
+    for (const Positions& mode : model_.modes) bent.emplace_back(stiffness * mode);
+    Eigen::MatrixXd matrix(modes, modes);
+    Eigen::VectorXd right(modes);
+    for (Index i = 0; i < modes; ++i) {
+      const Positions& image = bent[static_cast<std::size_t>(i)];
+      for (Index j = 0; j <= i; ++j) {
+        matrix(i, j) = matrix(j, i) =
+            image.cwiseProduct(model_.modes[static_cast<std::size_t>(j)]).sum();
+      }
+      matrix(i, i) += kPrior;
+      right(i) = image.cwiseProduct(displacements_).sum() - kPrior * coefficients_(i);
+    }
+    const Eigen::VectorXd step = matrix.ldlt().solve(right);
+    for (Index k = 0; k < modes; ++k) {
+      const Positions move = step(k) * model_.modes[static_cast<std::size_t>(k)];
+      base_ += move;
+      displacements_ -= move;
+    }
+    coefficients_ += step;
+  }
+
+  const SkinMesh& skin_;
+  const ShapeModel& model_;
+  const ScanSurface& scan_;
+  const std::vector<WrapLandmark>& landmarks_;
+  const BendOptions& options_;
+  Positions base_, displacements_;
+  Eigen::VectorXd coefficients_;  ///< moved since the start
+  Eigen::VectorXd areas_;
+  SparseMatrix laplacian_;
+  Eigen::VectorXd scan_areas_;
+  std::vector<bool> skin_rim_;
+  std::vector<double> visible_;  ///< 0 … 1: how much the scan counts
+  std::vector<std::uint32_t> scan_points_;
+  double scan_weight_ = 0;  ///< vertices of the scan for each of scan_points_
+};
+
+}  // namespace
+
+Positions bend_skin(const SkinMesh& skin, const Positions& base, const ShapeModel& model,
+                    const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
+                    const BendOptions& options) {
+  return Bending(skin, base, model, scan, landmarks, options).run();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/wrap/scan_surface.h"
+#include "crowdface/wrap/skin_mesh.h"
+
+namespace crowdface {
+
+struct DetailOptions {
+  double reach_mm = 3;
+  double stiffness_edges = 0.5;  ///< in edges of the skin: what is finer is taken for noise
+  int rounds = 2;
+};
+
+/// Brings a skin that lies near the scan onto it, each vertex along its own normal only, so that
+/// nothing slides: relief down to about twice the skin's edges is kept.
+/// \param positions  #skin by 3, in millimetres, where the scan stands.
+Positions follow_detail(const SkinMesh& skin, const Positions& positions, const ScanSurface& scan,
+                        const DetailOptions& options = {});
+
+}  // namespace crowdface

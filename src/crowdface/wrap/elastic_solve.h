@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "crowdface/wrap/bending.h"
+
+namespace crowdface {
+
+/// What each vertex wants: Σ (d − offset)ᵀ W (d − offset) with a 3 by 3 matrix W a vertex.
+struct Wishes {
+  std::vector<Eigen::Matrix3d> matrices;  ///< #V: W, symmetric, positive or zero
+  Positions right;                        ///< #V by 3: W · offset
+
+  explicit Wishes(Index vertices)
+      : matrices(static_cast<std::size_t>(vertices), Eigen::Matrix3d::Zero()),
+        right(Positions::Zero(vertices, 3)) {}
+  /// along · (n · (d − offset))² + all · |d − offset|²
+  void add(std::uint32_t vertex, const Eigen::Vector3d& normal, double along, double all,
+           const Eigen::Vector3d& offset);
+};
+
+/// Displacements d that minimise what the vertices want plus Σ over coordinates of dᵀ B d. By
+/// conjugate gradients, preconditioned with one factorisation of B plus a typical weight a vertex
+/// (Eigen's SimplicialLDLT), which serves all three coordinates and any number of solves.
+class ElasticSolver {
+ public:
+  /// \param stiffness  #V by #V, symmetric, positive or zero
+  /// \param typical    #V positive weights of about the sizes that wishes will have
+  ElasticSolver(SparseMatrix stiffness, const Eigen::VectorXd& typical);
+  ~ElasticSolver();
+
+  struct Limits {
+    int steps = 60;
+    double tolerance = 1e-4;  ///< of the residual, against the right side's
+  };
+  /// Improves `displacements`, #V by 3. The same bits for any number of threads.
+  void solve(const Wishes& wishes, const Limits& limits, Positions& displacements) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace crowdface

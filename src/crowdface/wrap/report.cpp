@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/report.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/version.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kSeen = 0.12;            // openness from which a vertex counts as visible
+constexpr double kMostMedian_mm = 15;     // of the landmarks after the similarity
+constexpr double kMostDistance_mm = 3;    // 95 % of the visible skin
+constexpr double kFar_mm = 3;
+constexpr double kMostFar = 0.02, kMostWithoutData = 0.15;
+constexpr std::size_t kFewHeads = 8;
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+bool seen(const WrapTemplate& shape, Index v) {
+  return shape.skin.openness[static_cast<std::size_t>(v)] > kSeen;
+}
+
+std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& result) {
+  std::vector<double> distances;
+  for (Index v = 0; v < result.distance_mm.size(); ++v) {
+    if (seen(shape, v) && !result.without_data[static_cast<std::size_t>(v)]) {
+      distances.push_back(result.distance_mm(v));
+    }
+  }
+  return distances;
+}
+
+nlohmann::ordered_json rounded(double value) {
+  return nlohmann::ordered_json::parse(format_fixed(value, 3));
+}
+
+}  // namespace
+
+WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result) {
+  const std::vector<double> distances = seen_distances(shape, result);
+  return {percentile(distances, 0.5), percentile(distances, 0.95)};
+}
+
+double share_without_data(const WrapTemplate& shape, const WrapResult& result) {
+  Index visible = 0, without = 0;
+  for (Index v = 0; v < result.distance_mm.size(); ++v) {
+    if (!seen(shape, v)) continue;
+    ++visible;
+    if (result.without_data[static_cast<std::size_t>(v)]) ++without;
+  }
+  return visible == 0 ? 0 : static_cast<double>(without) / static_cast<double>(visible);
+}
+
+std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
+                                       std::size_t model_heads) {
+  std::vector<std::string> warnings;
+  for (const LandmarkResidual& landmark : result.landmarks) {
+    if (!landmark.outlier) continue;
+    warnings.push_back(concat("landmark ", quoted(landmark.name), " ends ",
+                              format_fixed(landmark.final_mm, 1),
+                              " mm from where it was picked, far more than the others: look at it "
+                              "on template and scan"));
+  }
+  const std::vector<double> distances = seen_distances(shape, result);
+  const auto far = std::count_if(distances.begin(), distances.end(),
+                                 [](double distance) { return distance > kFar_mm; });
+  const double share = distances.empty()
+                           ? 0
+                           : static_cast<double>(far) / static_cast<double>(distances.size());
+  if (share > kMostFar) {
+    warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFar_mm,
+                              " mm off the scan: hair, closed eyes or an open mouth? Leave such "
+                              "places out with --ignore, or pick landmarks there"));
+  }
+  if (const double lacking = share_without_data(shape, result); lacking > kMostWithoutData) {
+    warnings.push_back(concat("the scan shows nothing of ", format_fixed(100 * lacking, 0),
+                              " % of the skin, which is guessed"));
+  }
+  if (result.flipped > 0) {
+    warnings.push_back(concat(result.flipped, " triangles are turned over"));
+  }
+  if (model_heads > 0 && model_heads < kFewHeads) {
+    warnings.push_back(concat("a model of ", model_heads,
+                              " heads says little more than their mean; expected ", kFewHeads,
+                              " or more"));
+  }
+  return warnings;
+}
+
+void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result) {
+  std::vector<double> residuals;
+  for (const LandmarkResidual& landmark : result.landmarks) residuals.push_back(landmark.pose_mm);
+  if (const double median = percentile(residuals, 0.5); median > kMostMedian_mm) {
+    throw InvalidInput(concat(
+        "landmarks of template and scan do not belong together: half of them stay more than ",
+        format_fixed(median, 1), " mm apart, expected less than ", kMostMedian_mm,
+        "; are left and right swapped, or vertices counted from 1?"));
+  }
+  if (const double far = distances_of(shape, result).percentile_95; far > kMostDistance_mm) {
+    throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
+                              " mm off the scan, expected less than ", kMostDistance_mm,
+                              ": check the landmarks, pick more of them, or leave out with --ignore "
+                              "what the scan does not show as skin"));
+  }
+}
+
+std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,
+                               const WrapResult& result,
+                               const std::vector<std::string>& warnings) {
+  nlohmann::ordered_json report;
+  report["crowdface"] = kVersion;
+  report["inputs"] = facts.inputs;
+  report["mesh"] = facts.mesh;
+  report["template"] = facts.template_file;
+  report["scan"] = facts.scan_file;
+  report["scale"] = result.pose.scale;
+  report["output_scale"] = facts.output_scale;
+  report["turned_degrees"] = rounded(result.pose.angle_degrees());
+  report["pose_residual_mm"] = rounded(result.pose_residual_mm);
+  const WrapDistances distances = distances_of(shape, result);
+  report["distance_mm"] = {{"median", rounded(distances.median)},
+                           {"95 %", rounded(distances.percentile_95)}};
+  report["without_data"] = rounded(share_without_data(shape, result));
+  report["flipped_triangles"] = result.flipped;
+  report["landmarks"] = nlohmann::ordered_json::array();
+  for (const LandmarkResidual& landmark : result.landmarks) {
+    report["landmarks"].push_back({{"name", landmark.name},
+                                   {"pose_mm", rounded(landmark.pose_mm)},
+                                   {"final_mm", rounded(landmark.final_mm)},
+                                   {"outlier", landmark.outlier}});
+  }
+  report["warnings"] = warnings;
+  return report.dump(2) + "\n";
+}
+
+}  // namespace crowdface

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/render/camera.h"
+#include "crowdface/wrap/wrap.h"
+
+namespace crowdface {
+
+/// Distances from a wrapped skin to the scan over vertices that the scan shows, mm.
+struct WrapDistances {
+  double median = 0, percentile_95 = 0;
+};
+WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result);
+/// The share of the visible skin for which the scan has nothing.
+double share_without_data(const WrapTemplate& shape, const WrapResult& result);
+
+/// What the user should look at, a sentence each that says what to do.
+/// \param model_heads  how many heads the model has; 0: there is none.
+std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
+                                       std::size_t model_heads);
+
+/// \throws InvalidInput, saying what to do, if the result is no wrap of this scan.
+void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result);
+
+/// What stands in the report beside what was measured.
+struct WrapFacts {
+  std::string template_file, scan_file, inputs, mesh;  ///< the last two: digests
+  double output_scale = 1;  ///< what the head was multiplied with, so that it has the scan's size
+};
+
+/// The report as JSON.
+std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,
+                               const WrapResult& result, const std::vector<std::string>& warnings);
+
+/// The scan above, the wrapped head in the middle, its distance to the scan below, each from three
+/// sides, as a PNG file.
+std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const WrapResult& result,
+                         const HeadFrame& frame, const std::string& title);
+
+}  // namespace crowdface

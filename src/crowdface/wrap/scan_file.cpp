@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/scan_file.h"
+
+#include <bit>
+#include <cstring>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/obj_file.h"
+
+namespace crowdface {
+
+static_assert(std::endian::native == std::endian::little);
+
+Scan read_scan(const std::filesystem::path& path) {
+  const std::string ending = lower_case(path.extension().string()), name = path.string();
+  Scan scan;
+  if (ending == ".obj") {
+    const ObjFile file = read_obj(path);
+    scan = {file.positions, triangles_of(file.topology)};
+  } else if (ending == ".ply") {
+    scan = parse_ply(MappedFile(path).bytes(), name);
+  } else if (ending == ".stl") {
+    scan = parse_stl(MappedFile(path).bytes(), name);
+  } else if (ending == ".glb") {
+    scan = parse_glb(MappedFile(path).bytes(), name);
+  } else {
+    throw InvalidInput(concat(name, ": expected a scan whose name ends in .obj, .ply, .stl or .glb"));
+  }
+  if (scan.triangles.empty()) {
+    throw InvalidInput(concat(name, ": expected a surface of triangles, found ",
+                              scan.positions.rows(), " points and no face"));
+  }
+  if (!scan.positions.allFinite()) {
+    throw InvalidInput(concat(name, ": expected finite positions, found one that is not"));
+  }
+  weld(scan);
+  return scan;
+}
+
+std::string encode_scan(const Scan& scan) {
+  std::string bytes = concat(
+      "ply\nformat binary_little_endian 1.0\nelement vertex ", scan.positions.rows(),
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face ",
+      scan.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
+  const std::size_t header = bytes.size();
+  const auto points = static_cast<std::size_t>(scan.positions.size());
+  bytes.resize(header + 4 * points + 13 * scan.triangles.size());
+  char* out = bytes.data() + header;
+  for (std::size_t i = 0; i < points; ++i, out += 4) {
+    const auto value = static_cast<float>(scan.positions.data()[i]);
+    std::memcpy(out, &value, 4);
+  }
+  for (const Triangle& t : scan.triangles) {
+    *out++ = 3;
+    std::memcpy(out, t.data(), 12);
+    out += 12;
+  }
+  return bytes;
+}
+
+}  // namespace crowdface

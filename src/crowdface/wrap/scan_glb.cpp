@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/wrap/scan_file.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr int kTriangles = 4;
+constexpr int kDeepest = 64;  ///< nodes below nodes
+
+/// Walks through the scene of a GLB file (glTF 2.0, sections 3 and 4) and collects its triangles.
+class GlbReader {
+ public:
+  GlbReader(std::string_view bytes, const std::string& name) : name_(name) {
+    if (bytes.size() < 20 || number(bytes, 0) != kMagic || number(bytes, 4) != 2) {
+      fail("it does not begin as one of version 2 does");
+    }
+    for (std::size_t at = 12; at + 8 <= bytes.size();) {
+      const std::size_t length = number(bytes, at);
+      const std::uint32_t kind = number(bytes, at + 4);
+      if (bytes.size() - at - 8 < length) fail("it ends too soon");
+      const std::string_view chunk = bytes.substr(at + 8, length);
+      if (kind == kJsonChunk) {
+        json_ = Json::parse(
+            chunk, [](int depth, Json::parse_event_t, Json&) { return depth < kDeepest; }, false);
+      } else if (kind == kBinaryChunk) {
+        binary_ = chunk;
+      }
+      at += 8 + length;
+    }
+    if (!json_.is_object()) fail("it holds no JSON");
+  }
+
+  Scan read() {
+    try {
+      const Json& scenes = json_.at("scenes");
+      for (const Json& node : scenes.at(json_.value("scene", std::size_t{0})).at("nodes")) {
+        visit(node.get<std::size_t>(), Eigen::Matrix4d::Identity(), 0);
+      }
+    } catch (const Json::exception& error) {
+      fail(concat("its JSON is incomplete: ", error.what()));
+    }
+    Scan scan;
+    scan.positions.resize(static_cast<Index>(points_.size()), 3);
+    for (std::size_t v = 0; v < points_.size(); ++v) {
+      scan.positions.row(static_cast<Index>(v)) = points_[v].transpose();
+    }
+    scan.triangles = std::move(triangles_);
+    return scan;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& found) const {
+    throw InvalidInput(concat(name_, ": expected a GLB file, found that ", found));
+  }
+  static std::uint32_t number(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, 4);
+    return value;
+  }
+
+  static Eigen::Matrix4d matrix_of(const Json& node) {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    if (node.contains("matrix")) {
+      for (Index i = 0; i < 16; ++i) {
+        matrix(i % 4, i / 4) = node["matrix"].at(static_cast<std::size_t>(i)).get<double>();
+      }
+      return matrix;
+    }
+    const auto vector = [&](const char* key, std::vector<double> otherwise) {
+      return node.contains(key) ? node[key].get<std::vector<double>>() : otherwise;
+    };
+    const auto t = vector("translation", {0, 0, 0}), r = vector("rotation", {0, 0, 0, 1}),
+               s = vector("scale", {1, 1, 1});
+    matrix.topLeftCorner<3, 3>() =
+        Eigen::Quaterniond(r.at(3), r.at(0), r.at(1), r.at(2)).normalized().toRotationMatrix() *
+        Eigen::Vector3d(s.at(0), s.at(1), s.at(2)).asDiagonal();
+    matrix.topRightCorner<3, 1>() = Eigen::Vector3d(t.at(0), t.at(1), t.at(2));
+    return matrix;
+  }
+
+  void visit(std::size_t index, const Eigen::Matrix4d& above, int depth) {
+    if (depth > kDeepest) fail("its nodes stand below each other without end");
+    const Json& node = json_.at("nodes").at(index);
+    const Eigen::Matrix4d matrix = above * matrix_of(node);
+    if (node.contains("mesh")) {
+      for (const Json& primitive :
+           json_.at("meshes").at(node["mesh"].get<std::size_t>()).at("primitives")) {
+        add(primitive, matrix);
+      }
+    }
+    if (!node.contains("children")) return;
+    for (const Json& child : node["children"]) visit(child.get<std::size_t>(), matrix, depth + 1);
+  }
+
+  /// The bytes of an accessor's elements.
+  struct Values {
+    const char* first = nullptr;
+    std::size_t count = 0, stride = 0;
+    int type = 0;
+  };
+  Values values(std::size_t index, std::size_t components) const {
+    const Json& accessor = json_.at("accessors").at(index);
+    if (accessor.contains("sparse") || !accessor.contains("bufferView")) {
+      fail("an accessor is sparse or compressed; export it without compression");
+    }
+    const Json& view = json_.at("bufferViews").at(accessor["bufferView"].get<std::size_t>());
+    if (view.value("buffer", 0) != 0 || json_.at("buffers").at(0).contains("uri")) {
+      fail("its data lie in another file");
+    }
+    Values found;
+    found.type = accessor.at("componentType").get<int>();
+    found.count = accessor.at("count").get<std::size_t>();
+    const std::size_t size =
+        components * (found.type == 5126 || found.type == 5125 ? 4U : found.type == 5123 ? 2U : 1U);
+    found.stride = view.value("byteStride", size);
+    const std::size_t begin =
+        view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0});
+    if (found.count == 0 || found.count > binary_.size() || begin > binary_.size() ||
+        found.stride > binary_.size() || found.stride < size ||
+        (found.count - 1) * found.stride + size > binary_.size() - begin) {
+      fail("an accessor reaches beyond its data");
+    }
+    found.first = binary_.data() + begin;
+    return found;
+  }
+
+  void add(const Json& primitive, const Eigen::Matrix4d& matrix) {
+    if (primitive.value("mode", kTriangles) != kTriangles) return;
+    const auto first = static_cast<std::uint32_t>(points_.size());
+    const Values places = values(primitive.at("attributes").at("POSITION").get<std::size_t>(), 3);
+    if (places.type != 5126) fail("positions are no floats");
+    for (std::size_t i = 0; i < places.count; ++i) {
+      std::array<float, 3> p{};
+      std::memcpy(p.data(), places.first + i * places.stride, sizeof p);
+      const Eigen::Vector4d point(p[0], p[1], p[2], 1);
+      points_.emplace_back((matrix * point).head<3>());
+    }
+    std::vector<std::uint32_t> corners;
+    if (primitive.contains("indices")) {
+      const Values indices = values(primitive["indices"].get<std::size_t>(), 1);
+      for (std::size_t i = 0; i < indices.count; ++i) {
+        const char* at = indices.first + i * indices.stride;
+        std::uint32_t corner = 0;
+        std::memcpy(&corner, at, indices.type == 5125 ? 4 : indices.type == 5123 ? 2 : 1);
+        if (corner >= places.count) fail(concat("a triangle names vertex ", corner));
+        corners.push_back(first + corner);
+      }
+    } else {
+      for (std::uint32_t i = 0; i < places.count; ++i) corners.push_back(first + i);
+    }
+    const bool mirrored = matrix.topLeftCorner<3, 3>().determinant() < 0;
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+      triangles_.push_back({corners[i], corners[i + (mirrored ? 2 : 1)],
+                            corners[i + (mirrored ? 1 : 2)]});
+    }
+  }
+
+  const std::string& name_;
+  Json json_;
+  std::string_view binary_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace
+
+Scan parse_glb(std::string_view bytes, const std::string& name) {
+  return GlbReader(bytes, name).read();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/wrap/scan_file.h"
+
+namespace crowdface {
+namespace {
+
+enum class Coding { kText, kLittleEndian, kBigEndian };
+
+struct Property {
+  std::string name;
+  int bytes = 0;  ///< of a value
+  bool real = false, is_signed = false;
+  int count_bytes = 0;  ///< of a list: of its count; 0: no list
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+struct TypeName {
+  std::string_view name, other;
+  int bytes;
+  bool real, is_signed;
+};
+constexpr std::array<TypeName, 8> kTypes = {{{"char", "int8", 1, false, true},
+                                             {"uchar", "uint8", 1, false, false},
+                                             {"short", "int16", 2, false, true},
+                                             {"ushort", "uint16", 2, false, false},
+                                             {"int", "int32", 4, false, true},
+                                             {"uint", "uint32", 4, false, false},
+                                             {"float", "float32", 4, true, true},
+                                             {"double", "float64", 8, true, true}}};
+
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  std::size_t at = 0;
+  while (at < line.size()) {
+    const std::size_t begin = line.find_first_not_of(" \t\r", at);
+    if (begin == std::string_view::npos) break;
+    at = std::min(line.find_first_of(" \t\r", begin), line.size());
+    words.emplace_back(line.substr(begin, at - begin));
+  }
+  return words;
+}
+
+/// Reads a PLY file from its first byte to its last.
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  Scan read() {
+    read_header();
+    Scan scan;
+    for (const Element& element : elements_) {
+      if (element.name == "vertex") {
+        read_vertices(element, scan);
+      } else {
+        read_faces(element, scan);
+      }
+    }
+    const auto count = static_cast<std::uint32_t>(scan.positions.rows());
+    for (const Triangle& t : scan.triangles) {
+      for (const std::uint32_t v : t) {
+        if (v >= count) fail(concat("a face names vertex ", v, " of ", count));
+      }
+    }
+    return scan;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& found) const {
+    throw InvalidInput(concat(name_, ": expected a PLY file, found that ", found));
+  }
+
+  std::string_view line() {
+    const std::size_t end = bytes_.find('\n', at_);
+    if (end == std::string_view::npos) fail("its header does not end");
+    const std::string_view text = bytes_.substr(at_, end - at_);
+    at_ = end + 1;
+    return text;
+  }
+
+  Property typed(const std::string& type) const {
+    for (const TypeName& known : kTypes) {
+      if (type == known.name || type == known.other) {
+        return {{}, known.bytes, known.real, known.is_signed, 0};
+      }
+    }
+    fail(concat("a property is of type ", quoted(type)));
+  }
+
+  void read_header() {
+    if (words_of(line()) != std::vector<std::string>{"ply"}) fail("it does not begin with ply");
+    for (;;) {
+      const std::vector<std::string> words = words_of(line());
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") break;
+      if (words[0] == "format" && words.size() == 3) {
+        coding_ = words[1] == "ascii"                  ? Coding::kText
+                  : words[1] == "binary_little_endian" ? Coding::kLittleEndian
+                                                       : Coding::kBigEndian;
+      } else if (words[0] == "element" && words.size() == 3 && parse_unsigned(words[2])) {
+        elements_.push_back({words[1], *parse_unsigned(words[2]), {}});
+      } else if (words[0] == "property" && words.size() == 3 && !elements_.empty()) {
+        Property property = typed(words[1]);
+        property.name = words[2];
+        elements_.back().properties.push_back(property);
+      } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" &&
+                 !elements_.empty()) {
+        Property property = typed(words[3]);
+        property.name = words[4];
+        property.count_bytes = typed(words[2]).bytes;
+        elements_.back().properties.push_back(property);
+      } else {
+        fail(concat("its header says ", quoted(join(words, " "))));
+      }
+    }
+    for (const Element& element : elements_) {
+      if (element.count > bytes_.size()) fail(concat("it claims ", element.count, " elements"));
+    }
+  }
+
+  double value(int size, bool real, bool is_signed) {
+    if (coding_ == Coding::kText) return word();
+    if (bytes_.size() - at_ < static_cast<std::size_t>(size)) fail("it ends too soon");
+    std::array<char, 8> raw{};
+    std::memcpy(raw.data(), bytes_.data() + at_, static_cast<std::size_t>(size));
+    at_ += static_cast<std::size_t>(size);
+    if (coding_ == Coding::kBigEndian) std::reverse(raw.begin(), raw.begin() + size);
+    if (real && size == 4) return as<float>(raw);
+    if (real) return as<double>(raw);
+    if (size == 1) return is_signed ? as<std::int8_t>(raw) : as<std::uint8_t>(raw);
+    if (size == 2) return is_signed ? as<std::int16_t>(raw) : as<std::uint16_t>(raw);
+    return is_signed ? as<std::int32_t>(raw) : as<std::uint32_t>(raw);
+  }
+
+  template <class T>
+  static double as(const std::array<char, 8>& raw) {
+    T number;
+    std::memcpy(&number, raw.data(), sizeof number);
+    return static_cast<double>(number);
+  }
+
+  double word() {
+    const std::size_t begin = bytes_.find_first_not_of(" \t\r\n", at_);
+    if (begin == std::string_view::npos) fail("it ends too soon");
+    at_ = std::min(bytes_.find_first_of(" \t\r\n", begin), bytes_.size());
+    const auto number = parse_double(bytes_.substr(begin, at_ - begin));
+    if (!number) fail(concat("a number reads ", quoted(bytes_.substr(begin, at_ - begin))));
+    return *number;
+  }
+
+  void read_vertices(const Element& element, Scan& scan) {
+    std::array<std::size_t, 3> column{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::string wanted(1, "xyz"[c]);
+      const auto found = std::find_if(element.properties.begin(), element.properties.end(),
+                                      [&](const Property& p) { return p.name == wanted; });
+      if (found == element.properties.end()) fail(concat("its vertices have no ", wanted));
+      column[c] = static_cast<std::size_t>(found - element.properties.begin());
+    }
+    scan.positions.resize(static_cast<Index>(element.count), 3);
+    std::vector<double> values(element.properties.size());
+    for (Index v = 0; v < scan.positions.rows(); ++v) {
+      for (std::size_t p = 0; p < values.size(); ++p) {
+        const Property& property = element.properties[p];
+        if (property.count_bytes > 0) {
+          skip_list(property);
+        } else {
+          values[p] = value(property.bytes, property.real, property.is_signed);
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        scan.positions(v, static_cast<Index>(c)) = values[column[c]];
+      }
+    }
+  }
+
+  std::uint64_t list_count(const Property& property) {
+    const double count = value(property.count_bytes, false, false);
+    if (count < 0 || count > 1e6) fail(concat("a list has ", count, " entries"));
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void skip_list(const Property& property) {
+    for (std::uint64_t i = list_count(property); i > 0; --i) {
+      value(property.bytes, property.real, property.is_signed);
+    }
+  }
+
+  void read_faces(const Element& element, Scan& scan) {
+    for (std::uint64_t f = 0; f < element.count; ++f) {
+      for (const Property& property : element.properties) {
+        const bool corners = element.name == "face" && property.count_bytes > 0 &&
+                             (property.name == "vertex_indices" || property.name == "vertex_index");
+        if (property.count_bytes > 0 && !corners) skip_list(property);
+        if (property.count_bytes == 0) value(property.bytes, property.real, property.is_signed);
+        if (!corners) continue;
+        std::vector<std::uint32_t> face;
+        for (std::uint64_t i = list_count(property); i > 0; --i) {
+          const double corner = value(property.bytes, property.real, property.is_signed);
+          if (!(corner >= 0 && corner < 4e9)) fail(concat("a face names vertex ", corner));
+          face.push_back(static_cast<std::uint32_t>(corner));
+        }
+        for (std::size_t c = 1; c + 1 < face.size(); ++c) {
+          scan.triangles.push_back({face[0], face[c], face[c + 1]});
+        }
+      }
+    }
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  Coding coding_ = Coding::kText;
+  std::vector<Element> elements_;
+};
+
+}  // namespace
+
+Scan parse_ply(std::string_view bytes, const std::string& name) {
+  return PlyReader(bytes, name).read();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/scan_surface.h"
+
+#include "crowdface/parts/vector3.h"
+
+namespace crowdface {
+namespace {
+
+/// Dust and hair clips: below this share of the largest piece's area nothing is part of a face. An
+/// eyeball has about a hundredth of a head's.
+constexpr double kLeastShare = 0.001;
+
+}  // namespace
+
+ScanSurface::ScanSurface(const Scan& scan)
+    : scan_(without_small_pieces(scan, kLeastShare)),
+      normals_(scan_normals(scan_)),
+      rim_(rim_vertices(scan_.triangles, scan_.positions.rows())),
+      tree_(scan_.positions, scan_.triangles) {}
+
+ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
+  Place place;
+  if (hit.triangle == kNoIndex) return place;
+  const Triangle& corners = scan_.triangles[hit.triangle];
+  place.point = hit.point;
+  place.distance = hit.distance;
+  bool rim = true;  // all corners that have a share lie on it
+  for (std::size_t k = 0; k < 3; ++k) {
+    place.normal += hit.shares[k] * normals_.row(corners[k]).transpose();
+    if (hit.shares[k] > 0 && !rim_[corners[k]]) rim = false;
+  }
+  place.normal = unit3(place.normal);
+  place.on_rim = rim;
+  place.found = !rim && !place.normal.isZero();
+  return place;
+}
+
+ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
+                                        double least_cosine, double reach) const {
+  return place_of(tree_.nearest_facing(point, facing, least_cosine, reach));
+}
+
+ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, double reach) const {
+  return place_of(tree_.nearest(point, reach));
+}
+
+Similarity inverse(const Similarity& motion) {
+  Similarity undone;
+  undone.rotation = motion.rotation.transpose();
+  undone.scale = 1 / motion.scale;
+  undone.translation = -(undone.scale * (undone.rotation * motion.translation));
+  return undone;
+}
+
+}  // namespace crowdface

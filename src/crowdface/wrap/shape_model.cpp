@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/shape_model.h"
+
+#include <cmath>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/smooth/symmetric_eigen.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::ptrdiff_t kBlock = 4096;
+
+double product(const Positions& a, const Positions& b) {
+  return parallel_sum(a.size(), kBlock, [&](auto begin, auto end) {
+    double sum = 0;
+    for (auto i = begin; i < end; ++i) sum += a.data()[i] * b.data()[i];
+    return sum;
+  });
+}
+
+}  // namespace
+
+Positions ShapeModel::shape(const Eigen::VectorXd& coefficients) const {
+  Positions result = mean;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    result += coefficients(static_cast<Index>(k)) * modes[k];
+  }
+  return result;
+}
+
+ShapeModel make_model(const std::vector<Positions>& heads) {
+  const auto count = static_cast<Index>(heads.size());
+  ShapeModel model;
+  model.mean = Positions::Zero(heads[0].rows(), 3);
+  for (const Positions& head : heads) model.mean += head;
+  model.mean /= static_cast<double>(count);
+  std::vector<Positions> differences;
+  for (const Positions& head : heads) differences.emplace_back(head - model.mean);
+  Eigen::MatrixXd gram(count, count);
+  for (Index i = 0; i < count; ++i) {
+    for (Index j = 0; j <= i; ++j) {
+      gram(i, j) = gram(j, i) =
+          product(differences[static_cast<std::size_t>(i)], differences[static_cast<std::size_t>(j)]);
+    }
+  }
+  const SymmetricEigen eigen = symmetric_eigen(gram);
+  constexpr double kNothing = 1e-9;  // of the largest: heads that are alike give no direction
+  for (Index k = 0; k + 1 < count; ++k) {
+    if (eigen.values(k) <= kNothing * eigen.values(0)) break;
+    Positions mode = Positions::Zero(model.mean.rows(), 3);
+    // Σ_i v_i difference_i is √λ long; a standard deviation is √(λ / (count − 1)).
+    for (Index i = 0; i < count; ++i) {
+      mode += eigen.vectors(i, k) * differences[static_cast<std::size_t>(i)];
+    }
+    model.modes.emplace_back(mode / std::sqrt(static_cast<double>(count - 1)));
+  }
+  return model;
+}
+
+}  // namespace crowdface

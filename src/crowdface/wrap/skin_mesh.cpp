@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/skin_mesh.h"
+
+#include <array>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/parts/vector3.h"
+#include "crowdface/render/ray_scene.h"
+#include "crowdface/wrap/scan.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kRays = 48;
+constexpr Index kFewestVertices = 100;
+
+/// Directions spread evenly over the sphere, along a spiral of the golden angle.
+std::array<Eigen::Vector3f, kRays> directions() {
+  constexpr double kGoldenAngle = 2.39996322972865332;
+  std::array<Eigen::Vector3f, kRays> all;
+  for (int i = 0; i < kRays; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kRays, r = std::sqrt(1 - z * z);
+    all[static_cast<std::size_t>(i)] = {static_cast<float>(r * std::cos(kGoldenAngle * i)),
+                                        static_cast<float>(r * std::sin(kGoldenAngle * i)),
+                                        static_cast<float>(z)};
+  }
+  return all;
+}
+
+}  // namespace
+
+Positions SkinMesh::of(const Positions& positions) const {
+  Positions rows(vertex_count(), 3);
+  for (Index v = 0; v < vertex_count(); ++v) {
+    rows.row(v) = positions.row(vertices[static_cast<std::size_t>(v)]);
+  }
+  return rows;
+}
+
+std::vector<double> vertex_openness(const Positions& positions, const Positions& normals,
+                                    const std::vector<Triangle>& triangles,
+                                    const std::vector<std::uint32_t>& vertices) {
+  std::vector<float> points(static_cast<std::size_t>(positions.size()));
+  for (Index i = 0; i < positions.size(); ++i) {
+    points[static_cast<std::size_t>(i)] = static_cast<float>(positions.data()[i]);
+  }
+  std::vector<Quad> quads;
+  quads.reserve(triangles.size());
+  for (const Triangle& t : triangles) quads.push_back({t[0], t[1], t[2], t[2]});
+  const RayDevice device;
+  const RayScene scene(device, std::move(points), quads);
+  const auto rays = directions();
+  std::vector<double> open(vertices.size());
+  parallel_blocks(static_cast<std::ptrdiff_t>(vertices.size()), 256, [&](auto begin, auto end) {
+    for (auto i = begin; i < end; ++i) {
+      const std::uint32_t v = vertices[static_cast<std::size_t>(i)];
+      const Eigen::Vector3f normal = normals.row(v).transpose().cast<float>();
+      int outward = 0, free = 0;
+      for (const Eigen::Vector3f& ray : rays) {
+        if (ray.dot(normal) < 0.1F) continue;
+        ++outward;
+        const Eigen::Vector3f from = positions.row(v).transpose().cast<float>() + 0.05F * normal;
+        if (!scene.occluded({from, ray, 0.01F})) ++free;
+      }
+      open[static_cast<std::size_t>(i)] = outward > 0 ? static_cast<double>(free) / outward : 0;
+    }
+  });
+  return open;
+}
+
+WrapTemplate make_template(const Topology& topology, const Positions& positions,
+                           const HeadAxes& axes) {
+  WrapTemplate result{topology, build_adjacency(topology), {}, {}, axes, positions, {}};
+  result.components = find_components(result.adjacency);
+  result.parts =
+      find_parts(topology, result.adjacency, result.components, positions, {}, axes);
+  const Components joined = join_skin(result.components, result.parts);
+  const std::uint32_t skin = joined.of_vertex.empty() ? 0 : joined.largest();
+
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(topology.vertex_count), kNoIndex);
+  for (const Triangle& t : triangles_of(topology, joined, skin)) {
+    for (const std::uint32_t v : t) number[v] = 0;
+  }
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kNoIndex) continue;
+    number[v] = static_cast<std::uint32_t>(result.skin.vertices.size());
+    result.skin.vertices.push_back(v);
+  }
+  if (result.skin.vertex_count() < kFewestVertices) {
+    throw InvalidInput(concat("expected a template with skin of at least ", kFewestVertices,
+                              " vertices, found ", result.skin.vertex_count()));
+  }
+  for (const Triangle& t : triangles_of(topology, joined, skin)) {
+    result.skin.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  }
+  std::vector<Triangle> solid;  // lashes and tear lines hide nothing
+  for (const Triangle& t : triangles_of(topology)) {
+    if (result.parts.classes[result.components.of_vertex[t[0]]] != PartClass::kBound) {
+      solid.push_back(t);
+    }
+  }
+  result.skin.openness =
+      vertex_openness(positions, vertex_normals(topology, positions), solid, result.skin.vertices);
+  return result;
+}
+
+}  // namespace crowdface

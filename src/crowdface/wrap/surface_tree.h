@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+#include "crowdface/validity/triangles.h"
+
+namespace crowdface {
+
+/// A place on a triangle mesh.
+struct SurfaceHit {
+  std::uint32_t triangle = kNoIndex;  ///< kNoIndex: there is none
+  std::array<double, 3> shares = {};  ///< barycentric, not negative, of sum one
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double distance = 0;
+};
+
+/// The place of one triangle nearest to a point (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
+SurfaceHit nearest_on_triangle(const Positions& positions, const Triangle& corners,
+                               const Eigen::Vector3d& point);
+
+/// A tree of boxes over triangles, to be asked from any thread for the surface nearest to a point. The
+/// same answer, bit for bit, however it is asked.
+class SurfaceTree {
+ public:
+  /// \param positions, triangles  must outlive the tree; triangles without area are left out.
+  SurfaceTree(const Positions& positions, const std::vector<Triangle>& triangles);
+
+  /// The nearest place within `reach`; of equally near ones that of the smallest triangle number.
+  SurfaceHit nearest(const Eigen::Vector3d& point, double reach) const;
+  /// The same among triangles whose normal makes an angle with `facing` (unit) of at most the one
+  /// with this cosine.
+  SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
+                            double least_cosine, double reach) const;
+
+  /// Unit normal of a triangle, by its winding.
+  const Eigen::Vector3d& normal(std::uint32_t triangle) const { return normals_[triangle]; }
+  /// Takes up positions that have changed; the tree's shape stays.
+  void refit();
+
+ private:
+  struct Box {
+    Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
+    double squared_distance(const Eigen::Vector3d& point) const;
+  };
+  struct Node {
+    Box box;
+    std::uint32_t begin, end;   ///< of order_
+    std::uint32_t second = 0;   ///< the first child is the next node; 0: a leaf
+  };
+  void build(std::uint32_t begin, std::uint32_t end, const Positions& centres);
+  void find_normals();
+  Box box_of(const Node& node) const;
+  template <class Accept>
+  SurfaceHit search(const Eigen::Vector3d& point, double reach, const Accept& accept) const;
+
+  const Positions& positions_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<Eigen::Vector3d> normals_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace crowdface

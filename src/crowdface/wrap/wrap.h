@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/wrap/bend_skin.h"
+#include "crowdface/wrap/detail.h"
+#include "crowdface/wrap/shape_fit.h"
+#include "crowdface/wrap/skin_mesh.h"
+
+namespace crowdface {
+
+/// Which way the head on a scan looks, where no landmarks tell: unit vectors in the scan's frame.
+struct PoseHint {
+  Eigen::Vector3d up, front;
+};
+
+struct WrapOptions {
+  ShapeFitOptions pose;
+  ShapeFitOptions person = {.reach_mm = {20, 16, 12, 8, 6, 4}, .landmark_weight = 0.1};
+  BendOptions bend;
+  /// Of bend.stiffness_mm, the rounds that are left once a model has found the person.
+  double first_stiffness_with_model_mm = 20;
+  DetailOptions detail;
+  /// Skins of more vertices are bent by way of a reduced one.
+  std::size_t most_vertices = 20000, reduced_vertices = 12000;
+};
+
+/// How far a landmark of the template is from that of the scan.
+struct LandmarkResidual {
+  std::string name;
+  double pose_mm = 0;    ///< after the similarity
+  double final_mm = 0;   ///< after the wrap
+  bool outlier = false;  ///< in the end far beyond the others: most likely misplaced
+};
+
+struct WrapResult {
+  Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
+  Similarity pose;      ///< from the template's frame (mm) to the scan's
+  std::vector<LandmarkResidual> landmarks;
+  double pose_residual_mm = 0;       ///< median distance after the similarity
+  Eigen::VectorXd distance_mm;       ///< #skin: from the wrapped skin to the scan
+  std::vector<bool> without_data;    ///< #skin: nothing of the scan is near, or only its rim
+  Index flipped = 0;                 ///< triangles of the skin
+};
+
+/// Bends the template's skin onto the scan; eyes, teeth and lashes follow.
+/// \param model      of the template's skin, in its frame and in millimetres; or nullptr.
+/// \param landmarks  rows of the whole template, places in the scan's frame; those beyond the skin are
+///                   left out.
+/// \throws InvalidInput if there are fewer than four landmarks and no hint, or nothing of the scan is
+/// where the landmarks say.
+WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
+                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint,
+                const WrapOptions& options = {});
+
+}  // namespace crowdface
