@@ -21,8 +21,8 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
     return places;
   }
   if (node->entries.size() > kMost) {
-    out.about(*node, concat("expected at most ", kMost, " landmarks, found ",
-                            node->entries.size()));
+    out.about(*node,
+              concat("expected at most ", kMost, " landmarks, found ", node->entries.size()));
     return places;
   }
   for (const YamlEntry& entry : node->entries) {

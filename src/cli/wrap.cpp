@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/wrap.h"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -22,7 +24,6 @@
 #include "crowdface/region/region_weights.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/scan_file.h"
-#include "crowdface/wrap/wrap.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -64,8 +65,7 @@ Eigen::Vector3d vector_of(Axis axis) {
 /// The unit in which the mesh is as large as a head with its neck.
 LengthUnit guess_unit(const Positions& positions) {
   constexpr double kTypical_mm = 430;
-  const double extent =
-      (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+  const double extent = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
   LengthUnit best = LengthUnit::kCentimetre;
   double nearest = 1e300;
   for (const LengthUnit unit :
@@ -110,8 +110,10 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
 void read_model(const Options& options, Shared& shared, Positions& positions, Hasher& inputs) {
   const std::vector<fs::path> files = files_of(options.model, {".obj"});
   if (files.size() < 2) {
-    throw InvalidInput(concat(options.model, ": expected two heads or more in the template's "
-                              "topology (.obj), found ", files.size()));
+    throw InvalidInput(concat(options.model,
+                              ": expected two heads or more in the template's "
+                              "topology (.obj), found ",
+                              files.size()));
   }
   std::vector<Positions> heads;
   Problems problems;
@@ -119,9 +121,8 @@ void read_model(const Options& options, Shared& shared, Positions& positions, Ha
     const ObjFile head = read_obj(path);
     if (const std::string other = first_difference(shared.file.topology, head.topology);
         !other.empty()) {
-      problems.add(ExitCode::kBadData,
-                   concat(path.string(), ": is no head in the topology of ", options.shape, ": ",
-                          other));
+      problems.add(ExitCode::kBadData, concat(path.string(), ": is no head in the topology of ",
+                                              options.shape, ": ", other));
       continue;
     }
     inputs.add(hash_file(path).digest);
@@ -138,8 +139,8 @@ Shared read_shared(const Options& options) {
   shared.file = read_obj(options.shape);
   Hasher inputs;
   inputs.add(kWrapVersion).add(hash_file(options.shape).digest);
-  const LengthUnit unit = options.units.empty() ? guess_unit(shared.file.positions)
-                                                : unit_of("--units", options.units);
+  const LengthUnit unit =
+      options.units.empty() ? guess_unit(shared.file.positions) : unit_of("--units", options.units);
   shared.mm = mm_per(unit);
   shared.frame = {axis_of("--up", options.up), axis_of("--front", options.front)};
   Positions positions = shared.file.positions * shared.mm;
@@ -177,9 +178,8 @@ Shared read_shared(const Options& options) {
     shared.landmarks = read_landmarks(options.landmarks);
     inputs.add(hash_file(options.landmarks).digest);
   }
-  for (const std::string& text :
-       {options.units, options.scan_units, options.up, options.front, options.scan_up,
-        options.scan_front}) {
+  for (const std::string& text : {options.units, options.scan_units, options.up, options.front,
+                                  options.scan_up, options.scan_front}) {
     inputs.add(text);
   }
   shared.inputs = inputs.digest();
@@ -222,7 +222,8 @@ std::vector<Task> tasks_of(const Options& options) {
                               fs::path(options.out) / "reports"));
   }
   if (tasks.empty()) {
-    throw InvalidInput(concat(options.batch, ": expected scans (.obj, .ply, .stl, .glb), found none"));
+    throw InvalidInput(
+        concat(options.batch, ": expected scans (.obj, .ply, .stl, .glb), found none"));
   }
   return tasks;
 }
@@ -273,8 +274,8 @@ void wrap_one(const Options& options, const Shared& shared, const Task& task,
       match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
   const WrapResult result = [&] {
     try {
-      const WrapResult wrapped = wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan,
-                                      landmarks, shared.hint);
+      const WrapResult wrapped =
+          wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, shared.hint);
       refuse_bad_wrap(shared.shape, wrapped);
       return wrapped;
     } catch (const InvalidInput& error) {
@@ -282,33 +283,30 @@ void wrap_one(const Options& options, const Shared& shared, const Task& task,
     }
   }();
   const double scale = output_scale(options, result.pose);
-  const std::vector<std::string> warnings =
-      wrap_warnings(shared.shape, result, shared.model_heads);
+  const std::vector<std::string> warnings = wrap_warnings(shared.shape, result, shared.model_heads);
   const Digest mesh = write_obj_like(shared.file, shared.file.topology,
                                      Positions(result.positions * (scale / shared.mm)), task.head);
   if (!options.no_pictures) {
     write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
                                           task.scan.filename().string()));
   }
-  write_file(task.report, format_wrap_report({options.shape, task.scan.string(), inputs.hex(),
-                                              mesh.hex(), scale},
-                                             shared.shape, result, warnings));
+  write_file(task.report, format_wrap_report(
+                              {options.shape, task.scan.string(), inputs.hex(), mesh.hex(), scale},
+                              shared.shape, result, warnings));
   for (const std::string& warning : warnings) {
     log_warning(concat(task.scan.string(), ": ", warning));
   }
   const WrapDistances distances = distances_of(shared.shape, result);
   log_info(concat(task.scan.string(), ": ", task.head.string(), ", ",
                   format_fixed(distances.median, 2), " mm from the scan (95 %: ",
-                  format_fixed(distances.percentile_95, 2), "), ", landmarks.size(),
-                  " landmarks"));
+                  format_fixed(distances.percentile_95, 2), "), ", landmarks.size(), " landmarks"));
 }
 
 void check_one(const Shared& shared, const Task& task) {
   const Scan scan = read_scan(task.scan);
-  const auto landmarks =
-      match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
-  log_info(concat(task.scan.string(), ": ", scan.triangles.size(), " triangles, ",
-                  landmarks.size(), " landmarks; would become ", task.head.string()));
+  const auto landmarks = match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
+  log_info(concat(task.scan.string(), ": ", scan.triangles.size(), " triangles, ", landmarks.size(),
+                  " landmarks; would become ", task.head.string()));
 }
 
 void wrap_all(const Options& options) {
@@ -367,8 +365,9 @@ Run add_wrap(CLI::App& program) {
   command->add_option("-o,--output", options->out, "The head to write, or with --batch the folder")
       ->required()
       ->type_name("OUT");
-  command->add_option("--batch", options->batch,
-                      "A folder of scans, each with its own landmarks beside it (NAME.yaml)")
+  command
+      ->add_option("--batch", options->batch,
+                   "A folder of scans, each with its own landmarks beside it (NAME.yaml)")
       ->type_name("DIR");
   command->add_option("--template", options->shape, "The template, with --batch")
       ->type_name("TEMPLATE.obj");

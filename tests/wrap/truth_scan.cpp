@@ -14,7 +14,7 @@
 #include "crowdface/parts/vector3.h"
 #include "crowdface/wrap/surface_tree.h"
 
-namespace crowdface::test {
+namespace crowdface::testing {
 namespace {
 
 constexpr double kOpenness = 0.12;  // what sees less than this no scanner sees
@@ -25,16 +25,11 @@ Eigen::Vector3d normal3(const RandomKey& key) {
 
 /// What can be seen from outside: skin and eyeballs.
 std::vector<Triangle> visible_triangles(const WrapTemplate& head) {
-  std::vector<Triangle> solid;
-  for (const Triangle& t : triangles_of(head.topology)) {
-    if (head.parts.classes[head.components.of_vertex[t[0]]] != PartClass::kBound) {
-      solid.push_back(t);
-    }
-  }
+  std::vector<Triangle> solid = solid_triangles(head);
   std::vector<std::uint32_t> all(static_cast<std::size_t>(head.positions.rows()));
   std::iota(all.begin(), all.end(), 0U);
-  const std::vector<double> open = vertex_openness(
-      head.positions, vertex_normals(head.topology, head.positions), solid, all);
+  const std::vector<double> open =
+      vertex_openness(head.positions, vertex_normals(head.topology, head.positions), solid, all);
   std::erase_if(solid, [&](const Triangle& t) {
     return open[t[0]] < kOpenness || open[t[1]] < kOpenness || open[t[2]] < kOpenness;
   });
@@ -128,8 +123,8 @@ void scatter(Scan& scan, std::uint64_t seed) {
   for (std::uint32_t v = 0; v < around.size(); ++v) {
     if (rim[v] || around[v].empty()) continue;
     const RandomKey key{seed, v, "truth/scatter"};
-    const auto choice = static_cast<std::size_t>(random_unit(key) *
-                                                 static_cast<double>(around[v].size()));
+    const auto choice =
+        static_cast<std::size_t>(random_unit(key) * static_cast<double>(around[v].size()));
     const Triangle& t = scan.triangles[around[v][choice]];
     const auto [a, b] = random_pair(key, 1);
     const Eigen::RowVector3d before = scan.positions.row(v);
@@ -157,8 +152,8 @@ void scatter(Scan& scan, std::uint64_t seed) {
 void cut_holes(Scan& scan, const TruthOptions& options) {
   for (int h = 0; h < options.holes; ++h) {
     const RandomKey key{options.seed, static_cast<std::uint64_t>(h), "truth/hole"};
-    const auto t = static_cast<std::size_t>(random_unit(key) *
-                                            static_cast<double>(scan.triangles.size()));
+    const auto t =
+        static_cast<std::size_t>(random_unit(key) * static_cast<double>(scan.triangles.size()));
     const Eigen::RowVector3d middle = scan.positions.row(scan.triangles[t][0]);
     const double radius = options.hole_radius_mm * (0.5 + random_unit(key, 1));
     std::erase_if(scan.triangles, [&](const Triangle& corner) {
@@ -200,8 +195,7 @@ Similarity random_pose(std::uint64_t seed) {
   const RandomKey key{seed, 0, "truth/pose"};
   const Eigen::Vector3d axis = unit3(normal3(key));
   Similarity pose;
-  pose.rotation =
-      Eigen::AngleAxisd(3 * random_unit(key, 5), axis).toRotationMatrix();
+  pose.rotation = Eigen::AngleAxisd(3 * random_unit(key, 5), axis).toRotationMatrix();
   pose.translation = 700 * normal3({seed, 1, "truth/pose"});
   pose.scale = 0.01 + 4 * random_unit(key, 6);
   return pose;
@@ -213,7 +207,8 @@ TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandma
                           const TruthOptions& options) {
   TruthScan truth;
   if (options.moved) truth.pose = random_pose(options.seed);
-  Scan scan = Splitter(head.positions, visible_triangles(head), options.seed).run(options.triangles);
+  Scan scan =
+      Splitter(head.positions, visible_triangles(head), options.seed).run(options.triangles);
   scatter(scan, options.seed);
   cut_holes(scan, options);
   scan = shuffled(scan, options.seed);
@@ -234,4 +229,4 @@ TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandma
   return truth;
 }
 
-}  // namespace crowdface::test
+}  // namespace crowdface::testing

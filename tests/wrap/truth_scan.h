@@ -7,17 +7,17 @@
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/wrap/scan.h"
 #include "crowdface/wrap/shape_fit.h"
-#include "crowdface/wrap/skin_mesh.h"
+#include "crowdface/wrap/wrap_template.h"
 
-namespace crowdface::test {
+namespace crowdface::testing {
 
 struct TruthOptions {
   std::size_t triangles = 120000;  ///< about
   double noise_mm = 0.2;           ///< along the normal, one standard deviation
   int holes = 7;
   double hole_radius_mm = 9;
-  double landmark_error_mm = 1;    ///< along each axis, one standard deviation
-  bool moved = true;               ///< turned, moved and rescaled
+  double landmark_error_mm = 1;  ///< along each axis, one standard deviation
+  bool moved = true;             ///< turned, moved and rescaled
   std::uint64_t seed = 1;
 };
 
@@ -35,4 +35,4 @@ struct TruthScan {
 TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandmark>& landmarks,
                           const TruthOptions& options = {});
 
-}  // namespace crowdface::test
+}  // namespace crowdface::testing

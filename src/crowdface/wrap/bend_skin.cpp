@@ -3,24 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/vector3.h"
 #include "crowdface/wrap/elastic_solve.h"
 
 namespace crowdface {
 namespace {
 
-constexpr double kLeastCosine = 0.5;        // normals within 60°
-constexpr double kLeastOpenness = 0.04;     // a vertex that sees less is inside
-constexpr double kOpennessOfSkin = 0.25;    // from here on the scan counts in full
+constexpr double kLeastCosine = 0.5;      // normals within 60°
+constexpr double kLeastOpenness = 0.04;   // a vertex that sees less is inside
+constexpr double kOpennessOfSkin = 0.25;  // from here on the scan counts in full
 constexpr std::size_t kMostScanPoints = 30000;
-#include <cstdlib>
-namespace{double envd(const char*n,double d){const char*e=std::getenv(n);return e?std::atof(e):d;}}
-#define FLOOR envd("FLOOR",0.5)
-
+constexpr double kLeastSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
+constexpr double kEnd_mm = 200, kRimReach_mm = 15;
 constexpr double kPrior = 1000;  ///< mm⁴: how the model's coefficients are held, against bending
 
 /// What one vertex, or one point of the scan, found.
@@ -72,19 +73,21 @@ class Bending {
           (skin.openness[v] - kLeastOpenness) / (kOpennessOfSkin - kLeastOpenness), 0.0, 1.0);
     }
     choose_scan_points();
+    choose_rims();
   }
 
   Positions run() {
     const std::size_t rounds = options_.stiffness_mm.size();
     for (std::size_t r = 0; r < rounds; ++r) {
-      const double share = rounds > 1 ? static_cast<double>(r) / static_cast<double>(rounds - 1) : 1;
-      run_round(options_.stiffness_mm[r],
-                options_.reach_first_mm *
-                    std::pow(options_.reach_last_mm / options_.reach_first_mm, share),
-                options_.landmarks_first +
-                    share * (options_.landmarks_last - options_.landmarks_first),
-                options_.tangential_first +
-                    share * (options_.tangential_last - options_.tangential_first));
+      const double share =
+          rounds > 1 ? static_cast<double>(r) / static_cast<double>(rounds - 1) : 1;
+      run_round(
+          options_.stiffness_mm[r],
+          options_.reach_first_mm *
+              std::pow(options_.reach_last_mm / options_.reach_first_mm, share),
+          options_.landmarks_first + share * (options_.landmarks_last - options_.landmarks_first),
+          options_.tangential_first +
+              share * (options_.tangential_last - options_.tangential_first));
     }
     return base_ + displacements_;
   }
@@ -106,6 +109,36 @@ class Bending {
     scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / static_cast<double>(count);
   }
 
+  /// The rims where the skin and the scan end, not those of holes.
+  void choose_rims() {
+    const auto ends = long_rims(scan_.scan().triangles, scan_.scan().positions, kEnd_mm);
+    if (ends.empty()) return;
+    Positions points(static_cast<Index>(ends.size()), 3);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      points.row(static_cast<Index>(i)) = scan_.scan().positions.row(ends[i]);
+    }
+    scan_end_ = std::move(points);
+    std::vector<std::uint32_t> all(ends.size());
+    std::iota(all.begin(), all.end(), 0U);
+    scan_end_grid_.emplace(scan_end_, all);
+    for (const std::uint32_t v : long_rims(skin_.triangles, base_, kEnd_mm)) {
+      if (visible_[v] > 0) skin_end_.push_back(v);
+    }
+  }
+
+  /// Where the scan ends about where the skin does, the two ends are put on each other.
+  void ask_rims(const Positions& current, double reach, Wishes& wishes) const {
+    if (!scan_end_grid_) return;
+    for (const std::uint32_t v : skin_end_) {
+      const Eigen::Vector3d point = current.row(v).transpose();
+      const auto nearest = scan_end_grid_->nearest(point, reach);
+      if (nearest.vertex == kNoIndex) continue;
+      wishes.add(
+          v, Eigen::Vector3d::UnitX(), 0, areas_(v),
+          scan_end_.row(nearest.vertex).transpose() - point + displacements_.row(v).transpose());
+    }
+  }
+
   void run_round(double length, double reach, double landmarks, double tangential) {
     const double fourth = std::pow(length, 4);
     Eigen::VectorXd factors(areas_.size()), typical(areas_.size());
@@ -123,6 +156,7 @@ class Bending {
       const Positions current = base_ + displacements_;
       Wishes wishes(base_.rows());
       ask_scan(current, reach, tangential, wishes);
+      ask_rims(current, std::min(reach, kRimReach_mm), wishes);
       if (options_.backward > 0) ask_skin(current, reach, tangential, wishes);
       for (const WrapLandmark& landmark : landmarks_) {
         wishes.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
@@ -134,8 +168,7 @@ class Bending {
   }
 
   /// What the scan nearest to each vertex asks of it.
-  void ask_scan(const Positions& current, double reach, double tangential,
-                Wishes& wishes) const {
+  void ask_scan(const Positions& current, double reach, double tangential, Wishes& wishes) const {
     const Positions normals = skin_normals(skin_, current);
     std::vector<Pull> pulls(visible_.size());
     parallel_blocks(current.rows(), 128, [&](auto begin, auto end) {
@@ -148,7 +181,7 @@ class Bending {
         if (place.found) pull = {true, place.normal, place.point - point, areas_(v) * seen};
       }
     });
-    const double spread = spread_of(pulls, FLOOR * reach);
+    const double spread = spread_of(pulls, kLeastSpread * reach);
     for (std::uint32_t v = 0; v < pulls.size(); ++v) {
       const Pull& pull = pulls[v];
       if (!pull.found) continue;
@@ -159,8 +192,7 @@ class Bending {
   }
 
   /// What points of the scan ask of the skin nearest to them.
-  void ask_skin(const Positions& current, double reach, double tangential,
-                Wishes& wishes) const {
+  void ask_skin(const Positions& current, double reach, double tangential, Wishes& wishes) const {
     const SurfaceTree tree(current, skin_.triangles);
     std::vector<Pull> pulls(scan_points_.size());
     std::vector<SurfaceHit> hits(scan_points_.size());
@@ -176,7 +208,7 @@ class Bending {
                                               options_.backward * scan_weight_ * scan_areas_(s)};
       }
     });
-    const double spread = spread_of(pulls, FLOOR * reach);
+    const double spread = spread_of(pulls, kLeastSpread * reach);
     for (std::size_t i = 0; i < pulls.size(); ++i) {
       const Pull& pull = pulls[i];
       if (!pull.found) continue;
@@ -238,6 +270,9 @@ class Bending {
   std::vector<bool> skin_rim_;
   std::vector<double> visible_;  ///< 0 … 1: how much the scan counts
   std::vector<std::uint32_t> scan_points_;
+  std::vector<std::uint32_t> skin_end_;
+  Positions scan_end_;
+  std::optional<PointGrid> scan_end_grid_;
   double scan_weight_ = 0;  ///< vertices of the scan for each of scan_points_
 };
 

@@ -14,12 +14,12 @@ struct BendOptions {
   /// Stiffness of each round as a length: shorter waves than this are kept out of the displacements,
   /// whatever the resolution.
   std::vector<double> stiffness_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
-  int steps = 4;           ///< in each round
+  int steps = 4;  ///< in each round
   /// Weight along the surface, against 1 across it, in the first and in the last round.
-  double tangential_first = 0.3, tangential_last = 1;
-  double backward = 1;      ///< weight of what the scan asks of the skin
+  double tangential_first = 0.2, tangential_last = 0.8;
+  double backward = 1;  ///< weight of what the scan asks of the skin
   double landmarks_first = 1, landmarks_last = 0.3;
-  double hidden_stiffness_mm = 25;  ///< least stiffness where the scan shows nothing
+  double hidden_stiffness_mm = 10;  ///< least stiffness where the scan shows nothing
   double reach_first_mm = 30, reach_last_mm = 6;
 };
 

@@ -18,9 +18,9 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
   double sum = 0;
   for (const Triangle& t : triangles) {
     const Eigen::Vector3d a = positions.row(t[0]).transpose();
-    const double area = length3(cross3(positions.row(t[1]).transpose() - a,
-                                       positions.row(t[2]).transpose() - a)) /
-                        2;
+    const double area =
+        length3(cross3(positions.row(t[1]).transpose() - a, positions.row(t[2]).transpose() - a)) /
+        2;
     for (const std::uint32_t v : t) areas(v) += area / 3;
     sum += area;
   }
@@ -43,9 +43,8 @@ SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& 
       const double area = length3(cross3(a, b));
       const double cotangent = area > 0 ? std::min(dot3(a, b) / area, 1 / kLeastCotangent) : 0;
       const double weight = std::max(cotangent, kLeastCotangent) / 2;
-      entries.insert(entries.end(),
-                     {Entry(i, j, weight), Entry(j, i, weight), Entry(i, i, -weight),
-                      Entry(j, j, -weight)});
+      entries.insert(entries.end(), {Entry(i, j, weight), Entry(j, i, weight), Entry(i, i, -weight),
+                                     Entry(j, j, -weight)});
     }
   }
   SparseMatrix matrix(positions.rows(), positions.rows());

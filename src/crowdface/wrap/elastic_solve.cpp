@@ -86,8 +86,8 @@ void ElasticSolver::solve(const Wishes& wishes, const Limits& limits,
   Positions preconditioned = state_->precondition(residual);
   Positions direction = preconditioned;
   double rho = product(residual, preconditioned);
-  const double enough =
-      limits.tolerance * limits.tolerance * product(wishes.right, state_->precondition(wishes.right));
+  const double enough = limits.tolerance * limits.tolerance *
+                        product(wishes.right, state_->precondition(wishes.right));
   for (int k = 0; k < limits.steps && rho > enough; ++k) {
     throw_if_interrupted();
     const Positions image = state_->times(wishes, direction);

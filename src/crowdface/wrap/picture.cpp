@@ -16,16 +16,6 @@ constexpr int kSide_px = 320;
 constexpr double kMost_mm = 2;  // where the heat map's scale ends
 constexpr std::array<View, 3> kViews = {View::kFront, View::kThreeQuarter, View::kProfile};
 
-Topology topology_of(const Scan& scan) {
-  Topology topology;
-  topology.vertex_count = scan.positions.rows();
-  for (const Triangle& t : scan.triangles) {
-    topology.corner_vertices.insert(topology.corner_vertices.end(), t.begin(), t.end());
-    topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
-  }
-  return topology;
-}
-
 /// Eyeballs are shown as such, lashes and tear lines not at all.
 Surfaces surfaces_of(const WrapTemplate& shape) {
   std::vector<SurfaceKind> of_component(shape.parts.classes.size(), SurfaceKind::kSkin);
@@ -52,7 +42,7 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
   const std::array<const Positions*, 1> heads = {&result.positions};
   const std::vector<Camera> cameras = fit_cameras(heads, frame, kViews, {.cut_below = 0.1});
   const RenderOptions options{.size_px = kSide_px, .front = frame.front};
-  const Topology scan_topology = topology_of(scan);
+  const Topology scan_topology = topology_of(scan.triangles, scan.positions.rows());
   const FaceRenderer of_scan(scan_topology, options),
       of_head(shape.topology, options, surfaces_of(shape));
   Eigen::VectorXd distances = Eigen::VectorXd::Zero(shape.topology.vertex_count);

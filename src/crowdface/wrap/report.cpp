@@ -12,17 +12,17 @@
 namespace crowdface {
 namespace {
 
-constexpr double kSeen = 0.12;            // openness from which a vertex counts as visible
-constexpr double kMostMedian_mm = 15;     // of the landmarks after the similarity
-constexpr double kMostDistance_mm = 3;    // 95 % of the visible skin
+constexpr double kSeen = 0.12;          // openness from which a vertex counts as visible
+constexpr double kMostMedian_mm = 15;   // of the landmarks after the similarity
+constexpr double kMostDistance_mm = 3;  // 95 % of the visible skin
 constexpr double kFar_mm = 3;
 constexpr double kMostFar = 0.02, kMostWithoutData = 0.15;
 constexpr std::size_t kFewHeads = 8;
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto at = values.begin() +
-                  static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -75,9 +75,8 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   const std::vector<double> distances = seen_distances(shape, result);
   const auto far = std::count_if(distances.begin(), distances.end(),
                                  [](double distance) { return distance > kFar_mm; });
-  const double share = distances.empty()
-                           ? 0
-                           : static_cast<double>(far) / static_cast<double>(distances.size());
+  const double share =
+      distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
   if (share > kMostFar) {
     warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFar_mm,
                               " mm off the scan: hair, closed eyes or an open mouth? Leave such "
@@ -108,16 +107,16 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result) {
         "; are left and right swapped, or vertices counted from 1?"));
   }
   if (const double far = distances_of(shape, result).percentile_95; far > kMostDistance_mm) {
-    throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
-                              " mm off the scan, expected less than ", kMostDistance_mm,
-                              ": check the landmarks, pick more of them, or leave out with --ignore "
-                              "what the scan does not show as skin"));
+    throw InvalidInput(
+        concat("5 % of the skin stay more than ", format_fixed(far, 1),
+               " mm off the scan, expected less than ", kMostDistance_mm,
+               ": check the landmarks, pick more of them, or leave out with --ignore "
+               "what the scan does not show as skin"));
   }
 }
 
 std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,
-                               const WrapResult& result,
-                               const std::vector<std::string>& warnings) {
+                               const WrapResult& result, const std::vector<std::string>& warnings) {
   nlohmann::ordered_json report;
   report["crowdface"] = kVersion;
   report["inputs"] = facts.inputs;

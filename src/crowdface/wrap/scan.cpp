@@ -15,6 +15,23 @@ Eigen::Vector3d area_vector(const Positions& positions, const Triangle& t) {
   return cross3(positions.row(t[1]).transpose() - a, positions.row(t[2]).transpose() - a);
 }
 
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Those that have exactly one triangle, ascending.
+std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
+  std::vector<Edge> edges, rim;
+  edges.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
+    while (next < edges.size() && edges[next] == edges[i]) ++next;
+    if (next - i == 1) rim.push_back(edges[i]);
+  }
+  return rim;
+}
+
 bool degenerate(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
@@ -32,6 +49,18 @@ std::vector<Triangle> triangles_of(const Topology& topology) {
   return triangles;
 }
 
+Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count) {
+  Topology topology;
+  topology.vertex_count = vertex_count;
+  topology.corner_vertices.reserve(3 * triangles.size());
+  topology.face_offsets.reserve(triangles.size() + 1);
+  for (const Triangle& t : triangles) {
+    topology.corner_vertices.insert(topology.corner_vertices.end(), t.begin(), t.end());
+    topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
+  }
+  return topology;
+}
+
 Positions scan_normals(const Scan& scan) {
   Positions normals = Positions::Zero(scan.positions.rows(), 3);
   for (const Triangle& t : scan.triangles) {
@@ -45,21 +74,27 @@ Positions scan_normals(const Scan& scan) {
 }
 
 std::vector<bool> rim_vertices(const std::vector<Triangle>& triangles, Index vertex_count) {
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
   std::vector<bool> rim(static_cast<std::size_t>(vertex_count), false);
-  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-    while (next < edges.size() && edges[next] == edges[i]) ++next;
-    if (next - i == 1) rim[edges[i].first] = rim[edges[i].second] = true;
-  }
+  for (const auto& [a, b] : rim_edges(triangles)) rim[a] = rim[b] = true;
   return rim;
+}
+
+std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
+                                     const Positions& positions, double least_length) {
+  const std::vector<Edge> edges = rim_edges(triangles);
+  Grouping rims(static_cast<std::size_t>(positions.rows()));
+  for (const auto& [a, b] : edges) rims.join(a, b);
+  std::vector<double> length(static_cast<std::size_t>(positions.rows()), 0.0);
+  for (const auto& [a, b] : edges) {
+    length[rims.root(a)] += length3((positions.row(a) - positions.row(b)).transpose());
+  }
+  std::vector<std::uint32_t> vertices;
+  for (const auto& [a, b] : edges) {
+    if (length[rims.root(a)] >= least_length) vertices.insert(vertices.end(), {a, b});
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 Scan without_small_pieces(const Scan& scan, double least_share) {
@@ -72,8 +107,7 @@ Scan without_small_pieces(const Scan& scan, double least_share) {
   for (const Triangle& t : scan.triangles) {
     area[groups.root(t[0])] += length3(area_vector(scan.positions, t));
   }
-  const double least =
-      area.empty() ? 0 : least_share * *std::max_element(area.begin(), area.end());
+  const double least = area.empty() ? 0 : least_share * *std::max_element(area.begin(), area.end());
   Scan kept{scan.positions, {}};
   for (const Triangle& t : scan.triangles) {
     if (!degenerate(t) && area[groups.root(t[0])] >= least) kept.triangles.push_back(t);

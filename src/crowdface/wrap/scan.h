@@ -17,12 +17,19 @@ struct Scan {
 /// Every polygon as a fan around its first corner.
 std::vector<Triangle> triangles_of(const Topology& topology);
 
+/// Triangles as faces.
+Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count);
+
 /// Unit normals of the vertices, each the sum of the normals around it weighted by area; zero where
 /// none is.
 Positions scan_normals(const Scan& scan);
 
 /// #V: whether a vertex lies on an edge that has exactly one triangle: a hole, or where the scan ends.
 std::vector<bool> rim_vertices(const std::vector<Triangle>& triangles, Index vertex_count);
+
+/// The vertices of rims that are at least this long, ascending: where a surface ends.
+std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
+                                     const Positions& positions, double least_length);
 
 /// The scan without pieces of less than this share of the largest one's area, and without triangles
 /// that name a vertex twice. Vertices stay, so that their numbers do.

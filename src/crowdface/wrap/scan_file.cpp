@@ -26,7 +26,8 @@ Scan read_scan(const std::filesystem::path& path) {
   } else if (ending == ".glb") {
     scan = parse_glb(MappedFile(path).bytes(), name);
   } else {
-    throw InvalidInput(concat(name, ": expected a scan whose name ends in .obj, .ply, .stl or .glb"));
+    throw InvalidInput(
+        concat(name, ": expected a scan whose name ends in .obj, .ply, .stl or .glb"));
   }
   if (scan.triangles.empty()) {
     throw InvalidInput(concat(name, ": expected a surface of triangles, found ",
@@ -40,10 +41,10 @@ Scan read_scan(const std::filesystem::path& path) {
 }
 
 std::string encode_scan(const Scan& scan) {
-  std::string bytes = concat(
-      "ply\nformat binary_little_endian 1.0\nelement vertex ", scan.positions.rows(),
-      "\nproperty float x\nproperty float y\nproperty float z\nelement face ",
-      scan.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
+  std::string bytes =
+      concat("ply\nformat binary_little_endian 1.0\nelement vertex ", scan.positions.rows(),
+             "\nproperty float x\nproperty float y\nproperty float z\nelement face ",
+             scan.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
   const std::size_t header = bytes.size();
   const auto points = static_cast<std::size_t>(scan.positions.size());
   bytes.resize(header + 4 * points + 13 * scan.triangles.size());

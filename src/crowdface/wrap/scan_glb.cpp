@@ -120,8 +120,9 @@ class GlbReader {
     Values found;
     found.type = accessor.at("componentType").get<int>();
     found.count = accessor.at("count").get<std::size_t>();
-    const std::size_t size =
-        components * (found.type == 5126 || found.type == 5125 ? 4U : found.type == 5123 ? 2U : 1U);
+    const std::size_t size = components * (found.type == 5126 || found.type == 5125 ? 4U
+                                           : found.type == 5123                     ? 2U
+                                                                                    : 1U);
     found.stride = view.value("byteStride", size);
     const std::size_t begin =
         view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0});
@@ -160,8 +161,8 @@ class GlbReader {
     }
     const bool mirrored = matrix.topLeftCorner<3, 3>().determinant() < 0;
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-      triangles_.push_back({corners[i], corners[i + (mirrored ? 2 : 1)],
-                            corners[i + (mirrored ? 1 : 2)]});
+      triangles_.push_back(
+          {corners[i], corners[i + (mirrored ? 2 : 1)], corners[i + (mirrored ? 1 : 2)]});
     }
   }
 

@@ -117,9 +117,9 @@ Eigen::VectorXd row_of(const ShapeModel& model, const ShapeFit& fit, std::uint32
 void apply(const Eigen::VectorXd& step, const Eigen::Vector3d& middle, ShapeFit& fit) {
   const Eigen::Vector3d turn = step.head<3>();
   const double angle = length3(turn);
-  const Eigen::Matrix3d rotation =
-      angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
-                : Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d rotation = angle > 0
+                                       ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
+                                       : Eigen::Matrix3d::Identity();
   const double growth = std::clamp(1 + step(6), 0.8, 1.25);
   fit.pose.translation =
       growth * (rotation * (fit.pose.translation - middle)) + middle + step.segment<3>(3);
@@ -134,8 +134,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                  const std::vector<std::uint32_t>& probes, double reach_mm,
                  const ShapeFitOptions& options, double first_scale, ShapeFit& fit) {
   const Positions placed = fit.pose.apply(model.shape(fit.coefficients));
-  std::vector<Match> matches = find_matches(placed, skin_normals(skin, placed), scan, probes,
-                                            reach_mm * fit.pose.scale);
+  std::vector<Match> matches =
+      find_matches(placed, skin_normals(skin, placed), scan, probes, reach_mm * fit.pose.scale);
   if (matches.size() < probes.size() / 50 + 3) return 0;
   leave_out_farthest(matches);
   const double mm = fit.pose.scale;  // in the scan's unit
@@ -148,7 +148,12 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   for (const Match& match : matches) {
     const Eigen::Vector3d arm = placed.row(match.vertex).transpose() - middle;
     equations.add(row_of(model, fit, match.vertex, arm, match.normal),
-                  dot3(match.normal, match.offset), weight);
+                  dot3(match.normal, match.offset), weight * (1 - options.tangential));
+    if (options.tangential == 0) continue;
+    for (Index axis = 0; axis < 3; ++axis) {
+      equations.add(row_of(model, fit, match.vertex, arm, Eigen::Vector3d::Unit(axis)),
+                    match.offset(axis), weight * options.tangential);
+    }
   }
   const double for_landmarks = landmarks.empty()
                                    ? 0
@@ -199,7 +204,8 @@ ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurf
   for (const double reach : options.reach_mm) {
     for (int i = 0; i < options.steps; ++i) {
       throw_if_interrupted();
-      if (step(skin, model, scan, landmarks, probes, reach, options, start.pose.scale, fit) == 0) break;
+      if (step(skin, model, scan, landmarks, probes, reach, options, start.pose.scale, fit) == 0)
+        break;
     }
   }
   const Positions placed = fit.pose.apply(model.shape(fit.coefficients));

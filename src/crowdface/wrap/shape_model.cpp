@@ -40,8 +40,8 @@ ShapeModel make_model(const std::vector<Positions>& heads) {
   Eigen::MatrixXd gram(count, count);
   for (Index i = 0; i < count; ++i) {
     for (Index j = 0; j <= i; ++j) {
-      gram(i, j) = gram(j, i) =
-          product(differences[static_cast<std::size_t>(i)], differences[static_cast<std::size_t>(j)]);
+      gram(i, j) = gram(j, i) = product(differences[static_cast<std::size_t>(i)],
+                                        differences[static_cast<std::size_t>(j)]);
     }
   }
   const SymmetricEigen eigen = symmetric_eigen(gram);

@@ -4,19 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/text.h"
-#include "crowdface/mesh/normals.h"
-#include "crowdface/parts/vector3.h"
 #include "crowdface/render/ray_scene.h"
-#include "crowdface/wrap/scan.h"
 
 namespace crowdface {
 namespace {
 
 constexpr int kRays = 48;
-constexpr Index kFewestVertices = 100;
 
 /// Directions spread evenly over the sphere, along a spiral of the golden angle.
 std::array<Eigen::Vector3f, kRays> directions() {
@@ -70,42 +64,6 @@ std::vector<double> vertex_openness(const Positions& positions, const Positions&
     }
   });
   return open;
-}
-
-WrapTemplate make_template(const Topology& topology, const Positions& positions,
-                           const HeadAxes& axes) {
-  WrapTemplate result{topology, build_adjacency(topology), {}, {}, axes, positions, {}};
-  result.components = find_components(result.adjacency);
-  result.parts =
-      find_parts(topology, result.adjacency, result.components, positions, {}, axes);
-  const Components joined = join_skin(result.components, result.parts);
-  const std::uint32_t skin = joined.of_vertex.empty() ? 0 : joined.largest();
-
-  std::vector<std::uint32_t> number(static_cast<std::size_t>(topology.vertex_count), kNoIndex);
-  for (const Triangle& t : triangles_of(topology, joined, skin)) {
-    for (const std::uint32_t v : t) number[v] = 0;
-  }
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kNoIndex) continue;
-    number[v] = static_cast<std::uint32_t>(result.skin.vertices.size());
-    result.skin.vertices.push_back(v);
-  }
-  if (result.skin.vertex_count() < kFewestVertices) {
-    throw InvalidInput(concat("expected a template with skin of at least ", kFewestVertices,
-                              " vertices, found ", result.skin.vertex_count()));
-  }
-  for (const Triangle& t : triangles_of(topology, joined, skin)) {
-    result.skin.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
-  }
-  std::vector<Triangle> solid;  // lashes and tear lines hide nothing
-  for (const Triangle& t : triangles_of(topology)) {
-    if (result.parts.classes[result.components.of_vertex[t[0]]] != PartClass::kBound) {
-      solid.push_back(t);
-    }
-  }
-  result.skin.openness =
-      vertex_openness(positions, vertex_normals(topology, positions), solid, result.skin.vertices);
-  return result;
 }
 
 }  // namespace crowdface

@@ -5,8 +5,6 @@
 
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
-#include "crowdface/parts/head_axes.h"
-#include "crowdface/parts/part_list.h"
 #include "crowdface/validity/triangles.h"
 
 namespace crowdface {
@@ -15,28 +13,13 @@ namespace crowdface {
 struct SkinMesh {
   std::vector<std::uint32_t> vertices;  ///< rows of the template, ascending
   std::vector<Triangle> triangles;      ///< of rows of `vertices`
-  std::vector<double> openness;         ///< #vertices, 0 … 1: how much of the outside each can see
+  Adjacency adjacency;                  ///< of the triangles
+  std::vector<double> openness;  ///< #vertices, 0 … 1: how much of the outside each can see
 
   Index vertex_count() const { return static_cast<Index>(vertices.size()); }
   /// These rows of the template's positions.
   Positions of(const Positions& positions) const;
 };
-
-/// A template, sorted into skin and parts that follow it.
-struct WrapTemplate {
-  Topology topology;
-  Adjacency adjacency;
-  Components components;
-  PartList parts;
-  HeadAxes axes;
-  Positions positions;  ///< #V by 3, in millimetres
-  SkinMesh skin;
-};
-
-/// Finds skin and parts. \param positions  #V by 3, in millimetres.
-/// \throws InvalidInput if there is no skin to speak of.
-WrapTemplate make_template(const Topology& topology, const Positions& positions,
-                           const HeadAxes& axes);
 
 /// The share of rays from each vertex over the outer side that meet nothing: 0 inside mouth, nose and
 /// eye sockets, near 1 on a forehead.

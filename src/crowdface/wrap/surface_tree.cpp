@@ -45,7 +45,7 @@ SurfaceHit nearest_on_triangle(const Positions& positions, const Triangle& corne
     w = vc / (va + vb + vc);
   }
   SurfaceHit hit;
-  hit.shares = {1 - v - w, v, w};
+  hit.shares = {std::max(0.0, 1 - v - w), v, w};
   hit.point = a + v * ab + w * ac;
   hit.distance = length3(point - hit.point);
   return hit;
@@ -78,10 +78,20 @@ SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>
 
 void SurfaceTree::find_normals() {
   normals_.resize(triangles_.size());
+  std::vector<Eigen::Vector3d> of_vertices(static_cast<std::size_t>(positions_.rows()),
+                                           Eigen::Vector3d::Zero());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Eigen::Vector3d a = corner(positions_, triangles_[t], 0);
-    normals_[t] = unit3(cross3(corner(positions_, triangles_[t], 1) - a,
-                               corner(positions_, triangles_[t], 2) - a));
+    const Eigen::Vector3d area =
+        cross3(corner(positions_, triangles_[t], 1) - a, corner(positions_, triangles_[t], 2) - a);
+    normals_[t] = unit3(area);
+    for (const std::uint32_t v : triangles_[t]) of_vertices[v] += area;
+  }
+  facing_.resize(triangles_.size());
+  for (Eigen::Vector3d& normal : of_vertices) normal = unit3(normal);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Triangle& corners = triangles_[t];
+    facing_[t] = unit3(of_vertices[corners[0]] + of_vertices[corners[1]] + of_vertices[corners[2]]);
   }
 }
 
@@ -176,9 +186,8 @@ SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach) cons
 
 SurfaceHit SurfaceTree::nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                        double least_cosine, double reach) const {
-  return search(point, reach, [&](std::uint32_t t) {
-    return dot3(normals_[t], facing) >= least_cosine;
-  });
+  return search(point, reach,
+                [&](std::uint32_t t) { return dot3(facing_[t], facing) >= least_cosine; });
 }
 
 }  // namespace crowdface

@@ -31,8 +31,9 @@ class SurfaceTree {
 
   /// The nearest place within `reach`; of equally near ones that of the smallest triangle number.
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach) const;
-  /// The same among triangles whose normal makes an angle with `facing` (unit) of at most the one
-  /// with this cosine.
+  /// The same among triangles that face the way `facing` (unit) does: the angle to the mean of the
+  /// normals of their corners, in which noise and the edges of creases are evened out, is at most the
+  /// one with this cosine.
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                             double least_cosine, double reach) const;
 
@@ -48,8 +49,8 @@ class SurfaceTree {
   };
   struct Node {
     Box box;
-    std::uint32_t begin, end;   ///< of order_
-    std::uint32_t second = 0;   ///< the first child is the next node; 0: a leaf
+    std::uint32_t begin, end;  ///< of order_
+    std::uint32_t second = 0;  ///< the first child is the next node; 0: a leaf
   };
   void build(std::uint32_t begin, std::uint32_t end, const Positions& centres);
   void find_normals();
@@ -59,7 +60,7 @@ class SurfaceTree {
 
   const Positions& positions_;
   const std::vector<Triangle>& triangles_;
-  std::vector<Eigen::Vector3d> normals_;
+  std::vector<Eigen::Vector3d> normals_, facing_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/vector3.h"
+#include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/unfold.h"
 
 namespace crowdface {
@@ -17,7 +19,8 @@ constexpr std::size_t kFewestLandmarks = 4;
 constexpr double kLeastOutlier_mm = 4, kOutlier = 3.5;  ///< the latter in medians
 
 /// Landmarks by rows of the skin.
-std::vector<WrapLandmark> on_skin(const SkinMesh& skin, const std::vector<WrapLandmark>& landmarks) {
+std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
+                                  const std::vector<WrapLandmark>& landmarks) {
   std::vector<WrapLandmark> result;
   for (const WrapLandmark& landmark : landmarks) {
     const auto at = std::lower_bound(skin.vertices.begin(), skin.vertices.end(), landmark.vertex);
@@ -66,19 +69,78 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
   for (LandmarkResidual& residual : residuals) residual.outlier = residual.final_mm > most;
 }
 
+void move(std::vector<WrapLandmark>& landmarks, const Similarity& motion) {
+  for (WrapLandmark& landmark : landmarks) {
+    landmark.place = motion.scale * (motion.rotation * landmark.place) + motion.translation;
+  }
+}
+
 Scan moved(const Scan& scan, const Similarity& motion) {
   return {motion.apply(scan.positions), scan.triangles};
 }
 
-void measure(const Positions& wrapped, const ScanSurface& scan,
-             WrapResult& result) {
+void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& result) {
   result.distance_mm = Eigen::VectorXd::Zero(wrapped.rows());
-  result.without_data.assign(static_cast<std::size_t>(wrapped.rows()), false);
-  for (Index v = 0; v < wrapped.rows(); ++v) {
-    const auto place = scan.nearest(wrapped.row(v).transpose(), 1e300);
-    result.distance_mm(v) = place.distance;
-    result.without_data[static_cast<std::size_t>(v)] = place.on_rim;
+  std::vector<char> on_rim(static_cast<std::size_t>(wrapped.rows()), 0);
+  parallel_blocks(wrapped.rows(), 1024, [&](auto begin, auto end) {
+    for (auto v = begin; v < end; ++v) {
+      const auto place = scan.nearest(wrapped.row(v).transpose(), 1e300);
+      result.distance_mm(v) = place.distance;
+      on_rim[static_cast<std::size_t>(v)] = place.on_rim ? 1 : 0;
+    }
+  });
+  result.without_data.assign(on_rim.begin(), on_rim.end());
+}
+
+/// A large skin, its model and its landmarks, as its reduced skin has them.
+struct Small {
+  Positions rest;
+  std::optional<ShapeModel> model;
+  std::vector<WrapLandmark> landmarks;  ///< moved along with the vertex that stands for theirs
+};
+
+Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel* model,
+             const std::vector<WrapLandmark>& landmarks, const Similarity& pose) {
+  const SkinMesh& mesh = shape.reduced->mesh;
+  Small small{mesh.of(rest), std::nullopt, landmarks};
+  if (model != nullptr) {
+    small.model = ShapeModel{mesh.of(model->mean), {}};
+    for (const Positions& mode : model->modes) small.model->modes.push_back(mesh.of(mode));
   }
+  for (WrapLandmark& landmark : small.landmarks) {
+    Index nearest = 0;
+    (small.rest.rowwise() - rest.row(landmark.vertex)).rowwise().squaredNorm().minCoeff(&nearest);
+    const Eigen::Vector3d beside =
+        (small.rest.row(nearest) - rest.row(landmark.vertex)).transpose();
+    landmark.vertex = static_cast<std::uint32_t>(nearest);
+    landmark.place += pose.scale * (pose.rotation * beside);
+  }
+  return small;
+}
+
+Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTemplate& shape,
+                      const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
+                      const std::optional<PoseHint>& hint) {
+  if (landmarks.size() >= kFewestLandmarks) return pose_of_landmarks(rest, landmarks);
+  if (!hint) {
+    throw InvalidInput(concat("expected at least ", kFewestLandmarks,
+                              " landmarks on template and scan, or which way the scan looks "
+                              "(--scan-up, --scan-front), found ",
+                              landmarks.size(), " landmarks"));
+  }
+  return guess_pose(bent, shape.reduced ? bent.of(rest) : rest, shape.axes, surface, *hint);
+}
+
+/// Fits, bends and mends what is in the template's frame from here on.
+Positions bend(const SkinMesh& skin, const ShapeModel& model, const ShapeFit& fit,
+               const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
+               const WrapOptions& options) {
+  BendOptions bend = options.bend;
+  if (!model.modes.empty()) {
+    std::erase_if(bend.stiffness_mm,
+                  [&](double length) { return length > options.first_stiffness_with_model_mm; });
+  }
+  return bend_skin(skin, model.shape(fit.coefficients), model, surface, landmarks, bend);
 }
 
 }  // namespace
@@ -87,49 +149,43 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
                 const std::vector<WrapLandmark>& all_landmarks, const std::optional<PoseHint>& hint,
                 const WrapOptions& options) {
   const SkinMesh& skin = shape.skin;
+  const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
   std::vector<WrapLandmark> landmarks = on_skin(skin, all_landmarks);
   const Positions rest = skin.of(shape.positions);
-  const ShapeModel alone{rest, {}};
-  ShapeFit fit;
-  if (landmarks.size() >= kFewestLandmarks) {
-    fit.pose = pose_of_landmarks(rest, landmarks);
-  } else if (!hint) {
-    throw InvalidInput(concat("expected at least ", kFewestLandmarks,
-                              " landmarks on template and scan, or which way the scan looks, found ",
-                              landmarks.size(), " landmarks"));
-  }
   WrapResult result;
+  ShapeFit fit;
+  std::optional<Small> small;
+  std::optional<ShapeModel> used;
   {
     const ScanSurface surface(scan);
-    fit = fit_shape(skin, alone, surface, landmarks, fit, options.pose);
+    fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint);
+    if (shape.reduced) small = reduce(shape, rest, model, landmarks, fit.pose);
+    const auto& marks = small ? small->landmarks : landmarks;
+    const ShapeModel alone{small ? small->rest : rest, {}};
+    fit = fit_shape(bent, alone, surface, marks, fit, options.pose);
     result.pose_residual_mm = fit.residual;
     result.landmarks = residuals_of(rest, fit.pose, landmarks);
-    if (model != nullptr) fit = fit_shape(skin, *model, surface, landmarks, fit, options.person);
+    used = model == nullptr ? alone : small ? *small->model : *model;
+    if (model != nullptr) fit = fit_shape(bent, *used, surface, marks, fit, options.person);
   }
   result.pose = fit.pose;
   const Similarity back = inverse(fit.pose);
   const ScanSurface surface(moved(scan, back));
-  for (WrapLandmark& landmark : landmarks) {
-    landmark.place = back.scale * (back.rotation * landmark.place) + back.translation;
-  }
-  BendOptions bend = options.bend;
-  if (model != nullptr) {
-    std::erase_if(bend.stiffness_mm,
-                  [&](double length) { return length > options.first_stiffness_with_model_mm; });
-  }
-  const ShapeModel& used = model != nullptr ? *model : alone;
+  move(landmarks, back);
+  if (small) move(small->landmarks, back);
   Positions wrapped =
-      bend_skin(skin, used.shape(fit.coefficients), used, surface, landmarks, bend);
+      bend(bent, *used, fit, surface, small ? small->landmarks : landmarks, options);
+  if (small) wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
   wrapped = follow_detail(skin, wrapped, surface, options.detail);
   result.flipped = unfold(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
 
-  FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
   result.positions = shape.positions;
   for (Index v = 0; v < wrapped.rows(); ++v) {
     result.positions.row(skin.vertices[static_cast<std::size_t>(v)]) = wrapped.row(v);
   }
+  const FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
   PartFollower(faces, shape.parts, shape.axes).follow(0, result.positions);
   return result;
 }

@@ -7,15 +7,11 @@
 
 #include "crowdface/wrap/bend_skin.h"
 #include "crowdface/wrap/detail.h"
+#include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/shape_fit.h"
-#include "crowdface/wrap/skin_mesh.h"
+#include "crowdface/wrap/wrap_template.h"
 
 namespace crowdface {
-
-/// Which way the head on a scan looks, where no landmarks tell: unit vectors in the scan's frame.
-struct PoseHint {
-  Eigen::Vector3d up, front;
-};
 
 struct WrapOptions {
   ShapeFitOptions pose;
@@ -24,8 +20,6 @@ struct WrapOptions {
   /// Of bend.stiffness_mm, the rounds that are left once a model has found the person.
   double first_stiffness_with_model_mm = 20;
   DetailOptions detail;
-  /// Skins of more vertices are bent by way of a reduced one.
-  std::size_t most_vertices = 20000, reduced_vertices = 12000;
 };
 
 /// How far a landmark of the template is from that of the scan.
@@ -40,10 +34,10 @@ struct WrapResult {
   Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
   Similarity pose;      ///< from the template's frame (mm) to the scan's
   std::vector<LandmarkResidual> landmarks;
-  double pose_residual_mm = 0;       ///< median distance after the similarity
-  Eigen::VectorXd distance_mm;       ///< #skin: from the wrapped skin to the scan
-  std::vector<bool> without_data;    ///< #skin: nothing of the scan is near, or only its rim
-  Index flipped = 0;                 ///< triangles of the skin
+  double pose_residual_mm = 0;     ///< median distance after the similarity
+  Eigen::VectorXd distance_mm;     ///< #skin: from the wrapped skin to the scan
+  std::vector<bool> without_data;  ///< #skin: nothing of the scan is near, or only its rim
+  Index flipped = 0;               ///< triangles of the skin
 };
 
 /// Bends the template's skin onto the scan; eyes, teeth and lashes follow.

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/parts/head_axes.h"
+#include "crowdface/wrap/scan_surface.h"
+#include "crowdface/wrap/skin_mesh.h"
+
+namespace crowdface {
+
+/// Which way the head on a scan looks, where no landmarks tell: unit vectors in the scan's frame.
+struct PoseHint {
+  Eigen::Vector3d up, front;
+};
+
+/// The similarity from a template to a scan of which only that much is known: of several sizes and
+/// places the one from which closest points come nearest.
+Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
+                      const ScanSurface& scan, const PoseHint& hint);
+
+}  // namespace crowdface

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+#include "cli/program_test.h"
+#include "support/crowd_files.h"
+
+namespace crowdface::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Synthetic heads, and landmarks that are the same vertices on each.
+class Wrap : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    crowdface(0, {"synth", "-o", heads_.string(), "--count", "3", "--vertices", "5000", "--quiet"});
+    fs::create_directories(scans_);
+    landmarks_ =
+        folder_.write("landmarks.yaml", concat("template: ", kPlaces, "\nscan: ", kPlaces));
+  }
+  std::vector<std::string> single(const fs::path& landmarks, const fs::path& out) const {
+    return {"wrap", head(1).string(), head(2).string(), "--landmarks", landmarks.string(),
+            "-o",   out.string()};
+  }
+  fs::path head(int i) const { return heads_ / concat("synth_0", i, ".obj"); }
+
+  static constexpr const char* kPlaces =
+      "{a: 400, b: 900, c: 1500, d: 2100, e: 2700, f: 3300, g: 3900}";
+  TemporaryFolder folder_;
+  fs::path heads_ = folder_ / "heads", scans_ = folder_ / "scans", landmarks_;
+};
+
+TEST_F(Wrap, GivesTheTemplatesFileWithOtherPositionsAReportAndAPicture) {
+  const fs::path out = folder_ / "head.obj";
+  crowdface(0, single(landmarks_, out), {"7 landmarks", "mm from the scan"});
+  expect_same_but_positions(head(1), out);
+  EXPECT_EQ(read_file(folder_ / "head.wrap.png").substr(1, 3), "PNG");
+  const std::string report = read_file(folder_ / "head.wrap.json");
+  EXPECT_THAT(report, ::testing::HasSubstr("\"flipped_triangles\": 0"));
+  EXPECT_THAT(report, ::testing::HasSubstr("\"name\": \"g\""));
+}
+
+TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {
+  for (int i = 2; i <= 3; ++i) {
+    fs::copy(head(i), scans_ / concat("person_", i, ".obj"));
+    folder_.write(concat("scans/person_", i, ".yaml"), concat("scan: ", kPlaces));
+  }
+  const std::vector<std::string> batch = {
+      "wrap",           "--batch",      scans_.string(),     "--template",
+      head(1).string(), "--landmarks",  landmarks_.string(), "-o",
+      folder_ / "out",  "--no-pictures"};
+  auto dry = batch;
+  dry.emplace_back("--dry-run");
+  crowdface(0, dry, {"person_2.obj", "7 landmarks", "would become"});
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  folder_.write("scans/broken.ply", "ply\n");
+  crowdface(65, batch, {"broken.ply", "header does not end"});
+  const std::string first = read_file(folder_ / "out/person_2.obj");
+  EXPECT_TRUE(fs::exists(folder_ / "out/reports/person_3.wrap.json"));
+  fs::remove(scans_ / "broken.ply");
+  fs::remove(folder_ / "out/person_3.obj");
+  crowdface(0, batch, {"1 of 2 were there already"});
+  EXPECT_EQ(read_file(folder_ / "out/person_2.obj"), first);
+  EXPECT_TRUE(fs::exists(folder_ / "out/person_3.obj"));
+}
+
+TEST_F(Wrap, RefusalsSayWhatToDo) {
+  const fs::path out = folder_ / "head.obj";
+  const auto with = [&](const char* name, const std::string& text) {
+    return single(folder_.write(name, text), out);
+  };
+  crowdface(65, with("few.yaml", "template: {a: 1, b: 2}\nscan: {a: 1, b: 2}\n"),
+            {"at least 4", "--scan-up", "found 2"});
+  crowdface(64, with("beyond.yaml", "template:\n  a: 99999999\nscan: {a: 1}\n"),
+            {"beyond.yaml:2:6", "vertex of the template", "99999999"});
+  crowdface(64, with("flat.yaml", "template: {a: 1}\nscan:\n  a: [1, 2]\n"),
+            {"flat.yaml:3", "[x, y, z]"});
+  crowdface(64, with("key.yaml", "templates: {a: 1}\n"), {"key.yaml:1", "templates"});
+  crowdface(66, single(folder_ / "none.yaml", out), {"none.yaml"});
+  crowdface(64, {"wrap", head(1).string(), "-o", out.string()}, {"TEMPLATE.obj and SCAN"});
+  crowdface(64, {"wrap", "--batch", scans_.string(), "-o", out.string()}, {"--template"});
+  auto units = single(landmarks_, out);
+  units.insert(units.end(), {"--scan-units", "furlong"});
+  crowdface(64, units, {"furlong", "mm, cm, m or in"});
+  EXPECT_FALSE(fs::exists(out));
+}
+
+}  // namespace
+}  // namespace crowdface::testing

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/scan_file.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/synth/synthetic_head.h"
+
+#include "support/expect_error.h"
+#include "support/meshes.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface::testing {
+namespace {
+
+Scan cube() {
+  return {cube_positions(), triangles_of(cube_topology())};
+}
+
+std::string binary_stl(const Scan& scan) {
+  std::string bytes(84, ' ');
+  const auto count = static_cast<std::uint32_t>(scan.triangles.size());
+  std::memcpy(bytes.data() + 80, &count, 4);
+  for (const Triangle& t : scan.triangles) {
+    std::string record(50, '\0');
+    for (std::size_t k = 0; k < 9; ++k) {
+      const auto value = static_cast<float>(scan.positions(t[k / 3], static_cast<Index>(k % 3)));
+      std::memcpy(record.data() + 12 + 4 * k, &value, 4);
+    }
+    bytes += record;
+  }
+  return bytes;
+}
+
+std::string text_stl(const Scan& scan) {
+  std::string text = "solid cube\n";
+  for (const Triangle& t : scan.triangles) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint32_t v : t) {
+      text += concat("vertex ", scan.positions(v, 0), ' ', scan.positions(v, 1), ' ',
+                     scan.positions(v, 2), '\n');
+    }
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid cube\n";
+}
+
+/// A GLB file of one mesh, hung below a node that shifts it.
+std::string glb(const Scan& scan, const std::string& node) {
+  std::string binary;
+  for (Index i = 0; i < scan.positions.size(); ++i) {
+    const auto value = static_cast<float>(scan.positions.data()[i]);
+    binary.append(reinterpret_cast<const char*>(&value), 4);
+  }
+  const std::size_t points = binary.size();
+  for (const Triangle& t : scan.triangles) {
+    for (const std::uint32_t v : t) {
+      const auto corner = static_cast<std::uint16_t>(v);
+      binary.append(reinterpret_cast<const char*>(&corner), 2);
+    }
+  }
+  std::string json = concat(
+      R"({"scenes":[{"nodes":[0]}],"nodes":[)", node,
+      R"(,{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)",
+      R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)",
+      scan.positions.rows(), R"(},{"bufferView":1,"componentType":5123,"type":"SCALAR","count":)",
+      3 * scan.triangles.size(), R"(}],"bufferViews":[{"buffer":0,"byteLength":)", points,
+      R"(},{"buffer":0,"byteOffset":)", points, R"(,"byteLength":)", binary.size() - points,
+      R"(}],"buffers":[{"byteLength":)", binary.size(), "}]}");
+  const auto pad = [](std::string& text, char with) {
+    text.resize((text.size() + 3) / 4 * 4, with);
+  };
+  pad(json, ' ');
+  pad(binary, '\0');
+  const auto number = [](std::size_t value) {
+    const auto word = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&word), 4);
+  };
+  return "glTF" + number(2) + number(28 + json.size() + binary.size()) + number(json.size()) +
+         "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+/// The three corners of each triangle.
+std::vector<Eigen::RowVector3d> corners_of(const Scan& scan) {
+  std::vector<Eigen::RowVector3d> corners;
+  for (const Triangle& t : scan.triangles) {
+    for (const std::uint32_t v : t) corners.emplace_back(scan.positions.row(v));
+  }
+  return corners;
+}
+
+TEST(ScanFile, EveryFormatGivesTheSameSurface) {
+  const TemporaryFolder folder;
+  const Scan scan = cube();
+  std::string text_ply =
+      "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement vertex 8\r\n"
+      "property double x\r\nproperty uchar red\r\nproperty double y\r\n"
+      "property double z\r\nelement face 6\r\n"
+      "property list uchar int vertex_index\r\nend_header\r\n";
+  for (Index v = 0; v < 8; ++v) {
+    text_ply += concat(scan.positions(v, 0), " 7 ", scan.positions(v, 1), ' ', scan.positions(v, 2),
+                       "\r\n");
+  }
+  const Topology topology = cube_topology();
+  for (Index f = 0; f < 6; ++f) {
+    const auto face = topology.face(f);
+    text_ply += concat("4 ", face[0], ' ', face[1], ' ', face[2], ' ', face[3], "\r\n");
+  }
+  const auto read = [&](const char* name, const std::string& bytes) {
+    return corners_of(read_scan(folder.write(name, bytes)));
+  };
+  const auto expected = corners_of(scan);
+  EXPECT_EQ(read("binary.ply", encode_scan(scan)), expected);
+  EXPECT_EQ(read("text.PLY", text_ply), expected);
+  EXPECT_EQ(read("binary.stl", binary_stl(scan)), expected);
+  EXPECT_EQ(read("text.stl", text_stl(scan)), expected);
+  EXPECT_EQ(read("scan.glb", glb(scan, R"({"children":[1]})")), expected);
+}
+
+TEST(ScanFile, CornersInOnePlaceAreWelded) {
+  const TemporaryFolder folder;
+  const Scan scan = read_scan(folder.write("cube.stl", binary_stl(cube())));
+  const std::vector<bool> rim = rim_vertices(scan.triangles, scan.positions.rows());
+  EXPECT_EQ(std::count(rim.begin(), rim.end(), true), 0) << "a cube is closed";
+}
+
+TEST(ScanFile, GlbNodesStandWhereTheirParentsPutThem) {
+  const Scan turned = parse_glb(
+      glb(cube(), R"({"children":[1],"translation":[1,2,3],"scale":[2,2,2]})"), "scan.glb");
+  const Positions expected = cube_positions(2).rowwise() + Eigen::RowVector3d(1, 2, 3);
+  EXPECT_LT((turned.positions - expected).cwiseAbs().maxCoeff(), 1e-6);
+  // A node that mirrors leaves the outside outside.
+  const Scan mirrored = parse_glb(glb(cube(), R"({"children":[1],"scale":[-1,1,1]})"), "scan.glb");
+  const Positions normals = scan_normals(mirrored);
+  for (Index v = 0; v < 8; ++v) EXPECT_GT(normals.row(v).dot(mirrored.positions.row(v)), 0);
+}
+
+TEST(ScanFile, DamagedFilesAreRefusedByName) {
+  const TemporaryFolder folder;
+  const auto refuse = [&](const char* name, const std::string& bytes, const char* phrase) {
+    SCOPED_TRACE(name);
+    const auto path = folder.write(name, bytes);
+    expect_error(ExitCode::kBadData, {name, phrase}, [&] { read_scan(path); });
+  };
+  const std::string ply = encode_scan(cube()), stl = binary_stl(cube()),
+                    whole = glb(cube(), R"({"children":[1]})");
+  refuse("cut.ply", ply.substr(0, ply.size() - 1), "ends too soon");
+  refuse("none.ply", "ply\n", "header does not end");
+  refuse("other.ply", "hello\n", "does not begin with ply");
+  std::string far = ply;
+  far[far.size() - 1] = 1;  // the last corner becomes 16,777,2xx
+  refuse("far.ply", far, "names vertex");
+  refuse("many.ply", "ply\nformat ascii 1.0\nelement vertex 99999999\nend_header\n", "claims");
+  refuse("cut.stl", stl.substr(0, stl.size() - 1), "claims 12 triangles");
+  refuse("word.stl", "solid x\nvertex 1 2 three\n", "three");
+  refuse("cut.glb", whole.substr(0, whole.size() - 4), "ends too soon");
+  refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "without end");
+  refuse("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "face");
+  refuse("scan.xyz", "1 2 3\n", ".glb");
+  for (std::size_t cut = 0; cut < whole.size(); cut += 13) {
+    EXPECT_THROW(parse_glb(whole.substr(0, cut), "cut.glb"), InvalidInput) << cut;
+  }
+  for (std::size_t cut = 0; cut < ply.size(); cut += 7) {
+    EXPECT_THROW(parse_ply(ply.substr(0, cut), "cut.ply"), InvalidInput) << cut;
+  }
+}
+
+TEST(ScanFile, SmallPiecesAreLeftOut) {
+  Scan scan = cube();
+  scan.positions.conservativeResize(11, 3);
+  scan.positions.bottomRows(3) << 5, 0, 0, 5.01, 0, 0, 5, 0.01, 0;
+  scan.triangles.push_back({8, 9, 10});
+  EXPECT_EQ(without_small_pieces(scan, 0.001).triangles.size(), 12U);
+  EXPECT_EQ(without_small_pieces(scan, 0).triangles.size(), 13U);
+}
+
+}  // namespace
+}  // namespace crowdface::testing

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/wrap.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/synth/synthetic_head.h"
+#include "crowdface/wrap/report.h"
+#include "crowdface/wrap/unfold.h"
+
+#include "support/expect_error.h"
+#include "wrap/truth_scan.h"
+
+namespace crowdface::testing {
+namespace {
+
+constexpr double kMmPerCm = 10;
+
+WrapTemplate synthetic(Index vertices, std::uint64_t index, const TemplateOptions& options = {}) {
+  const SyntheticHeads heads(vertices, SyntheticHeads::Parts::kEyesAndTeeth);
+  return make_template(heads.topology(), kMmPerCm * heads.positions(1, index), {}, options);
+}
+
+/// Landmarks far from each other on the visible skin, the first the foremost vertex.
+std::vector<WrapLandmark> spread_landmarks(const WrapTemplate& head, std::size_t count) {
+  const Positions skin = head.skin.of(head.positions);
+  Eigen::VectorXd distances = Eigen::VectorXd::Constant(skin.rows(), 1e300);
+  for (Index v = 0; v < skin.rows(); ++v) {
+    if (head.skin.openness[static_cast<std::size_t>(v)] < 0.4) distances(v) = -1;
+  }
+  Index next = 0;
+  skin.col(2).maxCoeff(&next);
+  std::vector<WrapLandmark> landmarks;
+  while (landmarks.size() < count) {
+    landmarks.push_back({concat("landmark_", landmarks.size()),
+                         head.skin.vertices[static_cast<std::size_t>(next)],
+                         {}});
+    distances = distances.cwiseMin((skin.rowwise() - skin.row(next)).rowwise().norm());
+    distances.maxCoeff(&next);
+  }
+  return landmarks;
+}
+
+double percentile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// How far the wrapped vertices of the visible skin are from the head's own, in millimetres.
+std::vector<double> errors_of(const WrapTemplate& head, const TruthScan& truth,
+                              const WrapResult& result) {
+  const Positions found = inverse(truth.pose).apply(result.pose.apply(result.positions));
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < head.skin.vertices.size(); ++i) {
+    const auto v = static_cast<Index>(head.skin.vertices[i]);
+    if (head.skin.openness[i] > 0.12) {
+      errors.push_back((found.row(v) - head.positions.row(v)).norm());
+    }
+  }
+  return errors;
+}
+
+class WrapAtTwoSizes : public ::testing::TestWithParam<Index> {};
+
+TEST_P(WrapAtTwoSizes, FindsAHeadItHasNeverSeen) {
+  const WrapTemplate shape = synthetic(GetParam(), 1), head = synthetic(GetParam(), 2);
+  const TruthScan truth =
+      make_truth_scan(head, spread_landmarks(head, 16), {.triangles = 40000, .seed = 3});
+  const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
+  const std::vector<double> errors = errors_of(head, truth, result);
+  EXPECT_LT(percentile(errors, 0.5), 1.8);
+  EXPECT_LT(percentile(errors, 0.95), 6);
+  EXPECT_LT(distances_of(shape, result).percentile_95, 0.5);
+  EXPECT_EQ(result.flipped, 0);
+  EXPECT_NEAR(result.pose.scale / truth.pose.scale, 1, 0.1);
+  EXPECT_TRUE(result.positions.allFinite());
+  EXPECT_NO_THROW(refuse_bad_wrap(shape, result));
+}
+INSTANTIATE_TEST_SUITE_P(Vertices, WrapAtTwoSizes, ::testing::Values(5000, 16000));
+
+TEST(Wrap, ATemplateThatIsTheScanStaysWhereItIs) {
+  const WrapTemplate shape = synthetic(5000, 1);
+  const Scan scan{shape.skin.of(shape.positions), shape.skin.triangles};
+  std::vector<WrapLandmark> landmarks = spread_landmarks(shape, 8);
+  for (WrapLandmark& landmark : landmarks) {
+    landmark.place = shape.positions.row(landmark.vertex).transpose();
+  }
+  const WrapResult result = wrap(shape, nullptr, scan, landmarks, std::nullopt);
+  const Eigen::VectorXd moved = (result.positions - shape.positions).rowwise().norm();
+  EXPECT_LT(percentile({moved.begin(), moved.end()}, 0.99), 0.01);
+  EXPECT_LT(moved.maxCoeff(), 0.5);
+}
+
+TEST(Wrap, AModelFindsAHeadBetterThanItsMean) {
+  const SyntheticHeads heads(5000, SyntheticHeads::Parts::kEyesAndTeeth);
+  std::vector<Positions> others;
+  for (std::uint64_t i = 1; i <= 12; ++i) others.emplace_back(kMmPerCm * heads.positions(1, i));
+  const ShapeModel whole = make_model(others);
+  const WrapTemplate shape = make_template(heads.topology(), whole.mean, {});
+  ShapeModel model{shape.skin.of(whole.mean), {}};
+  for (const Positions& mode : whole.modes) model.modes.push_back(shape.skin.of(mode));
+  const WrapTemplate head = make_template(heads.topology(), kMmPerCm * heads.positions(1, 20), {});
+  const TruthScan truth =
+      make_truth_scan(head, spread_landmarks(head, 16), {.triangles = 40000, .seed = 4});
+  const auto median = [&](const ShapeModel* used) {
+    return percentile(
+        errors_of(head, truth, wrap(shape, used, truth.scan, truth.landmarks, std::nullopt)), 0.5);
+  };
+  const double with = median(&model), without = median(nullptr);
+  EXPECT_LT(with, without);
+  EXPECT_LT(with, 1.2);
+}
+
+TEST(Wrap, ALargeSkinIsBentByWayOfAReducedOne) {
+  const WrapTemplate whole = synthetic(16000, 1), head = synthetic(16000, 2);
+  const WrapTemplate shape = synthetic(16000, 1, {.most_vertices = 8000, .reduced_vertices = 4000});
+  ASSERT_TRUE(shape.reduced);
+  EXPECT_NEAR(static_cast<double>(shape.reduced->mesh.vertices.size()), 4000, 400);
+  const TruthScan truth =
+      make_truth_scan(head, spread_landmarks(head, 16), {.triangles = 40000, .seed = 3});
+  const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
+  EXPECT_LT(percentile(errors_of(head, truth, result), 0.5), 1.9);
+  EXPECT_LT(distances_of(shape, result).percentile_95, 0.5);
+  EXPECT_EQ(result.flipped, 0);
+}
+
+TEST(Wrap, OneThreadGivesWhatManyGive) {
+  const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
+  const TruthScan truth =
+      make_truth_scan(head, spread_landmarks(head, 8), {.triangles = 20000, .seed = 5});
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt).positions;
+  };
+  EXPECT_EQ(run(1), run(3));
+}
+
+TEST(Wrap, WithoutLandmarksTheWayItLooksIsEnough) {
+  const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
+  TruthScan truth = make_truth_scan(head, {}, {.triangles = 30000, .moved = false, .seed = 6});
+  // Another unit, lying on its back: up is −Z, the face looks along +Y.
+  truth.pose.rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  truth.pose.scale = 0.001;
+  truth.scan.positions = truth.pose.apply(truth.scan.positions);
+  const WrapResult result = wrap(shape, nullptr, truth.scan, {},
+                                 PoseHint{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY()});
+  EXPECT_LT(distances_of(shape, result).percentile_95, 0.8);
+  EXPECT_LT(percentile(errors_of(head, truth, result), 0.5), 4);
+  expect_error(ExitCode::kBadData, {"at least 4", "--scan-up"},
+               [&] { wrap(shape, nullptr, truth.scan, {}, std::nullopt); });
+}
+
+TEST(Wrap, AMisplacedLandmarkIsNamed) {
+  const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
+  TruthScan truth = make_truth_scan(head, spread_landmarks(head, 16),
+                                    {.triangles = 30000, .landmark_error_mm = 0.5, .seed = 7});
+  truth.landmarks[5].place += truth.pose.scale * Eigen::Vector3d(14, 14, 14);
+  const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
+  for (std::size_t i = 0; i < result.landmarks.size(); ++i) {
+    EXPECT_EQ(result.landmarks[i].outlier, i == 5)
+        << result.landmarks[i].name << ' ' << result.landmarks[i].final_mm;
+  }
+}
+
+TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {
+  const WrapTemplate shape = synthetic(5000, 1);
+  std::vector<WrapLandmark> landmarks = spread_landmarks(shape, 12);
+  const Scan scan{shape.skin.of(shape.positions), shape.skin.triangles};
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const auto& other = landmarks[(i + 5) % landmarks.size()];
+    landmarks[i].place = shape.positions.row(other.vertex).transpose();
+  }
+  expect_error(ExitCode::kBadData, {"do not belong together", "swapped"}, [&] {
+    refuse_bad_wrap(shape, wrap(shape, nullptr, scan, landmarks, std::nullopt));
+  });
+}
+
+TEST(Wrap, ATemplateWithoutSkinIsRefused) {
+  Topology topology;
+  topology.vertex_count = 3;
+  topology.corner_vertices = {0, 1, 2};
+  topology.face_offsets = {0, 3};
+  expect_error(ExitCode::kBadData, {"skin of at least"},
+               [&] { make_template(topology, Positions::Identity(3, 3), {}); });
+}
+
+TEST(Unfold, TurnsFoldedTrianglesBackAndTouchesNothingElse) {
+  const WrapTemplate shape = synthetic(5000, 1);
+  const Positions rest = shape.skin.of(shape.positions);
+  Positions folded = rest;
+  const Index v = 2000;
+  for (const std::uint32_t n : shape.skin.adjacency.of(v)) {
+    folded.row(v) += 0.9 * (rest.row(n) - rest.row(v));
+  }
+  folded.row(v) += 2.5 * (rest.row(shape.skin.adjacency.of(v)[0]) - rest.row(v));
+  ASSERT_FALSE(folded_triangles(shape.skin, rest, folded).empty());
+  Positions mended = folded;
+  EXPECT_EQ(unfold(shape.skin, rest, mended), 0);
+  EXPECT_TRUE(folded_triangles(shape.skin, rest, mended).empty());
+  Index changed = 0;
+  for (Index i = 0; i < rest.rows(); ++i) changed += mended.row(i) == folded.row(i) ? 0 : 1;
+  EXPECT_GT(changed, 0);
+  EXPECT_LT(changed, 100);
+}
+
+}  // namespace
+}  // namespace crowdface::testing
