@@ -64,14 +64,14 @@ Eigen::Vector3d vector_of(Axis axis) {
 
 /// The unit in which the mesh is as large as a head with its neck.
 LengthUnit guess_unit(const Positions& positions) {
-  constexpr double kTypical_mm = 430;
+  constexpr double kTypicalMm = 430;
   const double extent = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
   LengthUnit best = LengthUnit::kCentimetre;
   double nearest = 1e300;
   for (const LengthUnit unit :
        {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre}) {
     const double mm = std::max(extent * mm_per(unit), 1e-9);
-    const double ratio = std::max(mm / kTypical_mm, kTypical_mm / mm);
+    const double ratio = std::max(mm / kTypicalMm, kTypicalMm / mm);
     if (ratio >= nearest) continue;
     nearest = ratio;
     best = unit;

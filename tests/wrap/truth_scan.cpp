@@ -11,7 +11,7 @@
 
 #include "crowdface/core/random.h"
 #include "crowdface/mesh/normals.h"
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/wrap/surface_tree.h"
 
 namespace crowdface::testing {

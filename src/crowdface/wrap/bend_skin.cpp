@@ -9,8 +9,8 @@
 #include <Eigen/Cholesky>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
-#include "crowdface/parts/vector3.h"
 #include "crowdface/wrap/elastic_solve.h"
 
 namespace crowdface {
@@ -21,7 +21,7 @@ constexpr double kLeastOpenness = 0.04;   // a vertex that sees less is inside
 constexpr double kOpennessOfSkin = 0.25;  // from here on the scan counts in full
 constexpr std::size_t kMostScanPoints = 30000;
 constexpr double kLeastSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
-constexpr double kEnd_mm = 200, kRimReach_mm = 15;
+constexpr double kEndMm = 200, kRimReachMm = 15;
 constexpr double kPrior = 1000;  ///< mm⁴: how the model's coefficients are held, against bending
 
 /// What one vertex, or one point of the scan, found.
@@ -111,7 +111,7 @@ class Bending {
 
   /// The rims where the skin and the scan end, not those of holes.
   void choose_rims() {
-    const auto ends = long_rims(scan_.scan().triangles, scan_.scan().positions, kEnd_mm);
+    const auto ends = long_rims(scan_.scan().triangles, scan_.scan().positions, kEndMm);
     if (ends.empty()) return;
     Positions points(static_cast<Index>(ends.size()), 3);
     for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -121,7 +121,7 @@ class Bending {
     std::vector<std::uint32_t> all(ends.size());
     std::iota(all.begin(), all.end(), 0U);
     scan_end_grid_.emplace(scan_end_, all);
-    for (const std::uint32_t v : long_rims(skin_.triangles, base_, kEnd_mm)) {
+    for (const std::uint32_t v : long_rims(skin_.triangles, base_, kEndMm)) {
       if (visible_[v] > 0) skin_end_.push_back(v);
     }
   }
@@ -156,7 +156,7 @@ class Bending {
       const Positions current = base_ + displacements_;
       Wishes wishes(base_.rows());
       ask_scan(current, reach, tangential, wishes);
-      ask_rims(current, std::min(reach, kRimReach_mm), wishes);
+      ask_rims(current, std::min(reach, kRimReachMm), wishes);
       if (options_.backward > 0) ask_skin(current, reach, tangential, wishes);
       for (const WrapLandmark& landmark : landmarks_) {
         wishes.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,

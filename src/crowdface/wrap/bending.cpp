@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

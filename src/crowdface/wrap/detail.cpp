@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/wrap/shape_fit.h"
 
 namespace crowdface {

@@ -12,10 +12,10 @@
 namespace crowdface {
 namespace {
 
-constexpr double kSeen = 0.12;          // openness from which a vertex counts as visible
-constexpr double kMostMedian_mm = 15;   // of the landmarks after the similarity
-constexpr double kMostDistance_mm = 3;  // 95 % of the visible skin
-constexpr double kFar_mm = 3;
+constexpr double kSeen = 0.12;         // openness from which a vertex counts as visible
+constexpr double kMostMedianMm = 15;   // of the landmarks after the similarity
+constexpr double kMostDistanceMm = 3;  // 95 % of the visible skin
+constexpr double kFarMm = 3;
 constexpr double kMostFar = 0.02, kMostWithoutData = 0.15;
 constexpr std::size_t kFewHeads = 8;
 
@@ -74,11 +74,11 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   }
   const std::vector<double> distances = seen_distances(shape, result);
   const auto far = std::count_if(distances.begin(), distances.end(),
-                                 [](double distance) { return distance > kFar_mm; });
+                                 [](double distance) { return distance > kFarMm; });
   const double share =
       distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
   if (share > kMostFar) {
-    warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFar_mm,
+    warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarMm,
                               " mm off the scan: hair, closed eyes or an open mouth? Leave such "
                               "places out with --ignore, or pick landmarks there"));
   }
@@ -100,16 +100,16 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result) {
   std::vector<double> residuals;
   for (const LandmarkResidual& landmark : result.landmarks) residuals.push_back(landmark.pose_mm);
-  if (const double median = percentile(residuals, 0.5); median > kMostMedian_mm) {
+  if (const double median = percentile(residuals, 0.5); median > kMostMedianMm) {
     throw InvalidInput(concat(
         "landmarks of template and scan do not belong together: half of them stay more than ",
-        format_fixed(median, 1), " mm apart, expected less than ", kMostMedian_mm,
+        format_fixed(median, 1), " mm apart, expected less than ", kMostMedianMm,
         "; are left and right swapped, or vertices counted from 1?"));
   }
-  if (const double far = distances_of(shape, result).percentile_95; far > kMostDistance_mm) {
+  if (const double far = distances_of(shape, result).percentile_95; far > kMostDistanceMm) {
     throw InvalidInput(
         concat("5 % of the skin stay more than ", format_fixed(far, 1),
-               " mm off the scan, expected less than ", kMostDistance_mm,
+               " mm off the scan, expected less than ", kMostDistanceMm,
                ": check the landmarks, pick more of them, or leave out with --ignore "
                "what the scan does not show as skin"));
   }

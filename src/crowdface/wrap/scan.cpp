@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/grouping.h"
-#include "crowdface/parts/vector3.h"
 
 namespace crowdface {
 namespace {

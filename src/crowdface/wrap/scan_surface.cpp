@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/scan_surface.h"
 
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

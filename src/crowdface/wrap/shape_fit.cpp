@@ -9,7 +9,7 @@
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/alignment.h"
-#include "crowdface/parts/vector3.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

@@ -7,8 +7,8 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/follower.h"
-#include "crowdface/parts/vector3.h"
 #include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/unfold.h"
 
@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kFewestLandmarks = 4;
-constexpr double kLeastOutlier_mm = 4, kOutlier = 3.5;  ///< the latter in medians
+constexpr double kLeastOutlierMm = 4, kOutlier = 3.5;  ///< the latter in medians
 
 /// Landmarks by rows of the skin.
 std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
@@ -65,7 +65,7 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
   }
   if (sorted.empty()) return;
   std::sort(sorted.begin(), sorted.end());
-  const double most = std::max(kLeastOutlier_mm, kOutlier * sorted[sorted.size() / 2]);
+  const double most = std::max(kLeastOutlierMm, kOutlier * sorted[sorted.size() / 2]);
   for (LandmarkResidual& residual : residuals) residual.outlier = residual.final_mm > most;
 }
 
