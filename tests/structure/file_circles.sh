@@ -5,9 +5,9 @@
 # it. Those of the list KNOWN, a path a line, are forgiven as long as they are there.
 #   file_circles.sh ROOT [KNOWN]
 set -euo pipefail
+known=$(realpath "${2-/dev/null}")
 cd "$1/src"
 export LC_ALL=C
-known=${2-/dev/null}
 
 # "pair pair" for every include of ours, without the folder crowdface/.
 includes() {
