@@ -274,7 +274,7 @@ void wrap_one(const Options& options, const Shared& shared, const Task& task,
       match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
   const WrapResult result = [&] {
     try {
-      const WrapResult wrapped =
+      WrapResult wrapped =
           wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, shared.hint);
       refuse_bad_wrap(shared.shape, wrapped);
       return wrapped;

@@ -18,8 +18,8 @@ namespace {
 Positions sheet(std::uint32_t n) {
   Positions positions((n + 1) * (n + 1), 3);
   for (std::uint32_t i = 0; i < positions.rows(); ++i) {
-    positions.row(i) << static_cast<double>(i % (n + 1)) / n, static_cast<double>(i / (n + 1)) / n,
-        0;
+    const std::uint32_t column = i % (n + 1), row = i / (n + 1);
+    positions.row(i) << static_cast<double>(column) / n, static_cast<double>(row) / n, 0;
   }
   return positions;
 }

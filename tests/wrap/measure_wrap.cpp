@@ -62,7 +62,8 @@ double percentile(std::vector<double> values, double share) {
 double distance_to_line(const Eigen::Vector3d& p, const std::vector<Eigen::Vector3d>& line) {
   double best = 1e300;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Eigen::Vector3d a = line[i], d = line[(i + 1) % line.size()] - a;
+    const Eigen::Vector3d& a = line[i];
+    const Eigen::Vector3d d = line[(i + 1) % line.size()] - a;
     const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
     best = std::min(best, (p - a - t * d).norm());
   }

@@ -5,6 +5,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/smooth/iterate.h"
 #include "crowdface/wrap/shape_fit.h"
 
 namespace crowdface {
@@ -80,6 +81,17 @@ class SmoothFit {
   double stiffness_;
 };
 
+Positions smoothed_normals(const SkinMesh& skin, const Positions& positions, int times) {
+  Positions normals = skin_normals(skin, positions);
+  if (times == 0) return normals;
+  const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
+  normals = iterate(lazy, normals, static_cast<std::uint64_t>(times));
+  for (Index v = 0; v < normals.rows(); ++v) {
+    normals.row(v) = unit3(normals.row(v).transpose()).transpose();
+  }
+  return normals;
+}
+
 }  // namespace
 
 Positions follow_detail(const SkinMesh& skin, const Positions& positions, const ScanSurface& scan,
@@ -88,7 +100,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& positions, const 
   const SmoothFit fit(skin.adjacency, 16 * std::pow(options.stiffness_edges, 4));
   Positions result = positions;
   for (int round = 0; round < options.rounds; ++round) {
-    const Positions normals = skin_normals(skin, result);
+    const Positions normals = smoothed_normals(skin, result, options.normal_smoothings);
     Eigen::VectorXd weights = Eigen::VectorXd::Constant(result.rows(), kUnasked);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(result.rows());
     parallel_blocks(result.rows(), 256, [&](auto begin, auto end) {

@@ -67,11 +67,11 @@ struct ElasticSolver::State {
   }
 };
 
-ElasticSolver::ElasticSolver(SparseMatrix stiffness, const Eigen::VectorXd& typical)
+ElasticSolver::ElasticSolver(const SparseMatrix& stiffness, const Eigen::VectorXd& typical)
     : state_(std::make_unique<State>()) {
   SparseMatrix matrix = stiffness;
   for (Index i = 0; i < matrix.rows(); ++i) matrix.coeffRef(i, i) += typical(i);
-  state_->stiffness = std::move(stiffness);
+  state_->stiffness = stiffness;
   state_->factors.compute(matrix);
   if (state_->factors.info() != Eigen::Success) {
     throw Error(ExitCode::kBug, "the stiffness of a skin cannot be factorised");

@@ -28,7 +28,7 @@ class ElasticSolver {
  public:
   /// \param stiffness  #V by #V, symmetric, positive or zero
   /// \param typical    #V positive weights of about the sizes that wishes will have
-  ElasticSolver(SparseMatrix stiffness, const Eigen::VectorXd& typical);
+  ElasticSolver(const SparseMatrix& stiffness, const Eigen::VectorXd& typical);
   ~ElasticSolver();
 
   struct Limits {

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-constexpr int kSide_px = 320;
+constexpr int kSidePx = 320;
 constexpr double kMostMm = 2;  // where the heat map's scale ends
 constexpr std::array<View, 3> kViews = {View::kFront, View::kThreeQuarter, View::kProfile};
 
@@ -41,7 +41,7 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
   const Positions standing = inverse(result.pose).apply(scan.positions);
   const std::array<const Positions*, 1> heads = {&result.positions};
   const std::vector<Camera> cameras = fit_cameras(heads, frame, kViews, {.cut_below = 0.1});
-  const RenderOptions options{.size_px = kSide_px, .front = frame.front};
+  const RenderOptions options{.size_px = kSidePx, .front = frame.front};
   const Topology scan_topology = topology_of(scan.triangles, scan.positions.rows());
   const FaceRenderer of_scan(scan_topology, options),
       of_head(shape.topology, options, surfaces_of(shape));

@@ -76,7 +76,7 @@ class GlbReader {
       }
       return matrix;
     }
-    const auto vector = [&](const char* key, std::vector<double> otherwise) {
+    const auto vector = [&](const char* key, const std::vector<double>& otherwise) {
       return node.contains(key) ? node[key].get<std::vector<double>>() : otherwise;
     };
     const auto t = vector("translation", {0, 0, 0}), r = vector("rotation", {0, 0, 0, 1}),

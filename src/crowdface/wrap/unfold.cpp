@@ -24,8 +24,9 @@ Eigen::Vector3d area_of(const Positions& positions, const Triangle& t) {
 
 /// One sweep over a patch that makes it as rigid as it can be (Sorkine & Alexa 2007): each vertex goes
 /// where its neighbours, each with the template's edges turned as they lie around it, want it.
+/// \param number  #skin: of each vertex in the patch, or kNoIndex.
 void relax(const SkinMesh& skin, const Positions& rest, const std::vector<std::uint32_t>& patch,
-           Positions& positions) {
+           const std::vector<std::uint32_t>& number, Positions& positions) {
   std::vector<Eigen::Matrix3d> turns(patch.size());
   for (std::size_t i = 0; i < patch.size(); ++i) {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -35,21 +36,23 @@ void relax(const SkinMesh& skin, const Positions& rest, const std::vector<std::u
     }
     turns[i] = best_rotation(covariance);
   }
-  const auto turn_of = [&](std::uint32_t v, const Eigen::Matrix3d& otherwise) {
-    const auto at = std::lower_bound(patch.begin(), patch.end(), v);
-    return at != patch.end() && *at == v ? turns[static_cast<std::size_t>(at - patch.begin())]
-                                         : otherwise;
-  };
   for (std::size_t i = 0; i < patch.size(); ++i) {
     const std::uint32_t v = patch[i];
     const auto around = skin.adjacency.of(v);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const std::uint32_t n : around) {
-      const Eigen::Matrix3d turn = (turns[i] + turn_of(n, turns[i])) / 2;
+      const std::uint32_t other = number[n];
+      const Eigen::Matrix3d turn = (turns[i] + (other == kNoIndex ? turns[i] : turns[other])) / 2;
       sum += positions.row(n).transpose() + turn * (rest.row(v) - rest.row(n)).transpose();
     }
     positions.row(v) = (sum / static_cast<double>(around.size())).transpose();
   }
+}
+
+bool is_folded(const Positions& rest, const Positions& positions, const Triangle& t) {
+  const Eigen::Vector3d was = area_of(rest, t), is = area_of(positions, t);
+  if (was.isZero()) return false;
+  return dot3(was, is) <= 0 || length3(is) < kLeastArea * length3(was);
 }
 
 }  // namespace
@@ -58,10 +61,7 @@ std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Position
                                             const Positions& positions) {
   std::vector<std::uint32_t> folded;
   for (std::uint32_t i = 0; i < skin.triangles.size(); ++i) {
-    const Triangle& t = skin.triangles[i];
-    const Eigen::Vector3d was = area_of(rest, t), is = area_of(positions, t);
-    if (was.isZero()) continue;
-    if (dot3(was, is) <= 0 || length3(is) < kLeastArea * length3(was)) folded.push_back(i);
+    if (is_folded(rest, positions, skin.triangles[i])) folded.push_back(i);
   }
   return folded;
 }
@@ -71,6 +71,7 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
   if (folded.empty()) return 0;
   const auto inside = [&](std::uint32_t v) { return skin.openness[v] < kInside; };
   std::vector<int> rounds(skin.triangles.size(), 0);
+  std::vector<std::uint32_t> number(skin.vertices.size(), kNoIndex);
   for (int round = 0; round < kMostRounds && !folded.empty(); ++round) {
     throw_if_interrupted();
     std::vector<int> reach(skin.vertices.size(), 0);
@@ -95,8 +96,16 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
       }
     }
     std::sort(patch.begin(), patch.end());
-    for (int s = 0; s < kSweeps; ++s) relax(skin, rest, patch, positions);
-    folded = folded_triangles(skin, rest, positions);
+    for (std::uint32_t i = 0; i < patch.size(); ++i) number[patch[i]] = i;
+    for (int s = 0; s < kSweeps; ++s) relax(skin, rest, patch, number, positions);
+    folded.clear();
+    for (std::uint32_t i = 0; i < skin.triangles.size(); ++i) {
+      const Triangle& t = skin.triangles[i];
+      const bool moved =
+          number[t[0]] != kNoIndex || number[t[1]] != kNoIndex || number[t[2]] != kNoIndex;
+      if (moved && is_folded(rest, positions, t)) folded.push_back(i);
+    }
+    for (const std::uint32_t v : patch) number[v] = kNoIndex;
   }
   return static_cast<Index>(folded.size());
 }

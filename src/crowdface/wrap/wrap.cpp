@@ -176,7 +176,9 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   Positions wrapped =
       bend(bent, *used, fit, surface, small ? small->landmarks : landmarks, options);
   if (small) wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
-  wrapped = follow_detail(skin, wrapped, surface, options.detail);
+  DetailOptions detail = options.detail;
+  if (small) detail.normal_smoothings = shape.reduced->smoothings;
+  wrapped = follow_detail(skin, wrapped, surface, detail);
   result.flipped = unfold(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
