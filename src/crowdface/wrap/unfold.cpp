@@ -11,9 +11,10 @@ namespace crowdface {
 namespace {
 
 constexpr int kMostRounds = 140;
-constexpr int kSweeps = 10;  ///< over a patch in each round
+constexpr int kPatience = 60;  ///< rounds that mend nothing before the best so far is taken
+constexpr int kSweeps = 10;    ///< over a patch in each round
 constexpr int kRoundsPerRing = 8, kMostRings = 16;
-constexpr int kRoundsInside = 60;
+constexpr int kRoundsInside = 30;
 constexpr double kInside = 0.12;      ///< openness
 constexpr double kLeastArea = 0.025;  // validity counts those below 0.02
 
@@ -72,7 +73,10 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
   const auto inside = [&](std::uint32_t v) { return skin.openness[v] < kInside; };
   std::vector<int> rounds(skin.triangles.size(), 0);
   std::vector<std::uint32_t> number(skin.vertices.size(), kNoIndex);
-  for (int round = 0; round < kMostRounds && !folded.empty(); ++round) {
+  Positions best = positions;
+  std::size_t fewest = folded.size();
+  for (int round = 0, since = 0; !folded.empty() && round < kMostRounds && since < kPatience;
+       ++round, ++since) {
     throw_if_interrupted();
     std::vector<int> reach(skin.vertices.size(), 0);
     for (const std::uint32_t i : folded) {
@@ -106,8 +110,13 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
       if (moved && is_folded(rest, positions, t)) folded.push_back(i);
     }
     for (const std::uint32_t v : patch) number[v] = kNoIndex;
+    if (folded.size() >= fewest) continue;
+    fewest = folded.size();
+    best = positions;
+    since = 0;
   }
-  return static_cast<Index>(folded.size());
+  positions = best;
+  return static_cast<Index>(fewest);
 }
 
 }  // namespace crowdface
