@@ -1,5 +1,5 @@
 # `cmake --install` puts the program, the libraries with their headers and a CMake package in place:
-# find_package(crowdface), then link crowdface::job or any other module.
+# find_package(crowdface), then link crowdface::run or any other module.
 include(CMakePackageConfigHelpers)
 
 get_property(modules GLOBAL PROPERTY CROWDFACE_MODULES)

@@ -17,16 +17,16 @@ parsers=("$@")
 declare -A sources=(
   [obj]='io/obj_file.cpp io/obj_scan.cpp'
   [mask]='io/image.cpp'
-  [yaml]='job/config_reader*.cpp job/config_values.cpp job/yaml.cpp job/complaints.cpp'
-  [review]='job/config_reader_review.cpp job/yaml.cpp'
-  [plan]='job/plan_file.cpp job/yaml.cpp'
-  [cache]='job/head_cache.cpp'
-  [ledger]='job/ledger.cpp'
+  [yaml]='config/config_reader*.cpp config/config_values.cpp config/yaml*.cpp config/complaints.cpp'
+  [review]='config/config_reader_review.cpp config/yaml.cpp'
+  [plan]='crowd/plan_file.cpp'
+  [cache]='heads/head_cache.cpp'
+  [ledger]='crowd/ledger.cpp'
 )
 
 scripts/install_dependencies.sh --fuzz
 scripts/build.sh fuzz $(printf 'crowdface_%s_fuzz ' "${parsers[@]}") \
-  crowdface_io_test crowdface_job_test crowdface_crowd_test
+  crowdface_io_test crowdface_config_test crowdface_crowd_test crowdface_heads_test
 out=$PWD/build/fuzz
 mkdir -p "$out/found"
 TMPDIR=$(mktemp -d /dev/shm/crowdface_fuzz.XXXXXX) # what a target writes stays in memory
@@ -34,7 +34,7 @@ export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 rm -f "$out"/*_test.profraw
 # The words that the readers of configs, plans and reviews know.
-grep -oh '"[a-z_][a-z_]*"' src/crowdface/job/{config,plan,yaml}*.cpp | sort -u >"$out/words.dict"
+grep -oh '"[a-z_][a-z_]*"' src/crowdface/{config/{config,yaml},crowd/plan}*.cpp | sort -u >"$out/words.dict"
 
 # Seeds that are no files of tests/fuzz.
 more_seeds() {
@@ -73,8 +73,9 @@ coverage() {
   LLVM_PROFILE_FILE=$out/$parser.profraw "$program" "$out/corpus/$parser" \
     "tests/fuzz/corpus/$parser" $(more_seeds "$parser") -runs=0 >"$out/$parser.replay.log" 2>&1
   llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw" \
-    "$(test_profile io)" "$(test_profile job)" "$(test_profile crowd 'Plan*:Ledger*:*Cache*:*MadeAnew*')"
-  local seen=("$program" -object "$out/bin/crowdface_io_test" -object "$out/bin/crowdface_job_test"
+    "$(test_profile io)" "$(test_profile config)" "$(test_profile crowd)" \
+    "$(test_profile heads '*Cache*:*MadeAnew*')"
+  local seen=("$program" -object "$out/bin/crowdface_io_test" -object "$out/bin/crowdface_config_test" -object "$out/bin/crowdface_heads_test"
     -object "$out/bin/crowdface_crowd_test" -instr-profile="$out/$parser.profdata")
   llvm-cov-14 show "${seen[@]}" >"$out/$parser.lines.txt"
   llvm-cov-14 report "${seen[@]}" >"$out/$parser.files.txt"

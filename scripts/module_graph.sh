@@ -36,8 +36,12 @@ parts 3
 blend 4
 wrap 4
 cast 5
-job 6
-cli 7'
+config 6
+crowd 6
+heads 7
+pictures 8
+run 9
+cli 10'
 
 # "file:line includer included" for every include of ours.
 includes() {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/face_builder.h"
-#include "crowdface/job/input_files.h"
-#include "crowdface/job/mesh_writers.h"
+#include "crowdface/run/face_builder.h"
+#include "crowdface/run/mesh_writers.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"

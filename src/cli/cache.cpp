@@ -4,7 +4,7 @@
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/head_cache.h"
+#include "crowdface/heads/head_cache.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"

@@ -2,14 +2,14 @@
 #include <iostream>
 #include <memory>
 
+#include "crowdface/config/input_files.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/crowd_renders.h"
-#include "crowdface/job/input_files.h"
-#include "crowdface/job/named_parts.h"
-#include "crowdface/job/pipeline.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/pictures/crowd_renders.h"
+#include "crowdface/run/pipeline.h"
 #include "crowdface/smooth/level_size.h"
 
 #include "cli/commands.h"

@@ -12,7 +12,7 @@
 #include "crowdface/core/memory.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/head_cache.h"
+#include "crowdface/heads/head_cache.h"
 
 namespace crowdface::cli {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "crowdface/config/config_reader.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/job/config_reader.h"
-#include "crowdface/job/generate.h"
+#include "crowdface/run/generate.h"
 
 namespace crowdface::cli {
 

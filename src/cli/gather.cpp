@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "crowdface/job/generate.h"
-#include "crowdface/job/head_cache.h"
+#include "crowdface/heads/head_cache.h"
+#include "crowdface/run/generate.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"

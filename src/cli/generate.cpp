@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/job/generate.h"
+#include "crowdface/run/generate.h"
 
 #include <memory>
 

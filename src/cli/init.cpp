@@ -3,18 +3,19 @@
 #include <memory>
 #include <system_error>
 
+#include "crowdface/config/config_values.h"
+#include "crowdface/config/input_files.h"
+#include "crowdface/config/starter_config.h"
+#include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/name.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/tile_files.h"
-#include "crowdface/job/config_values.h"
-#include "crowdface/job/input_files.h"
-#include "crowdface/job/starter_config.h"
-#include "crowdface/job/yaml.h"
 #include "crowdface/region/mask_source.h"
 
 #include "cli/commands.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/landmark_file.h"
 
+#include "crowdface/config/config_values.h"
+#include "crowdface/config/yaml.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/config_values.h"
-#include "crowdface/job/yaml.h"
 
 namespace crowdface::cli {
 namespace {

@@ -2,8 +2,8 @@
 #include <iostream>
 #include <memory>
 
-#include "crowdface/job/estimate.h"
-#include "crowdface/job/generate.h"
+#include "crowdface/run/estimate.h"
+#include "crowdface/run/generate.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/job/prepare.h"
+#include "crowdface/heads/prepare.h"
 
 #include <memory>
 
@@ -8,7 +8,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
-#include "crowdface/job/pipeline.h"
+#include "crowdface/run/pipeline.h"
 #include "crowdface/smooth/level_size.h"
 
 #include "cli/commands.h"

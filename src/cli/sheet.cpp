@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "crowdface/job/crowd_sheets.h"
+#include "crowdface/run/crowd_sheets.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"

@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/mesh_format.h"
 #include "crowdface/io/obj_writer.h"
-#include "crowdface/job/mesh_format.h"
-#include "crowdface/job/recipe_bounds.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/iterate.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/job/verify.h"
+#include "crowdface/crowd/verify.h"
 
 #include <iostream>
 #include <memory>

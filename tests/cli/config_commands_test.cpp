@@ -6,7 +6,7 @@
 #include <signal.h>
 
 #include "crowdface/core/text.h"
-#include "crowdface/job/generate.h"
+#include "crowdface/run/generate.h"
 
 #include "cli/program_test.h"
 #include "support/crowd_files.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
-#include "crowdface/job/generate.h"
+#include "crowdface/run/generate.h"
 
 #include "cli/program_test.h"
 #include "support/crowd_files.h"

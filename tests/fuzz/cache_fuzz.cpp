@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "crowdface/core/error.h"
-#include "crowdface/job/head_cache.h"
+#include "crowdface/heads/head_cache.h"
 
 #include "fuzz/input_file.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/error.h"
-#include "crowdface/job/plan_file.h"
+#include "crowdface/crowd/plan_file.h"
 
 #include "fuzz/input_file.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "crowdface/job/config_reader.h"
+#include "crowdface/config/config_reader.h"
 
 #include "fuzz/input_file.h"
 #include "fuzz/job_folder.h"

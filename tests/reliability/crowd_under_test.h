@@ -11,8 +11,8 @@
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/job/generate.h"
-#include "crowdface/job/ledger.h"
+#include "crowdface/crowd/ledger.h"
+#include "crowdface/run/generate.h"
 
 #include "reliability/io_faults.h"
 #include "support/crowd_files.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
-#include "crowdface/job/generate.h"
+#include "crowdface/run/generate.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

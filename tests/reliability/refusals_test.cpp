@@ -9,8 +9,8 @@
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/crowd_sheets.h"
-#include "crowdface/job/generate.h"
+#include "crowdface/run/crowd_sheets.h"
+#include "crowdface/run/generate.h"
 
 #include "reliability/io_faults.h"
 #include "support/crowd_files.h"

@@ -7,7 +7,7 @@
 
 #include "crowdface/core/file_lock.h"
 #include "crowdface/core/text.h"
-#include "crowdface/job/crowd_directory.h"
+#include "crowdface/crowd/crowd_directory.h"
 
 #include "reliability/crowd_under_test.h"
 

@@ -31,8 +31,8 @@ door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/[a-z_]*\.cpp' 'crowdface/render/[a-z_]*\.cpp'
 door 'embree' 'crowdface/render/[a-z_]*\.cpp' 'crowdface/validity/[a-z_]*\.cpp'
 door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'
-door 'yaml-cpp/' 'crowdface/job/[a-z_]*\.cpp'
-door 'nlohmann/' 'crowdface/job/shallow_json\.h' 'crowdface/job/[a-z_]*\.cpp' 'crowdface/io/[a-z_]*\.cpp' \
-  'crowdface/morph/[a-z_]*\.cpp' 'crowdface/wrap/[a-z_]*\.cpp'
+door 'yaml-cpp/' 'crowdface/config/[a-z_]*\.cpp'
+door 'nlohmann/' 'crowdface/(io/shallow_json|crowd/face_json|run/casting_report)\.h' \
+  'crowdface/(io|morph|wrap|crowd|pictures|run)/[a-z_]*\.cpp'
 door 'CLI/' 'cli/[a-z_]*\.(cpp|h)'
 exit $status

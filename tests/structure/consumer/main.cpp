@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 
+#include <crowdface/config/config_reader.h>
 #include <crowdface/core/version.h>
-#include <crowdface/job/config_reader.h>
 #include <crowdface/smooth/chebyshev_filter.h>
 #include <crowdface/synth/synthetic_head.h>
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace crowdface {
+
+/// What the heads and regions of recipes are called, by their indices.
+struct PlanNames {
+  std::vector<std::string> heads;
+  std::vector<std::string> regions;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/complaints.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+void Complaints::add(const YamlPlace& place, std::string what, ExitCode kind) {
+  complaints_.push_back({place, std::move(what), kind});
+}
+
+void Complaints::about(const YamlNode& node, const std::string& what, ExitCode kind) {
+  if (node.kind == YamlNode::Kind::kRefused) return;
+  add(node.place, node.path.empty() ? what : concat(node.path, ": ", what), kind);
+}
+
+void Complaints::expected(const YamlNode& node, const std::string& expected) {
+  about(node, concat("expected ", expected, ", found ", describe(node)));
+}
+
+void Complaints::tell(Problems& problems) const {
+  constexpr std::size_t kMostTold = 100;  // more would only bury the first
+  std::vector<Complaint> sorted = complaints_;
+  const auto key = [](const Complaint& c) {
+    return std::tuple(c.place.line == 0, c.place.line, c.place.column);
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const Complaint& a, const Complaint& b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < std::min(sorted.size(), kMostTold); ++i) {
+    problems.add(sorted[i].kind, concat(sorted[i].place.text(), ": ", sorted[i].what));
+  }
+  if (sorted.size() > kMostTold) {
+    problems.add(ExitCode::kUsage,
+                 concat(sorted[kMostTold].place.text(), ": and ", sorted.size() - kMostTold,
+                        " more problems from here on"));
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/blend/normalization.h"
+#include "crowdface/cast/believability.h"
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/plan_names.h"
+#include "crowdface/cast/review.h"
+#include "crowdface/cast/sampling.h"
+#include "crowdface/core/units.h"
+#include "crowdface/io/mesh_format.h"
+#include "crowdface/parts/follower.h"
+#include "crowdface/plane/layout.h"
+#include "crowdface/render/surface_kind.h"
+#include "crowdface/render/view.h"
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// What to do about heads that do not stand in one frame.
+enum class Align {
+  kCheck,  ///< warn
+  kRigid,  ///< move every head onto the first by its best rotation and translation
+  kNone,   ///< neither
+};
+
+/// Whether a crowd gets a page to choose from.
+enum class Gallery {
+  kAuto,  ///< where there are pictures and the page was built
+  kNone,
+};
+
+/// How the levels of smoothing are represented.
+enum class Levels {
+  kBasis,  ///< fields fitted to each head, as many as a tolerance needs
+  kExact,  ///< every level by the filter itself
+  kCubic,  ///< the paper's cubic in L per vertex (§5.1)
+};
+
+/// How pictures show a material, in place of what its name speaks of.
+struct SurfaceChoice {
+  SurfaceKind kind = SurfaceKind::kSkin;
+  std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: that of its kind
+};
+
+/// What stands under a picture, a line each.
+enum class SheetLabel { kId, kFamily, kTarget, kNearest, kNearestHead };
+/// How the faces follow each other on contact sheets.
+enum class SheetOrder { kPlan, kFamily, kLikeness };
+enum class SheetFormat { kPng, kExr, kPdf };
+
+/// A config file, read, checked and with every name resolved. Fields bear the names of their YAML
+/// keys; docs/config.md explains each. Paths are absolute or relative to the working directory.
+struct Config {
+  std::filesystem::path file;  ///< where it was read from
+
+  struct Crowd {
+    std::string name;
+    std::uint64_t count = 0;  ///< sampled faces; recipes come on top
+    std::uint64_t seed = 1;
+  } crowd;
+
+  struct Faces {
+    std::vector<std::filesystem::path> files;    ///< one a head, in the order of their indices
+    std::vector<std::string> names;              ///< #heads, the files' names without ending
+    LengthUnit units = LengthUnit::kCentimetre;  ///< required in the file: never guessed
+    Axis up = {1, 1};
+    Axis front = {2, 1};
+    Align align = Align::kCheck;
+    std::vector<std::vector<std::string>> tags;  ///< #heads
+  } faces;
+
+  struct Regions {
+    std::vector<std::string> names;  ///< empty: the whole head as one region, called "all"
+    std::vector<std::string> mask;   ///< image paths, may hold <UDIM>; channels in this order
+  } regions;
+
+  struct Smoothing {
+    double max_size_mm = 240;
+    std::optional<std::uint64_t> max_iterations;  ///< overrides max_size_mm
+    Boundary boundary = Boundary::kFixed;
+    OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< key `operator`
+    Levels levels = Levels::kBasis;
+    double tolerance_mm = 0.05;  ///< of `levels: basis`, at any vertex and level
+  } smoothing;
+
+  struct Blending {
+    Normalization normalization = Normalization::kPartition;
+  } blending;
+
+  /// How eyes, teeth and lashes go along. Names are of materials, groups or "component N".
+  struct Parts {
+    bool follow = true;  ///< false: `parts: none`, all is blended as skin
+    PartShape shape = PartShape::kTarget;
+    std::vector<std::string> skin, rigid, bound;
+    std::vector<std::vector<std::string>> together;  ///< each a rigid part
+  } parts;
+
+  struct Plane {
+    Layout layout = Layout::kCircle;
+    std::map<Eigen::Index, PlanePoint> anchors;  ///< by head; override the layout, all if kManual
+  } plane;
+
+  SamplingOptions sampling;
+
+  /// What counts when two faces are compared.
+  struct Distance {
+    FaceArea area = FaceArea::kFront;
+    std::optional<std::string> mask;  ///< image path, may hold <UDIM>; its first channel counts
+  } distance;
+  DiversityOptions diversity;
+  BelievabilityOptions believability;
+  std::vector<HandRecipe> recipes;
+  std::vector<FamilyOptions> families;
+
+  struct Reviews {
+    std::vector<std::filesystem::path> files;
+    std::vector<Review> reviews;  ///< what stands in each
+  } review;
+
+  /// What a face is compared with, point by point.
+  struct Comparison {
+    enum class With { kNothing, kTarget, kNearest, kFile } with = With::kNothing;
+    std::filesystem::path file;  ///< a mesh, or the folder of a crowd whose faces have the same ids
+    double scale_mm = 6;         ///< where the colour scale ends
+  };
+  struct ContactSheet {
+    int columns = 6;
+    int rows = 4;
+    int cell = 256;  ///< pixels, one view
+    std::vector<View> views = {View::kFront};
+    std::vector<SheetLabel> labels = {SheetLabel::kId};
+    SheetOrder order = SheetOrder::kPlan;
+    Comparison compare;
+    std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< png is always among them
+    bool texture = false;  ///< surfaces in the colours of the heads' own textures
+  };
+  struct Output {
+    std::filesystem::path directory;
+    std::vector<MeshFormat> meshes = {MeshFormat::kObj};         ///< each once; may be empty
+    std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
+    Gallery gallery = Gallery::kAuto;
+    std::map<std::string, SurfaceChoice> surfaces;  ///< by the material's name
+  } output;
+
+  /// Region names as they stand in a plan: `regions.names`, or "all".
+  std::vector<std::string> region_names() const;
+  PlanNames plan_names() const;
+};
+
+}  // namespace crowdface

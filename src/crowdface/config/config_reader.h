@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/config/config.h"
+#include "crowdface/core/problems.h"
+
+namespace crowdface {
+
+/// What the command line changes in a config, as the user typed it.
+struct ConfigOverrides {
+  std::vector<std::string> set;          ///< `--set`: "key.path=value"; later ones win
+  std::optional<std::string> count;      ///< `--count`, wins over `--set crowd.count`
+  std::optional<std::string> seed;       ///< `--seed`
+  std::optional<std::string> out;        ///< `--out`, relative to the working directory
+  std::vector<std::string> review = {};  ///< `--review`, likewise; in place of the key `review`
+};
+
+/// What could be read of a config, whatever is wrong with the rest.
+struct ConfigReading {
+  Config config;               ///< to be used only as far as the flags go
+  bool complete = false;       ///< no problem at all
+  bool heads_known = false;    ///< faces.files and faces.names
+  bool regions_known = false;  ///< regions.names and regions.mask
+};
+
+/// Reads a config and checks all of it that can be checked without opening a mesh or an image.
+/// docs/config.md is the reference. Adds every problem, in the order of the file: 64 for what is
+/// wrong in the config, 66 for files and folders that are not there.
+ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
+                                Problems& problems);
+
+/// The same, for those who need all of it. \return nothing if there is any problem.
+std::optional<Config> read_config(const std::filesystem::path& file,
+                                  const ConfigOverrides& overrides, Problems& problems);
+
+}  // namespace crowdface

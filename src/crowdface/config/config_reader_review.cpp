@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// The key `review` and the files it names.
+#include <algorithm>
+
+#include "crowdface/cast/families.h"
+#include "crowdface/config/config_sections.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kLongestNote = 2000;
+
+/// Every id that this config's crowd will have, but for those of sampled faces.
+std::vector<std::string> named_ids(const Config& config) {
+  std::vector<std::string> ids;
+  for (const HandRecipe& recipe : config.recipes) ids.push_back(recipe.id);
+  for (const FamilyOptions& family : config.families) {
+    for (int m = 1; m <= family.members; ++m) {
+      ids.push_back(member_id(config.crowd.name, family.name, m));
+    }
+  }
+  return ids;
+}
+
+bool is_sampled_id(const std::string& id, const Config& config) {
+  const std::string start = concat(config.crowd.name, '_');
+  if (!id.starts_with(start)) return false;
+  const auto index = parse_unsigned(std::string_view(id).substr(start.size()));
+  return index && *index >= 1 && *index <= config.crowd.count &&
+         id == face_id(config.crowd.name, *index);
+}
+
+bool is_recipe(const std::string& id, const Config& config) {
+  return std::any_of(config.recipes.begin(), config.recipes.end(),
+                     [&](const HandRecipe& recipe) { return recipe.id == id; });
+}
+
+void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
+  const std::vector<std::string>& names = draft.config.regions.names;
+  if (node.kind != YamlNode::Kind::kList || node.items.empty()) {
+    draft.complaints.expected(node, "a list of regions that stay, [top]");
+    return;
+  }
+  for (const YamlNode& item : node.items) {
+    const auto name = read_name(item, draft.complaints);
+    if (!name) continue;
+    const auto region = std::find(names.begin(), names.end(), *name);
+    if (region == names.end()) {
+      if (draft.regions_known) {
+        draft.complaints.about(
+            item, names.empty()
+                      ? "there are no regions: nothing can be locked apart from the rest"
+                      : concat("no region is called ", quoted(*name), suggestion(*name, names)));
+      }
+      continue;
+    }
+    mark.locked.push_back(static_cast<std::size_t>(region - names.begin()));
+  }
+  std::sort(mark.locked.begin(), mark.locked.end());
+  mark.locked.erase(std::unique(mark.locked.begin(), mark.locked.end()), mark.locked.end());
+  if (!names.empty() && mark.locked.size() == names.size()) {
+    draft.complaints.about(node, "with every region locked nothing is left to draw anew");
+  }
+  mark.verdict = ReviewMark::Verdict::kReject;
+}
+
+void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
+  using Verdict = ReviewMark::Verdict;
+  const Choices<Verdict> verdicts = {{"keep", Verdict::kKeep}, {"reject", Verdict::kReject}};
+  if (node.kind != YamlNode::Kind::kMap) {
+    mark.verdict = read_choice(node, verdicts, draft.complaints).value_or(Verdict::kKeep);
+    return;
+  }
+  const MapReader map(&node, {"mark", "lock", "note"}, draft.complaints);
+  if (node.entries.empty()) draft.complaints.about(node, "expected mark, lock or note");
+  if (const YamlNode* lock = map.find("lock")) read_lock(*lock, mark, draft);
+  if (const YamlNode* verdict = map.find("mark")) {
+    mark.verdict = read_choice(*verdict, verdicts, draft.complaints).value_or(mark.verdict);
+    if (mark.verdict == Verdict::kKeep && !mark.locked.empty()) {
+      draft.complaints.about(*verdict, "a face that is kept has nothing to lock");
+    }
+  }
+  if (const YamlNode* note = map.find("note")) {
+    if (note->kind != YamlNode::Kind::kScalar || note->text.size() > kLongestNote) {
+      draft.complaints.expected(*note, concat("a text of at most ", kLongestNote, " bytes"));
+    } else {
+      mark.note = note->text;
+    }
+  }
+}
+
+}  // namespace
+
+Review read_review_file(const std::filesystem::path& file, const YamlNode& where,
+                        ConfigDraft& draft) {
+  Review review;
+  if (!file_exists(file)) {
+    draft.complaints.about(where, concat("the file ", quoted(file.string()), " is missing"),
+                           ExitCode::kMissingInput);
+    return review;
+  }
+  const auto root = read_yaml(file.string(), draft.complaints);
+  if (!root) return review;
+  const MapReader map(&*root, {"schema", "faces"}, draft.complaints);
+  if (const YamlNode* schema = map.require("schema", "write \"schema: 1\"")) {
+    read_whole(*schema, 1, 1, draft.complaints);
+  }
+  const YamlNode* faces = map.require("faces", "such as \"faces: {market_0007: reject}\"");
+  if (faces == nullptr) return review;
+  if (faces->kind != YamlNode::Kind::kMap) {
+    draft.complaints.expected(*faces, "a mapping from faces to marks, {market_0007: reject}");
+    return review;
+  }
+  const std::vector<std::string> ids = named_ids(draft.config);
+  for (const YamlEntry& entry : faces->entries) {
+    ReviewMark mark;
+    mark.id = entry.key;
+    const bool known = std::find(ids.begin(), ids.end(), entry.key) != ids.end() ||
+                       is_sampled_id(entry.key, draft.config);
+    if (!known) {
+      draft.complaints.add(entry.key_place,
+                           concat("no face of this crowd is called ", quoted(entry.key)));
+    }
+    read_mark(entry.value, mark, draft);
+    if (mark.verdict == ReviewMark::Verdict::kReject && is_recipe(entry.key, draft.config)) {
+      draft.complaints.add(entry.key_place,
+                           concat(quoted(entry.key), " is written by hand; change ",
+                                  "its recipe in place of rejecting it"));
+    }
+    review.push_back(std::move(mark));
+  }
+  return review;
+}
+
+void read_review(const YamlNode* node, ConfigDraft& draft) {
+  if (node == nullptr) return;
+  const bool is_list = node->kind == YamlNode::Kind::kList;
+  const auto read_one = [&](const YamlNode& item) {
+    const auto text = read_text(item, "a review file", draft.complaints);
+    if (!text) return;
+    draft.config.review.files.push_back(resolve(draft.folder, *text));
+    draft.config.review.reviews.push_back(
+        read_review_file(draft.config.review.files.back(), item, draft));
+  };
+  if (!is_list) return read_one(*node);
+  for (const YamlNode& item : node->items) read_one(item);
+}
+
+}  // namespace crowdface

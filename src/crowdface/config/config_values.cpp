@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/config_values.h"
+
+#include <algorithm>
+
+#include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/core/name.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+
+namespace crowdface {
+namespace {
+
+std::string child_path(const YamlNode& map, std::string_view key) {
+  return map.path.empty() ? std::string(key) : concat(map.path, '.', key);
+}
+
+std::string unknown_key(const YamlNode& map, const std::string& key,
+                        const std::vector<std::string>& keys) {
+  const std::string where = map.path.empty() ? "" : concat(" in ", map.path);
+  const std::string hint = suggestion(key, keys);
+  return concat("unknown key ", quoted(key), where,
+                hint.empty() ? concat("; expected one of ", join(keys)) : hint);
+}
+
+/// The number's text if it may be read as one: neither in quotes nor with a leading zero.
+std::optional<std::string> number_text(const YamlNode& node, const std::string& expected,
+                                       Complaints& out) {
+  if (node.kind != YamlNode::Kind::kScalar) {
+    out.expected(node, expected);
+    return std::nullopt;
+  }
+  if (node.quoted && parse_double(node.text)) {
+    out.about(node, concat("expected ", expected, ", found text, ", quoted(node.text),
+                           "; leave the quotes out"));
+    return std::nullopt;
+  }
+  const std::size_t first = node.text.find_first_not_of("+-");
+  const std::string digits = first == std::string::npos ? "" : node.text.substr(first);
+  if (digits.size() > 1 && digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9' &&
+      parse_double(digits)) {
+    // "007" is 7, "00.5" is 0.5
+    std::size_t kept = std::min(digits.find_first_not_of('0'), digits.size() - 1);
+    if (digits[kept] < '0' || digits[kept] > '9') --kept;
+    out.about(node,
+              concat("the leading zero of ", node.text, " is ambiguous (YAML 1.1 reads 010 as ",
+                     "8); write ", node.text.substr(0, first), digits.substr(kept)));
+    return std::nullopt;
+  }
+  return node.text;
+}
+
+/// A bound without exponent: -1000000, not -1e+06.
+std::string plain(double value) {
+  return format_fixed(value, 0);
+}
+
+bool has_control_character(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
+  });
+}
+
+}  // namespace
+
+MapReader::MapReader(const YamlNode* node, std::vector<std::string> keys, Complaints& complaints)
+    : node_(node), complaints_(complaints) {
+  if (node_ == nullptr) return;
+  if (node_->kind != YamlNode::Kind::kMap) {
+    complaints_.expected(*node_, concat("a mapping with the keys ", join(keys)));
+    node_ = nullptr;
+    return;
+  }
+  for (const YamlEntry& entry : node_->entries) {
+    if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
+    complaints_.add(entry.key_place, unknown_key(*node_, entry.key, keys));
+  }
+}
+
+const YamlNode* MapReader::find(std::string_view key) const {
+  const YamlEntry* entry = node_ == nullptr ? nullptr : node_->find(key);
+  if (entry == nullptr) return nullptr;
+  if (entry->value.kind == YamlNode::Kind::kNothing) {
+    complaints_.about(entry->value, "no value; write one, or leave the key out");
+    return nullptr;
+  }
+  return &entry->value;
+}
+
+const YamlNode* MapReader::require(std::string_view key, std::string_view hint) const {
+  if (node_ != nullptr && !has(key)) {
+    complaints_.add(node_->place, concat(child_path(*node_, key), ": missing; ", hint));
+  }
+  return find(key);
+}
+
+std::optional<double> read_number(const YamlNode& node, double low, double high, Complaints& out) {
+  const std::string expected = concat("a number from ", plain(low), " to ", plain(high));
+  const auto text = number_text(node, expected, out);
+  if (!text) return std::nullopt;
+  const auto value = parse_double(*text);
+  if (!value || *value < low || *value > high) {
+    out.expected(node, expected);
+    return std::nullopt;
+  }
+  return *value == 0 ? 0.0 : *value;  // -0 is 0
+}
+
+std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low, std::uint64_t high,
+                                        Complaints& out) {
+  const std::string expected = concat("a whole number from ", low, " to ", high);
+  const auto text = number_text(node, expected, out);
+  if (!text) return std::nullopt;
+  const auto value = parse_unsigned(*text);
+  if (!value || *value < low || *value > high) {
+    out.expected(node, expected);
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<double> read_length_mm(const YamlNode& node, double high_mm, Complaints& out) {
+  if (node.kind == YamlNode::Kind::kScalar && parse_double(node.text)) {
+    out.about(node, concat("expected a length with its unit, such as \"8 mm\", found ",
+                           quoted(node.text), "; mm, cm, m or in?"));
+    return std::nullopt;
+  }
+  const auto value =
+      node.kind == YamlNode::Kind::kScalar ? parse_length_mm(node.text) : std::nullopt;
+  if (!value || *value < 0 || *value > high_mm) {
+    out.expected(node, concat("a length from 0 mm to ", plain(high_mm),
+                              " mm with its unit, such as ", "\"8 mm\""));
+    return std::nullopt;
+  }
+  return *value == 0 ? 0.0 : *value;
+}
+
+std::optional<std::string> read_text(const YamlNode& node, const std::string& expected,
+                                     Complaints& out) {
+  if (node.kind != YamlNode::Kind::kScalar || node.text.empty() ||
+      has_control_character(node.text)) {
+    out.expected(node, expected);
+    return std::nullopt;
+  }
+  return node.text;
+}
+
+std::optional<std::string> read_name(const YamlNode& node, Complaints& out) {
+  if (node.kind != YamlNode::Kind::kScalar || !is_name(node.text)) {
+    out.expected(node,
+                 "a name of 1 to 64 letters (a-z), digits, '_', '-' or '.', not starting with '.'");
+    return std::nullopt;
+  }
+  return node.text;
+}
+
+std::optional<PlanePoint> read_point(const YamlNode& node, Complaints& out) {
+  if (node.kind != YamlNode::Kind::kList || node.items.size() != 2) {
+    out.expected(node, "a list of two numbers, [x, y]");
+    return std::nullopt;
+  }
+  const auto x = read_number(node.items[0], -kMaxPlaneCoordinate, kMaxPlaneCoordinate, out);
+  const auto y = read_number(node.items[1], -kMaxPlaneCoordinate, kMaxPlaneCoordinate, out);
+  if (!x || !y) return std::nullopt;
+  return PlanePoint(*x, *y);
+}
+
+std::optional<Range> read_range(const YamlNode& node, Complaints& out,
+                                const std::function<std::optional<double>(const YamlNode&)>& read) {
+  if (node.kind != YamlNode::Kind::kList) {
+    const auto value = read(node);
+    return value ? std::optional<Range>({*value, *value}) : std::nullopt;
+  }
+  if (node.items.size() != 2) {
+    out.expected(node, "one value or a list of two, [low, high]");
+    return std::nullopt;
+  }
+  const auto low = read(node.items[0]);
+  const auto high = read(node.items[1]);
+  if (!low || !high) return std::nullopt;
+  if (*low > *high) {
+    out.about(node, concat("expected [low, high], found ", quoted(node.items[0].text), " before ",
+                           quoted(node.items[1].text)));
+    return std::nullopt;
+  }
+  return Range{*low, *high};
+}
+
+std::optional<std::size_t> read_word(const YamlNode& node, const std::vector<std::string>& words,
+                                     Complaints& out) {
+  if (node.kind == YamlNode::Kind::kScalar) {
+    const auto found = std::find(words.begin(), words.end(), node.text);
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  }
+  const std::string hint =
+      node.kind == YamlNode::Kind::kScalar ? suggestion(node.text, words) : std::string();
+  out.about(node, concat("expected ", join(words, " or "), ", found ", describe(node), hint));
+  return std::nullopt;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  const auto nearest = nearest_word(word.substr(0, 80), candidates);
+  return nearest ? concat("; did you mean ", quoted(*nearest), '?') : std::string();
+}
+
+}  // namespace crowdface

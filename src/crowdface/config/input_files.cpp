@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/input_files.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/utf8.h"
+#include "crowdface/io/mesh_format.h"
+#include "crowdface/io/tile_files.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_image(const fs::path& image, std::vector<fs::path>& files) {
+  files.push_back(image);
+  for (fs::path& tile : find_tiles(image)) files.push_back(std::move(tile));
+}
+
+bool is_head(const fs::path& path) {
+  std::error_code ignored;
+  return mesh_format_of(path) == MeshFormat::kObj && !path.filename().string().starts_with('.') &&
+         !fs::is_directory(path, ignored);
+}
+
+bool is_plain_text(std::string_view text) {
+  return is_utf8(text) && std::none_of(text.begin(), text.end(), [](char c) {
+           return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+         });
+}
+
+}  // namespace
+
+std::vector<fs::path> list_heads(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (is_head(it->path())) files.push_back(it->path());
+  }
+  if (error) {
+    throw MissingInput(
+        concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return a.filename().string() < b.filename().string();
+  });
+  return files;
+}
+
+std::vector<fs::path> input_files(const Config& config) {
+  std::vector<fs::path> files = {config.file};
+  files.insert(files.end(), config.faces.files.begin(), config.faces.files.end());
+  for (const std::string& mask : config.regions.mask) add_image(mask, files);
+  if (config.distance.mask) add_image(*config.distance.mask, files);
+  files.insert(files.end(), config.review.files.begin(), config.review.files.end());
+  const auto& sheet = config.output.contact_sheet;
+  if (sheet && !sheet->compare.file.empty()) files.push_back(sheet->compare.file);
+  return files;
+}
+
+void refuse_path_no_config_can_hold(const fs::path& path) {
+  if (is_plain_text(path.native())) return;
+  throw UsageError(concat(quoted(path.native()),
+                          ": expected a path of UTF-8 text without control characters, which a "
+                          "config can name"));
+}
+
+void check_paths(const Config& config, Problems& problems) {
+  std::vector<fs::path> paths = input_files(config);
+  paths.push_back(config.output.directory);
+  for (const fs::path& path : paths) {
+    std::error_code ignored;
+    try {
+      refuse_path_no_config_can_hold(fs::absolute(path, ignored));
+    } catch (const UsageError& error) {
+      problems.add(error);
+    }
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include "crowdface/config/yaml.h"
+#include "crowdface/core/input_limits.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kMaxKeys = 8;
+
+std::vector<std::string> split_path(std::string_view path) {
+  std::vector<std::string> keys;
+  for (;;) {
+    const std::size_t dot = path.find('.');
+    keys.emplace_back(path.substr(0, dot));
+    if (dot == std::string_view::npos) return keys;
+    path.remove_prefix(dot + 1);
+  }
+}
+
+/// Whether no reader of YAML could take the text for anything but this text.
+bool is_plain(std::string_view text) {
+  static const std::set<std::string_view> words = {
+      "null", "Null", "NULL", "true", "True", "TRUE", "false", "False", "FALSE",
+      "yes",  "Yes",  "YES",  "no",   "No",   "NO",   "on",    "On",    "ON",
+      "off",  "Off",  "OFF",  "y",    "Y",    "n",    "N"};
+  if (text.empty() || words.contains(text)) return false;
+  if (text == "." || text == "..") return true;
+  const bool starts_well = text.starts_with("./") || text.starts_with("../") || text[0] == '/' ||
+                           (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z');
+  return starts_well && text.find_first_not_of(
+                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                            "_-./") == std::string_view::npos;
+}
+
+/// Every node of a value that came from the command line stands at the option itself.
+void place_at(YamlNode& node, const YamlPlace& place, const std::string& path) {
+  node.place = place;
+  node.path = path;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    place_at(node.items[i], place, concat(path, " #", i + 1));
+  }
+  for (YamlEntry& entry : node.entries) {
+    entry.key_place = place;
+    place_at(entry.value, place, concat(path, '.', entry.key));
+  }
+}
+
+/// The node at that key, made if it is not there.
+YamlNode& child(YamlNode& map, const std::string& key, const YamlPlace& place) {
+  for (YamlEntry& entry : map.entries) {
+    if (entry.key == key) return entry.value;
+  }
+  YamlNode node;
+  node.place = place;
+  node.path = map.path.empty() ? key : concat(map.path, '.', key);
+  map.entries.push_back({key, place, std::move(node)});
+  return map.entries.back().value;
+}
+
+/// Puts a value where the keys lead.
+void put(YamlNode& root, const std::vector<std::string>& keys, YamlNode value,
+         const YamlPlace& place, Complaints& out) {
+  if (root.kind != YamlNode::Kind::kMap) return;  // whoever reads the root will say so
+  YamlNode* target = &root;
+  for (const std::string& key : keys) {
+    if (target->kind == YamlNode::Kind::kNothing) target->kind = YamlNode::Kind::kMap;
+    if (target->kind != YamlNode::Kind::kMap) {
+      out.add(place, concat(target->path, " holds ", describe(*target), ", so ", quoted(key),
+                            " cannot be set in it"));
+      return;
+    }
+    target = &child(*target, key, place);
+  }
+  const std::string path = target->path;
+  *target = std::move(value);
+  place_at(*target, place, path);
+}
+
+YamlPlace place_on_command_line(std::string shown) {
+  return {std::make_shared<const std::string>(std::move(shown)), 0, 0};
+}
+
+}  // namespace
+
+std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
+  const YamlPlace whole_file = {std::make_shared<const std::string>(file), 0, 0};
+  const auto refuse = [&](const char* what) {
+    out.add(whole_file, what, ExitCode::kMissingInput);
+    return std::nullopt;
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    return refuse("expected a config file, found a folder");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return refuse("the config cannot be opened");
+  // One byte more than is allowed tells a file that is too long, however long it is.
+  std::string text(input_limits().yaml_bytes + 4, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) return refuse("the config cannot be read");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return parse_yaml(text, file, out);
+}
+
+std::string write_scalar(std::string_view text) {
+  if (is_plain(text)) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) {
+    constexpr char kHex[] = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += concat('\\', c);
+    } else if (byte < 0x20 || byte == 0x7f) {
+      out += concat("\\x", kHex[byte >> 4], kHex[byte & 15]);
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+void set_value(YamlNode& root, std::string_view assignment, Complaints& out) {
+  constexpr std::size_t kLongest = 80;
+  const YamlPlace place = place_on_command_line(
+      concat("--set ", assignment.substr(0, kLongest), assignment.size() > kLongest ? "…" : ""));
+  const std::size_t equals = assignment.find('=');
+  const std::vector<std::string> keys = split_path(assignment.substr(0, equals));
+  if (equals == std::string_view::npos || keys.size() > kMaxKeys ||
+      std::find(keys.begin(), keys.end(), "") != keys.end()) {
+    return out.add(place, "expected key.path=value, such as crowd.count=20");
+  }
+  // No value at all is a matter for whoever reads the key, as it is in a file.
+  const std::string_view value = assignment.substr(equals + 1);
+  const bool empty = value.find_first_not_of(' ') == std::string_view::npos;
+  Complaints of_value;
+  auto node = parse_yaml(empty ? "~" : value, *place.source, of_value);
+  for (const auto& complaint : of_value.list()) {
+    out.add(place, concat("in its value, column ", complaint.place.column, ": ", complaint.what));
+  }
+  if (node) put(root, keys, std::move(*node), place, out);
+}
+
+void set_text(YamlNode& root, std::string_view key_path, std::string_view text,
+              const std::string& shown, Complaints& out) {
+  YamlNode node;
+  node.kind = YamlNode::Kind::kScalar;
+  node.text = text;
+  put(root, split_path(key_path), std::move(node), place_on_command_line(shown), out);
+}
+
+}  // namespace crowdface

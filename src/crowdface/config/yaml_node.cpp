@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/yaml_node.h"
+
+#include <algorithm>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+const YamlEntry* YamlNode::find(std::string_view key) const {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.key == key; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+std::string describe(const YamlNode& node) {
+  switch (node.kind) {
+    case YamlNode::Kind::kNothing:
+      return "no value";
+    case YamlNode::Kind::kScalar:
+      return quoted(node.text);
+    case YamlNode::Kind::kList:
+      return node.items.empty() ? "an empty list" : concat("a list of ", node.items.size());
+    case YamlNode::Kind::kMap:
+      return node.entries.empty() ? "an empty mapping" : "a mapping";
+    case YamlNode::Kind::kRefused:
+      break;
+  }
+  return "something refused";
+}
+
+}  // namespace crowdface

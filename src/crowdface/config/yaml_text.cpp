@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/yaml_text.h"
+
+#include <algorithm>
+
+#include "crowdface/core/input_limits.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/utf8.h"
+
+namespace crowdface {
+namespace {
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
+/// Control characters but tab and line ends; a carriage return counts as a line end only before
+/// '\n'.
+bool is_control(std::string_view text) {
+  const auto c = static_cast<unsigned char>(text[0]);
+  if (c == '\r') return text.size() < 2 || text[1] != '\n';
+  return c == 0x7f || (c < 0x20 && c != '\t' && c != '\n');
+}
+
+/// Offset of a tab in the white space that a line starts with, unless the line is blank or a
+/// comment.
+std::size_t find_indenting_tab(std::string_view line) {
+  const std::size_t text = line.find_first_not_of(" \t\r\n");
+  if (text == std::string_view::npos || line[text] == '#') return std::string_view::npos;
+  return line.substr(0, text).find('\t');
+}
+
+}  // namespace
+
+YamlText::YamlText(std::string_view text, const std::string& source)
+    : text_(text), source_(std::make_shared<const std::string>(source)), line_starts_{0} {
+  if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\n') line_starts_.push_back(i + 1);
+    if (is_utf8_continuation(text_[i])) continuations_.push_back(i);
+  }
+}
+
+std::string_view YamlText::from(int line, int byte_column) const {
+  const auto row = std::min(static_cast<std::size_t>(std::max(line, 0)), line_starts_.size() - 1);
+  const auto column = static_cast<std::size_t>(std::max(byte_column, 0));
+  return text_.substr(std::min(line_starts_[row] + column, text_.size()));
+}
+
+YamlPlace YamlText::place_of(std::size_t offset) const {
+  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  const std::size_t line_start = *(next - 1);
+  const auto count_to = [&](std::size_t end) {
+    return std::lower_bound(continuations_.begin(), continuations_.end(), end) -
+           continuations_.begin();
+  };
+  const auto bytes = static_cast<std::ptrdiff_t>(offset - line_start);
+  const auto characters = bytes - (count_to(offset) - count_to(line_start));
+  return {source_, static_cast<int>(next - line_starts_.begin()), static_cast<int>(characters) + 1};
+}
+
+YamlPlace YamlText::place(int line, int byte_column) const {
+  return place_of(text_.size() - from(line, byte_column).size());
+}
+
+std::optional<YamlText::Problem> YamlText::find_problem() const {
+  if (const std::uint64_t most = input_limits().yaml_bytes; text_.size() > most) {
+    constexpr std::uint64_t kMiB = 1U << 20U;
+    return Problem{place_of(0), concat("more than ", most % kMiB == 0 ? most / kMiB : most,
+                                       most % kMiB == 0 ? " MiB" : " bytes",
+                                       " (--limit); this is no config file")};
+  }
+  if (is_utf16(text_)) {
+    return Problem{place_of(0), "expected UTF-8 text, found UTF-16; save the file as UTF-8"};
+  }
+  for (std::size_t at = 0; at < text_.size();) {
+    const std::string_view rest = text_.substr(at);
+    const std::size_t length = utf8_length(rest);
+    if (length == 0) {
+      return Problem{place_of(at),
+                     "expected UTF-8 text, found a byte that is not; save the file "
+                     "as UTF-8"};
+    }
+    if (is_control(rest)) {
+      return Problem{place_of(at), concat("a control character, ", quoted(rest.substr(0, 1)),
+                                          ", cannot stand in a config")};
+    }
+    at += length;
+  }
+  for (std::size_t row = 0; row < line_starts_.size(); ++row) {
+    const std::size_t end = row + 1 < line_starts_.size() ? line_starts_[row + 1] : text_.size();
+    const std::size_t tab =
+        find_indenting_tab(text_.substr(line_starts_[row], end - line_starts_[row]));
+    if (tab != std::string_view::npos) {
+      return Problem{place_of(line_starts_[row] + tab), "a tab in the indentation; use spaces"};
+    }
+  }
+  return std::nullopt;
+}
+
+bool YamlText::null_stands_at(int line, int byte_column) const {
+  const std::string_view rest = from(line, byte_column);
+  return rest.starts_with('~') || rest.starts_with("null") || rest.starts_with("Null") ||
+         rest.starts_with("NULL");
+}
+
+bool YamlText::quote_left_open(int line, int byte_column) const {
+  const std::string_view rest = from(line, byte_column);
+  if (!rest.starts_with('\'') && !rest.starts_with('"')) return false;
+  const char quote = rest[0];
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    if (quote == '"' && rest[i] == '\\') {
+      ++i;
+    } else if (rest[i] == quote) {
+      if (quote == '"' || i + 1 >= rest.size() || rest[i + 1] != '\'') return false;
+      ++i;  // '' stands for one '
+    }
+  }
+  return true;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace crowdface {
+
+// Whoever changes an algorithm so that bytes change raises the constant beside them and makes tests/golden
+// anew. What an older version made then counts as not done.
+
+inline constexpr int kBlendVersion =
+    2;  ///< positions of a face's skin; in `settings` of every recipe
+inline constexpr int kPartsVersion =
+    3;  ///< where parts come to lie; in `settings` of heads with parts
+inline constexpr int kPrepareVersion = 4;  ///< entries of the cache
+/// A picture, what is found about a skin, or a mesh file of the same positions.
+inline constexpr int kFaceFilesVersion = 3;
+inline constexpr int kSheetVersion = 5;  ///< contact sheets and the gallery, of the same pictures
+
+}  // namespace crowdface

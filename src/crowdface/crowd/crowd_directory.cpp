@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/crowd_directory.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include <unistd.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/name.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/ledger.h"
+#include "crowdface/io/shallow_json.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);  // a file that is not there is no error; a folder goes only if empty
+  if (error && error != std::errc::directory_not_empty) {
+    throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
+  }
+}
+
+void remove_all_with(const fs::path& folder, const char* extension) {
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  for (const fs::path& file : files) remove_file(file);
+}
+
+/// Pictures of heads and the gallery: folders that hold nothing but what we write.
+void remove_pictures(const CrowdDirectory& directory) {
+  for (const fs::path& folder :
+       {directory.head_render("").parent_path(), directory.founder_render("").parent_path()}) {
+    remove_all_with(folder, ".png");
+    remove_file(folder);
+  }
+  for (const fs::path& folder :
+       {directory.gallery_face("").parent_path(), directory.gallery_head("").parent_path(),
+        directory.gallery() / "data"}) {
+    remove_all_with(folder, ".js");
+    remove_file(folder);
+  }
+  for (const char* file : {"index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"}) {
+    remove_file(directory.gallery() / file);
+  }
+  remove_file(directory.gallery());
+  remove_file(directory.likeness());
+}
+
+/// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
+/// stay: they are the input's own, and written anew if they are needed.)
+void remove_crowd(const CrowdDirectory& directory) {
+  std::error_code ignored;
+  if (fs::exists(directory.plan(), ignored)) {
+    for (const std::string& id : ids_in_plan(read_file(directory.plan()))) {
+      for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
+      remove_file(directory.render(id));
+    }
+  }
+  std::vector<fs::path> sheets;
+  for (const auto& entry : fs::directory_iterator(directory.sheets(), ignored)) {
+    if (is_sheet_file(entry.path())) sheets.push_back(entry.path());
+  }
+  for (const fs::path& sheet : sheets) remove_file(sheet);
+  for (const char* array : {"corners.npy", "offsets.npy", "uvs.npy", "corner_uvs.npy"}) {
+    remove_file(directory.topology() / array);
+  }
+  for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
+  for (const fs::path& path : directory.shard_logs()) remove_file(path);
+  remove_pictures(directory);
+  for (const fs::path& path :
+       {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
+        directory.report(), directory.casting(), directory.timings(), directory.table(),
+        directory.founders(), directory.plan(), directory.ledger(), directory.log(),
+        directory.config()}) {
+    remove_file(path);
+  }
+}
+
+/// Those that a crowd may have, parents first.
+std::vector<fs::path> folders_of(const CrowdDirectory& directory) {
+  const fs::path data = directory.gallery() / "data";
+  return {directory.meshes(),
+          directory.topology(),
+          directory.renders(),
+          directory.head_render("").parent_path(),
+          directory.founder_render("").parent_path(),
+          directory.sheets(),
+          directory.gallery(),
+          data,
+          data / "faces",
+          data / "heads"};
+}
+
+/// What says what a crowd is, and what it has become.
+std::vector<fs::path> papers_of(const CrowdDirectory& directory) {
+  return {directory.plan(),   directory.founders(), directory.table(),    directory.casting(),
+          directory.report(), directory.ledger(),   directory.likeness(), directory.timings()};
+}
+
+/// \throws CannotCreate if something stands in the way of a folder or file of the crowd.
+void refuse_obstacles(const CrowdDirectory& directory) {
+  for (const fs::path& folder : folders_of(directory)) {
+    std::error_code ignored;
+    if (!fs::exists(folder, ignored)) continue;
+    if (!fs::is_directory(folder, ignored)) {
+      throw CannotCreate(concat(folder.string(), ": expected a folder, or nothing"));
+    }
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+      throw CannotCreate(concat(folder.string(), ": may not be written to"));
+    }
+  }
+  std::vector<fs::path> files = papers_of(directory);
+  for (const fs::path& file :
+       {directory.config(), directory.log(), directory.lock(), directory.sheet(1),
+        directory.sheets() / "index.png", directory.gallery() / "index.html"}) {
+    files.push_back(file);
+  }
+  for (const fs::path& file : files) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored) || fs::is_regular_file(file, ignored)) continue;
+    throw CannotCreate(concat(file.string(), ": expected a file, or nothing"));
+  }
+}
+
+/// Whether a folder that has no config has what else a crowd has: it is another's, or is no crowd at
+/// all but somebody's own. A crowd that only lost its config is known by its ledger.
+bool is_anothers(const CrowdDirectory& directory, const std::string& effective_config) {
+  std::error_code ignored;
+  if (fs::exists(directory.config(), ignored)) return false;
+  const std::string name = directory.relative(directory.config());
+  for (const fs::path& ledger : directory.ledgers()) {
+    for (const LedgerEntry& entry : read_ledger(ledger).entries) {
+      if (entry.item == name && entry.key == hash_bytes(effective_config)) return false;
+    }
+  }
+  const std::vector<fs::path> papers = papers_of(directory), folders = folders_of(directory);
+  const bool holds_any =
+      std::any_of(papers.begin(), papers.end(),
+                  [&](const fs::path& file) { return fs::exists(file, ignored); }) ||
+      std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+        return fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored);
+      });
+  // Another shard may have begun meanwhile: the config is the first that it writes.
+  return holds_any && !fs::exists(directory.config(), ignored);
+}
+
+/// The first line in which two texts differ, from 1.
+std::size_t first_different_line(const std::string& a, const std::string& b) {
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i) {
+    if (a[i] == '\n') ++line;
+  }
+  return line;
+}
+
+/// The line `review: [a, b]` taken out of a config, and what it lists.
+std::pair<std::string, std::string> apart_from_review(const std::string& config) {
+  const std::string start = "\nreview: [";
+  const std::size_t begin = config.find(start);
+  if (begin == config.npos) return {config, ""};
+  const std::size_t end = config.find('\n', begin + 1);
+  std::string list = config.substr(begin + start.size(), end - begin - start.size());
+  if (!list.empty()) list.pop_back();  // the bracket
+  return {config.substr(0, begin) + config.substr(end), list};
+}
+
+/// Whether it is the same crowd, at most reviewed further: old reviews first, in the same order.
+bool same_crowd(const std::string& old_config, const std::string& config) {
+  const auto [old_rest, old_list] = apart_from_review(old_config);
+  const auto [rest, list] = apart_from_review(config);
+  return rest == old_rest && list.starts_with(old_list) &&
+         (list.size() == old_list.size() || old_list.empty() || list[old_list.size()] == ',');
+}
+
+/// "ledger-2of7.jsonl" beside "ledger.jsonl".
+fs::path of_shard(const fs::path& path, const Shard& shard) {
+  if (shard.whole()) return path;
+  fs::path result = path;
+  return result.replace_filename(
+      concat(path.stem().string(), '-', shard.name(), path.extension().string()));
+}
+
+std::vector<fs::path> of_all_shards(const fs::path& path) {
+  const std::string start = path.stem().string() + "-", end = path.extension().string();
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(path.parent_path(), ignored)) {
+    std::string name = entry.path().filename().string();
+    if (name.size() <= start.size() + end.size() || !name.starts_with(start) ||
+        !name.ends_with(end)) {
+      continue;
+    }
+    name = name.substr(start.size(), name.size() - start.size() - end.size());
+    const std::size_t of = name.find("of");
+    if (of != name.npos && parse_shard(name.replace(of, 2, "/"))) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Nothing that a run writes, appends to or removes is reached by a link that leads elsewhere.
+/// \throws CannotCreate if it would be.
+void refuse_links(const CrowdDirectory& directory) {
+  for (const fs::path& folder : folders_of(directory)) refuse_folder_elsewhere(directory, folder);
+  std::vector<fs::path> files = {directory.log(), directory.ledger()};
+  for (const fs::path& path : directory.shard_ledgers()) files.push_back(path);
+  for (const fs::path& path : directory.shard_logs()) files.push_back(path);
+  for (const fs::path& file : files) {
+    std::error_code ignored;
+    if (!fs::is_symlink(file, ignored)) continue;
+    throw CannotCreate(concat(file.string(), ": is a link; expected a file of this crowd"));
+  }
+}
+
+}  // namespace
+
+fs::path CrowdDirectory::log(const Shard& shard) const {
+  return of_shard(log(), shard);
+}
+fs::path CrowdDirectory::ledger(const Shard& shard) const {
+  return of_shard(ledger(), shard);
+}
+fs::path CrowdDirectory::lock(const Shard& shard) const {
+  return of_shard(lock(), shard);
+}
+std::vector<fs::path> CrowdDirectory::shard_ledgers() const {
+  return of_all_shards(ledger());
+}
+std::vector<fs::path> CrowdDirectory::shard_logs() const {
+  return of_all_shards(log());
+}
+std::vector<fs::path> CrowdDirectory::ledgers() const {
+  std::vector<fs::path> all = shard_ledgers();
+  all.push_back(ledger());
+  return all;
+}
+
+void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& folder) {
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(directory.root, error);
+  if (error) return;  // not there, and cannot be made: told elsewhere
+  const fs::path real = fs::weakly_canonical(folder, error);
+  if (error) {
+    throw CannotCreate(concat(folder.string(), ": cannot be reached: ", error.message()));
+  }
+  if (!real.lexically_relative(root).native().starts_with("..")) return;
+  throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
+                            ", where nothing is written"));
+}
+
+std::vector<std::string> ids_in_plan(const std::string& plan) {
+  std::vector<std::string> ids;
+  for (std::size_t begin = 0; begin < plan.size();) {
+    const std::size_t end = std::min(plan.find('\n', begin), plan.size());
+    const auto line = parse_shallow_json(std::string_view(plan).substr(begin, end - begin));
+    if (line.is_object() && line.contains("id") && line["id"].is_string()) {
+      const auto id = line["id"].get<std::string>();
+      if (is_name(id, kLongestId)) ids.push_back(id);
+    }
+    begin = end + 1;
+  }
+  return ids;
+}
+
+bool is_sheet_file(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const std::string ending = path.extension().string();
+  if (ending != ".png" && ending != ".exr" && ending != ".pdf") return false;
+  if (stem == "index" || stem == "sheets" || stem.starts_with("family_")) return true;
+  for (const std::string_view start : {"sheet_", "heads_", "index_", "sheets_"}) {
+    if (stem.starts_with(start) && parse_unsigned(stem.substr(start.size()))) return true;
+  }
+  return false;
+}
+
+fs::path CrowdDirectory::sheet(std::size_t page) const {
+  return sheets() / concat("sheet_", zero_padded(page, 3), ".png");
+}
+
+fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
+  return meshes() / concat(id, extension_of(format));
+}
+
+void check_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                           Replace replace) {
+  std::error_code ignored;
+  if (fs::exists(directory.config(), ignored) && replace == Replace::kRefuse) {
+    const std::string old = read_file(directory.config());
+    if (!same_crowd(old, effective_config)) {
+      throw UsageError(concat(directory.root.string(),
+                              ": holds another config's crowd (its config.yaml differs from this "
+                              "run's at line ",
+                              first_different_line(old, effective_config),
+                              "); choose another folder with --out, or replace it with --force"));
+    }
+  }
+  fs::path existing = fs::absolute(directory.root);
+  std::error_code error;
+  if (!fs::status_known(fs::status(existing, error))) {  // too long, or links in a circle
+    throw CannotCreate(concat(directory.root.string(), ": cannot be made: ", error.message()));
+  }
+  while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
+    existing = existing.parent_path();
+  }
+  refuse_links(directory);
+  refuse_obstacles(directory);
+  if (replace == Replace::kRefuse && is_anothers(directory, effective_config)) {
+    throw UsageError(concat(directory.root.string(),
+                            ": holds files that this crowd would replace, and no config.yaml that "
+                            "says they are its own; choose another folder with --out, or replace "
+                            "them with --force"));
+  }
+  if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
+    throw CannotCreate(
+        concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));
+  }
+}
+
+void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                          Replace replace) {
+  check_crowd_directory(directory, effective_config, replace);
+  make_directories(directory.root);
+  std::error_code ignored;
+  const bool is_others = fs::exists(directory.config(), ignored)
+                             ? !same_crowd(read_file(directory.config()), effective_config)
+                             : is_anothers(directory, effective_config);
+  if (is_others && replace == Replace::kForce) remove_crowd(directory);
+  write_file(directory.config(), effective_config);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crowdface/crowd/shard.h"
+#include "crowdface/io/mesh_format.h"
+
+namespace crowdface {
+
+/// Where things lie in a crowd's folder (docs/crowd-directory.md).
+struct CrowdDirectory {
+  std::filesystem::path root;
+
+  std::filesystem::path config() const { return root / "config.yaml"; }
+  std::filesystem::path plan() const { return root / "plan.jsonl"; }
+  /// The hidden founders of families, in the form of the plan.
+  std::filesystem::path founders() const { return root / "founders.jsonl"; }
+  std::filesystem::path table() const { return root / "crowd.csv"; }
+  std::filesystem::path casting() const { return root / "casting.json"; }
+  std::filesystem::path report() const { return root / "report.json"; }
+  std::filesystem::path timings() const { return root / "timings.json"; }
+  std::filesystem::path log() const { return root / "crowdface.log"; }
+  std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
+  std::filesystem::path lock() const { return root / ".crowdface.lock"; }
+  /// A shard's own; those above if the shard is the whole crowd.
+  std::filesystem::path log(const Shard& shard) const;
+  std::filesystem::path ledger(const Shard& shard) const;
+  std::filesystem::path lock(const Shard& shard) const;
+  /// The ledgers and logs of all shards that have written some, by name.
+  std::vector<std::filesystem::path> shard_ledgers() const;
+  std::vector<std::filesystem::path> shard_logs() const;
+  /// Those of all shards, then the crowd's own; they need not be there.
+  std::vector<std::filesystem::path> ledgers() const;
+  std::filesystem::path meshes() const { return root / "meshes"; }
+  std::filesystem::path renders() const { return root / "renders"; }
+  std::filesystem::path sheets() const { return root / "sheets"; }
+  std::filesystem::path mesh(const std::string& id, MeshFormat format) const;
+  /// Arrays that say how positions alone (MeshFormat::kPoints) form faces.
+  std::filesystem::path topology() const { return meshes() / "topology"; }
+  std::filesystem::path render(const std::string& id) const { return renders() / (id + ".png"); }
+  std::filesystem::path head_render(const std::string& name) const {
+    return renders() / "heads" / (name + ".png");
+  }
+  std::filesystem::path founder_render(const std::string& family) const {
+    return renders() / "founders" / (family + ".png");
+  }
+  std::filesystem::path likeness() const { return root / "likeness.json"; }
+  std::filesystem::path gallery() const { return root / "gallery"; }
+  std::filesystem::path gallery_face(const std::string& id) const {
+    return gallery() / "data/faces" / (id + ".js");
+  }
+  std::filesystem::path gallery_head(const std::string& name) const {
+    return gallery() / "data/heads" / (name + ".js");
+  }
+  /// The name that the ledger has for a file of the crowd.
+  std::string relative(const std::filesystem::path& file) const {
+    return file.lexically_relative(root).generic_string();
+  }
+  /// Sheet number `page`, from 1.
+  std::filesystem::path sheet(std::size_t page) const;
+};
+
+/// Files of a crowd never land outside its folder, not by a link either.
+/// \throws CannotCreate if `folder`, in the crowd's folder, is such a link.
+void refuse_folder_elsewhere(const CrowdDirectory& directory, const std::filesystem::path& folder);
+
+/// The ids a plan names; lines that cannot be read, or whose id is no file's name, name none.
+std::vector<std::string> ids_in_plan(const std::string& plan);
+
+/// Whether a file in a folder of contact sheets is one that we write, by its name.
+bool is_sheet_file(const std::filesystem::path& path);
+
+enum class Replace { kRefuse, kForce };
+
+/// Refuses a folder that could not be opened, before any heavy work, and changes nothing.
+/// \throws UsageError if it holds another crowd; CannotCreate if it cannot be written to.
+void check_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                           Replace replace);
+
+/// Makes the folder ready for this config's crowd: creates it, refuses one that holds another
+/// config's crowd, or (kForce) removes that crowd's files first, and no others.
+/// \param effective_config  the text that will stand in config.yaml.
+/// \throws UsageError if the folder holds another crowd; CannotCreate, IoError.
+void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+                          Replace replace);
+
+}  // namespace crowdface

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/face_json.h"
+
+#include "crowdface/core/rounded.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string& name_at(const std::vector<std::string>& names, Index i) {
+  return names[static_cast<std::size_t>(i)];
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
+  Json json;
+  json["position"] = region.position ? Json({region.position->x(), region.position->y()}) : Json();
+  json["weights"] = Json::object();
+  for (const SourceWeight& source : region.weights) {
+    json["weights"][name_at(names.heads, source.head)] = source.weight;
+  }
+  json["smoothness"] = region.smoothness;
+  json["iterations"] = region.iterations;
+  json["extrapolation"] = region.extrapolation;
+  return json;
+}
+
+}  // namespace
+
+Json face_to_json(const CastFace& face, const PlanNames& names, const Digest& settings) {
+  Json json;
+  json["id"] = face.id;
+  json["index"] = or_null(face.index);
+  json["family"] = or_null(face.family);
+  json["target"] = name_at(names.heads, face.recipe.target);
+  json["attempt"] = face.notes.attempt;
+  if (face.age) json["age"] = *face.age;
+  if (!face.inherits.empty()) {
+    for (std::size_t k = 0; k < face.inherits.size(); ++k) {
+      json["inherits"][names.regions[k]] = face.inherits[k];
+    }
+  }
+  if (face.notes.review) json["note"] = *face.notes.review;
+  json["regions"] = Json::object();
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    json["regions"][names.regions[k]] = region_to_json(face.recipe.regions[k], names);
+  }
+  if (face.notes.nearest) {
+    const Nearest& nearest = *face.notes.nearest;
+    json["nearest"] = {{"face", name_at(names.heads, nearest.head)},
+                       {"face_mm", rounded(nearest.head_mm)},
+                       {"crowd", or_null(nearest.crowd)},
+                       {"crowd_mm", nearest.crowd ? Json(rounded(nearest.crowd_mm)) : Json()}};
+  }
+  json["settings"] = settings.hex();
+  return json;
+}
+
+}  // namespace crowdface

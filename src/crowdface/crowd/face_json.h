@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/plan_names.h"
+#include "crowdface/core/hash.h"
+
+namespace crowdface {
+
+/// A line of the plan as a value.
+nlohmann::ordered_json face_to_json(const CastFace& face, const PlanNames& names,
+                                    const Digest& settings);
+
+}  // namespace crowdface

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/io/mesh_format.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// The positions of a face of this crowd, from whichever of the formats it was written in.
+/// \throws MissingInput if `formats` is empty or the file is not there; InvalidInput if it is not
+///         one of this crowd.
+Positions read_face(const CrowdDirectory& directory, const std::string& id,
+                    const std::vector<MeshFormat>& formats, Index vertices);
+
+}  // namespace crowdface

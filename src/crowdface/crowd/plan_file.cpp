@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/plan_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/name.h"
+#include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/face_json.h"
+#include "crowdface/io/shallow_json.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string& name_at(const std::vector<std::string>& names, Index i) {
+  return names[static_cast<std::size_t>(i)];
+}
+
+/// Reads the fields of one line and says where they are wrong.
+class LineReader {
+ public:
+  LineReader(const PlanNames& names, const std::string& place) : names_(names), place_(place) {}
+
+  PlanLine read(std::string_view line) const {
+    const Json json = parse_shallow_json(line);
+    if (!json.is_object()) fail("line", "a JSON object", "something else");
+    PlanLine result;
+    CastFace& face = result.face;
+    face.id = file_name(json, "id", kLongestId);
+    if (const Json& index = member(json, "index"); !index.is_null()) {
+      face.index = whole(index, "index");
+    }
+    if (const Json& family = member(json, "family"); !family.is_null()) {
+      face.family = file_name(json, "family", kLongestName);
+    }
+    face.recipe.target = head(text(json, "target"), "target");
+    face.notes.attempt = attempt(member(json, "attempt"));
+    const Json& regions = member(json, "regions");
+    if (!regions.is_object() || regions.size() != names_.regions.size()) {
+      fail("regions", concat("an object of ", names_.regions.size(), " regions"), regions.dump());
+    }
+    for (const std::string& name : names_.regions) {
+      face.recipe.regions.push_back(region(member(regions, name), name));
+    }
+    if (const auto age = json.find("age"); age != json.end()) face.age = number(*age, "age");
+    if (const auto inherits = json.find("inherits"); inherits != json.end()) {
+      for (const std::string& name : names_.regions) {
+        face.inherits.push_back(text(*inherits, name));
+      }
+    }
+    if (json.contains("note")) face.notes.review = text(json, "note");
+    if (const auto found = json.find("nearest"); found != json.end()) {
+      face.notes.nearest = nearest(*found);
+    }
+    result.settings = text(json, "settings");
+    return result;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view field, std::string_view expected,
+                         std::string_view found) const {
+    throw InvalidInput(
+        concat(place_, ": ", field, ": expected ", expected, ", found ", found.substr(0, 80)));
+  }
+
+  const Json& member(const Json& json, const std::string& key) const {
+    const auto found = json.find(key);
+    if (found == json.end()) fail(key, "a value", "none");
+    return *found;
+  }
+
+  std::string text(const Json& json, const std::string& key) const {
+    const Json& value = member(json, key);
+    if (!value.is_string()) fail(key, "text", value.dump());
+    return value.get<std::string>();
+  }
+
+  /// Pictures and meshes are called by it.
+  std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
+    std::string name = text(json, key);
+    if (!is_name(name, longest)) {
+      fail(key, "a name of letters (a-z), digits, '_', '-' or '.', not starting with '.'",
+           quoted(std::string_view(name)));
+    }
+    return name;
+  }
+
+  double number(const Json& value, std::string_view key) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      fail(key, "a number", value.dump());
+    }
+    return value.get<double>();
+  }
+  double number(const Json& value, std::string_view key, double low, double high) const {
+    const double result = number(value, key);
+    if (result < low || result > high) {
+      fail(key, concat("a number from ", low, " to ", high), value.dump());
+    }
+    return result;
+  }
+
+  std::uint64_t whole(const Json& value, std::string_view key) const {
+    if (!value.is_number_unsigned()) fail(key, "a whole number of zero or more", value.dump());
+    return value.get<std::uint64_t>();
+  }
+
+  std::uint32_t attempt(const Json& value) const {
+    const std::uint64_t number = whole(value, "attempt");
+    if (number > UINT32_MAX) fail("attempt", "less than 2^32", value.dump());
+    return static_cast<std::uint32_t>(number);
+  }
+
+  Index head(const std::string& name, std::string_view key) const {
+    const auto found = std::find(names_.heads.begin(), names_.heads.end(), name);
+    if (found == names_.heads.end()) fail(key, "the name of a head", quoted(name));
+    return found - names_.heads.begin();
+  }
+
+  double coordinate(const Json& value) const {
+    return number(value, "position", -kMaxPlaneCoordinate, kMaxPlaneCoordinate);
+  }
+
+  RegionRecipe region(const Json& json, const std::string& name) const {
+    if (!json.is_object()) fail(name, "an object", json.dump());
+    RegionRecipe result;
+    if (const Json& position = member(json, "position"); !position.is_null()) {
+      if (!position.is_array() || position.size() != 2) fail("position", "[x, y]", position.dump());
+      result.position = PlanePoint(coordinate(position[0]), coordinate(position[1]));
+    }
+    const Json& weights = member(json, "weights");
+    if (!weights.is_object()) fail("weights", "an object", weights.dump());
+    double sum = 0;
+    for (const auto& [key, value] : weights.items()) {
+      result.weights.push_back({head(key, "weights"), number(value, "weights", 0, 1)});
+      sum += result.weights.back().weight;
+    }
+    constexpr double kRounding = 1e-6;  // of numbers written by hand
+    if (sum > 1 + kRounding) fail("weights", "a sum of at most 1", concat(sum));
+    result.smoothness = number(member(json, "smoothness"), "smoothness", 0, 1);
+    result.iterations = whole(member(json, "iterations"), "iterations");
+    if (result.iterations > kMaxLevel) {
+      fail("iterations", concat("at most ", kMaxLevel), concat(result.iterations));
+    }
+    result.extrapolation = number(member(json, "extrapolation"), "extrapolation",
+                                  -kMaxExtrapolation, kMaxExtrapolation);
+    return result;
+  }
+
+  /// No mesh depends on it, so lines that were written by hand may leave it out or get it wrong.
+  std::optional<Nearest> nearest(const Json& json) const {
+    if (!json.is_object()) return std::nullopt;
+    const std::string face = json.value("face", Json()).is_string() ? text(json, "face") : "";
+    const auto head = std::find(names_.heads.begin(), names_.heads.end(), face);
+    const Json head_mm = json.value("face_mm", Json());
+    if (head == names_.heads.end() || !head_mm.is_number()) return std::nullopt;
+    Nearest result{head - names_.heads.begin(), head_mm.get<double>(), std::nullopt, 0};
+    const Json crowd_mm = json.value("crowd_mm", Json());
+    if (json.value("crowd", Json()).is_string() && crowd_mm.is_number()) {
+      result.crowd = text(json, "crowd");
+      result.crowd_mm = crowd_mm.get<double>();
+    }
+    return result;
+  }
+
+  const PlanNames& names_;
+  const std::string& place_;
+};
+
+/// A field of a table: between quotes if it needs them.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string csv_weights(const RegionRecipe& region, const PlanNames& names) {
+  std::vector<std::string> parts;
+  for (const SourceWeight& source : region.weights) {
+    parts.push_back(concat(name_at(names.heads, source.head), ':', source.weight));
+  }
+  return join(parts, ";");
+}
+
+}  // namespace
+
+std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings) {
+  return face_to_json(face, names, settings).dump();
+}
+
+PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::string& place) {
+  return LineReader(names, place).read(line);
+}
+
+std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names) {
+  const std::string text = read_file(path);
+  std::vector<PlanLine> plan;
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    ++number;
+    if (!line.empty()) {
+      plan.push_back(parse_recipe(line, names, concat(path.string(), ":", number)));
+    }
+    begin = end + 1;
+  }
+  return plan;
+}
+
+std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& names) {
+  std::vector<std::string> header = {"id", "index", "family", "target"};
+  for (const std::string& region : names.regions) {
+    for (const char* column :
+         {"position_x", "position_y", "weights", "smoothness", "iterations", "extrapolation"}) {
+      header.push_back(csv_field(concat(region, '_', column)));
+    }
+  }
+  for (const char* column :
+       {"nearest_face", "nearest_face_mm", "nearest_crowd", "nearest_crowd_mm"}) {
+    header.emplace_back(column);
+  }
+  std::string table = join(header, ",") + "\r\n";
+  for (const CastFace& face : crowd) {
+    std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
+                                    csv_field(face.family.value_or("")),
+                                    csv_field(name_at(names.heads, face.recipe.target))};
+    for (const RegionRecipe& region : face.recipe.regions) {
+      row.push_back(region.position ? format_number(region.position->x()) : "");
+      row.push_back(region.position ? format_number(region.position->y()) : "");
+      row.push_back(csv_field(csv_weights(region, names)));
+      row.push_back(format_number(region.smoothness));
+      row.push_back(concat(region.iterations));
+      row.push_back(format_number(region.extrapolation));
+    }
+    const bool near = face.notes.nearest.has_value();
+    const bool near_crowd = near && face.notes.nearest->crowd;
+    row.push_back(near ? csv_field(name_at(names.heads, face.notes.nearest->head)) : "");
+    row.push_back(near ? format_number(rounded(face.notes.nearest->head_mm)) : "");
+    row.push_back(near_crowd ? csv_field(*face.notes.nearest->crowd) : "");
+    row.push_back(near_crowd ? format_number(rounded(face.notes.nearest->crowd_mm)) : "");
+    table += join(row, ",") + "\r\n";
+  }
+  return table;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/alignment_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/alignment.h"
+
+namespace crowdface {
+namespace {
+
+// Heads of different people differ by a few degrees and a few hundredths of their size even when
+// they were aligned well; beyond these limits it is the frame that differs.
+constexpr double kMostDegrees = 6;
+constexpr double kMostShift = 0.06;
+constexpr double kMostScale = 1.3;
+constexpr double kOtherUnit = 5;  // times as large: no head of people, but one in another unit
+constexpr Index kPoints = 2000;
+
+/// Evenly chosen vertices of the skin.
+std::vector<Index> skin_vertices(const Components& components, Index most) {
+  const std::uint32_t skin = components.largest();
+  const Index size = components.sizes[skin];
+  const Index step = std::max<Index>(1, size / most);
+  std::vector<Index> chosen;
+  Index seen = 0;
+  for (Index i = 0; i < static_cast<Index>(components.of_vertex.size()); ++i) {
+    if (components.of_vertex[static_cast<std::size_t>(i)] != skin) continue;
+    if (seen++ % step == 0) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+double radius(const Positions& points) {
+  const Eigen::RowVector3d middle = points.colwise().mean();
+  return std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
+}
+
+HeadPose pose_against(const Positions& head, const Positions& reference) {
+  const Similarity fit = fit_similarity(head, reference, ScaleFit::kUniform);
+  const double size = radius(reference);
+  HeadPose pose;
+  pose.angle_degrees = fit.angle_degrees();
+  pose.scale = fit.scale > 0 ? 1 / fit.scale : 0;
+  if (size > 0) {
+    pose.shift = (head.colwise().mean() - reference.colwise().mean()).norm() / size;
+  }
+  return pose;
+}
+
+bool is_of_other_size(const HeadPose& pose) {
+  return pose.scale > kMostScale || pose.scale < 1 / kMostScale;
+}
+
+bool is_off(const HeadPose& pose) {
+  return pose.angle_degrees > kMostDegrees || pose.shift > kMostShift || is_of_other_size(pose);
+}
+
+double badness(const HeadPose& pose) {
+  const double scale = std::max(pose.scale, 1 / std::max(pose.scale, 1e-9));
+  return pose.angle_degrees / kMostDegrees + pose.shift / kMostShift +
+         (scale - 1) / (kMostScale - 1);
+}
+
+}  // namespace
+
+std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& components) {
+  const std::vector<Index> chosen = skin_vertices(components, kPoints);
+  const std::size_t count = faces.heads.size();
+  if (chosen.size() < 3) return std::vector<HeadPose>(count);
+  std::vector<Positions> points;
+  for (const Head& head : faces.heads) points.emplace_back(head.positions(chosen, Eigen::all));
+  // The reference is the head whose median disagreement with the others is smallest, so that one
+  // stray head never makes the rest look wrong.
+  std::vector<double> disagreement(count);
+  parallel_for_each(static_cast<Index>(count), [&](Index r) {
+    std::vector<double> against;
+    for (std::size_t h = 0; h < count; ++h) {
+      against.push_back(badness(pose_against(points[h], points[static_cast<std::size_t>(r)])));
+    }
+    std::nth_element(against.begin(), against.begin() + static_cast<Index>(count / 2),
+                     against.end());
+    disagreement[static_cast<std::size_t>(r)] = against[count / 2];
+  });
+  const auto reference = static_cast<std::size_t>(
+      std::min_element(disagreement.begin(), disagreement.end()) - disagreement.begin());
+  std::vector<HeadPose> poses;
+  for (const Positions& head : points) poses.push_back(pose_against(head, points[reference]));
+  return poses;
+}
+
+std::vector<std::string> align_heads(FaceSet& faces, const Components& components, Align align) {
+  if (align == Align::kNone) return {};
+  if (align == Align::kRigid) {
+    const std::vector<Index> chosen =
+        skin_vertices(components, std::max<Index>(faces.topology.vertex_count, 1));
+    const Positions reference = faces.heads[0].positions(chosen, Eigen::all);
+    if (chosen.size() >= 3) {
+      parallel_for_each(static_cast<Index>(faces.heads.size()) - 1, [&](Index h) {
+        Positions& positions = faces.heads[static_cast<std::size_t>(h) + 1].positions;
+        const Positions points = positions(chosen, Eigen::all);
+        positions = fit_similarity(points, reference, ScaleFit::kRigid).apply(positions);
+      });
+    }
+  }
+  std::vector<std::string> warnings;
+  const std::vector<HeadPose> poses = head_poses(faces, components);
+  for (std::size_t h = 0; h < poses.size(); ++h) {
+    if (!is_off(poses[h])) continue;
+    if (poses[h].scale > kOtherUnit || poses[h].scale < 1 / kOtherUnit) {
+      throw InvalidInput(concat("head ", faces.heads[h].name,
+                                ": expected heads in one unit, found ",
+                                format_fixed(poses[h].scale, 2),
+                                " times the size of the others (faces.align: none takes it)"));
+    }
+    warnings.push_back(concat(
+        "head ", faces.heads[h].name, " does not stand in one frame with the others: turned by ",
+        format_fixed(poses[h].angle_degrees, 1), " degrees, moved by ",
+        format_fixed(100 * poses[h].shift, 1), " % of its size, ", format_fixed(poses[h].scale, 2),
+        " times as large; this would enter as detail",
+        is_of_other_size(poses[h]) ? " (a different size is not corrected; check its units)"
+        : align == Align::kCheck   ? " (faces.align: rigid turns and moves it back)"
+                                   : ""));
+  }
+  return warnings;
+}
+
+}  // namespace crowdface

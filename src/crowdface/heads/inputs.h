@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/heads/head_textures.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/parts/part_list.h"
+#include "crowdface/region/region_weights.h"
+#include "crowdface/smooth/smoothing_operator.h"
+
+namespace crowdface {
+
+/// Everything a job reads, checked: heads, their topology, masks, and what follows from them.
+struct Inputs {
+  FaceSet faces;
+  std::vector<ObjFile> files;          ///< #heads; topology and positions have moved to `faces`
+  std::vector<std::string> materials;  ///< #F, the first head's material of each face
+  Adjacency adjacency;
+  Components components;
+  PartList parts;   ///< `parts: none`: empty
+  Components skin;  ///< the components with all skin joined into the largest
+  RegionWeights regions;
+  std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without
+  double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads
+  std::uint64_t max_level = 0;        ///< L_max
+  std::vector<Digest> head_digests;   ///< #heads, of the positions used
+  Digest topology_digest;
+  Digest mask_digest;                 ///< of α
+  HeadTextures textures;              ///< if pictures are to show them
+  std::vector<std::string> warnings;  ///< in a fixed order; also logged
+};
+
+}  // namespace crowdface

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/load_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/alignment_check.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kUvTolerance = 1e-4;
+constexpr int kLeastTexture = 1024;  // pixels a side that textures keep, if they have them
+
+bool is_missing(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return !std::filesystem::exists(file, ignored);
+}
+
+/// Heads that could be read; the others are problems.
+std::vector<ObjFile> read_heads(const std::vector<std::filesystem::path>& paths,
+                                Problems& problems) {
+  const std::size_t count = paths.size();
+  std::vector<std::optional<ObjFile>> files(count);
+  std::vector<std::optional<Error>> errors(count);
+  {
+    Progress progress("reading heads", count);
+    parallel_for_each(static_cast<Index>(count), [&](Index h) {
+      throw_if_interrupted();
+      const auto i = static_cast<std::size_t>(h);
+      try {
+        files[i] = read_obj(paths[i]);
+      } catch (const Error& error) {
+        errors[i] = error;
+      }
+      progress.step();
+    });
+  }
+  std::vector<ObjFile> read;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (errors[i]) problems.add(*errors[i]);
+    if (files[i]) read.push_back(std::move(*files[i]));
+  }
+  return read;
+}
+
+/// Opens the mask images as far as that goes without texture coordinates, which alone tell the UDIM
+/// tiles in use.
+void check_masks(const std::vector<std::string>& files, Problems& problems) {
+  for (const MaskSource& mask : load_masks(files)) {
+    if (mask.tiled()) continue;
+    try {
+      mask.read(0);
+    } catch (const Error& error) {
+      problems.add(error);
+    }
+  }
+}
+
+/// The first texture coordinate that differs from the first head's; empty if none does.
+std::string uv_difference(const TextureCoordinates& expected, const TextureCoordinates& found) {
+  if (expected.rows() != found.rows()) {
+    return concat("expected ", expected.rows(), " texture coordinates, found ", found.rows());
+  }
+  for (Index i = 0; i < expected.rows(); ++i) {
+    if ((expected.row(i) - found.row(i)).cwiseAbs().maxCoeff() > kUvTolerance) {
+      return concat("texture coordinate ", i + 1, ": expected ", expected(i, 0), " ",
+                    expected(i, 1), ", found ", found(i, 0), " ", found(i, 1));
+    }
+  }
+  return {};
+}
+
+void compare_with_first(const std::vector<ObjFile>& files, Problems& problems) {
+  for (const ObjFile& file : files) {
+    std::string difference = first_difference(files[0].topology, file.topology);
+    if (difference.empty()) difference = uv_difference(files[0].uvs, file.uvs);
+    if (difference.empty()) continue;
+    problems.add(ExitCode::kBadData, concat(file.path.string(), ": not the same mesh as ",
+                                            files[0].path.string(), ": ", difference));
+  }
+}
+
+/// Moves the meshes out of the files; the topology is kept once.
+FaceSet take_faces(const Config& config, std::vector<ObjFile>& files) {
+  FaceSet faces;
+  faces.topology = std::move(files[0].topology);
+  faces.uvs = std::move(files[0].uvs);
+  for (std::size_t h = 0; h < files.size(); ++h) {
+    faces.heads.push_back({config.faces.names[h], std::move(files[h].positions)});
+    files[h].topology = Topology{};
+    files[h].uvs.resize(0, 2);
+  }
+  return faces;
+}
+
+double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
+  const std::uint32_t skin = inputs.components.largest();
+  double sum = 0;
+  for (const Head& head : inputs.faces.heads) {
+    sum += rms_edge_length(inputs.adjacency, inputs.components, skin, head.positions);
+  }
+  return sum / static_cast<double>(inputs.faces.heads.size()) * mm_per(config.faces.units);
+}
+
+/// A warning if the first head is of no size that heads have, with or without shoulders.
+std::optional<std::string> odd_height(const Config& config, const Inputs& inputs) {
+  constexpr double kLeastMm = 80, kMostMm = 1200;
+  const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
+  const double units = up.maxCoeff() - up.minCoeff(), mm = units * mm_per(config.faces.units);
+  if (!(mm > 0) || (mm >= kLeastMm && mm <= kMostMm)) return std::nullopt;
+  return concat("the first head is ", format_fixed(units, 2), " units high, with faces.units ",
+                name_of(config.faces.units), " ", format_fixed(mm / 10, 1),
+                " cm: a head is some 28 cm high. All sizes rest on faces.units and faces.up");
+}
+
+std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
+  if (config.smoothing.max_iterations) return *config.smoothing.max_iterations;
+  const std::uint64_t level = iterations_of_size(config.smoothing.operator_kind,
+                                                 config.smoothing.max_size_mm, edge_length_mm);
+  return std::max<std::uint64_t>(level, 1);
+}
+
+RegionWeights load_regions(const Config& config, const FaceSet& faces) {
+  const auto names = config.region_names();
+  if (config.regions.names.empty()) return whole_head(faces.topology);
+  return region_weights(faces.topology, faces.uvs, load_masks(config.regions.mask),
+                        static_cast<Index>(names.size()));
+}
+
+template <class T>
+Digest digest_of(const T* data, Index size) {
+  return Hasher().add_array(std::span<const T>(data, static_cast<std::size_t>(size))).digest();
+}
+
+void compute_digests(Inputs& inputs) {
+  const Topology& topology = inputs.faces.topology;
+  inputs.topology_digest = Hasher()
+                               .add(topology.vertex_count)
+                               .add_array(std::span(topology.corner_vertices))
+                               .add_array(std::span(topology.face_offsets))
+                               .digest();
+  inputs.head_digests.resize(inputs.faces.heads.size());
+  parallel_for_each(static_cast<Index>(inputs.faces.heads.size()), [&](Index h) {
+    const Positions& positions = inputs.faces.heads[static_cast<std::size_t>(h)].positions;
+    inputs.head_digests[static_cast<std::size_t>(h)] =
+        digest_of(positions.data(), positions.size());
+  });
+  inputs.mask_digest = digest_of(inputs.regions.alpha.data(), inputs.regions.alpha.size());
+}
+
+void warn(Inputs& inputs, std::string text) {
+  log_warning(text);
+  inputs.warnings.push_back(std::move(text));
+}
+
+void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
+  const auto& sheet = config.output.contact_sheet;
+  if (!sheet || !sheet->texture) return;
+  try {
+    inputs.textures =
+        load_textures(inputs.faces, inputs.files, std::max(kLeastTexture, 2 * sheet->cell));
+    for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
+  } catch (const Error& error) {
+    problems.add(error);
+  }
+}
+
+}  // namespace
+
+void check_inputs(const ConfigReading& reading, Problems& problems) {
+  // Of files that are not there whoever read the config has told.
+  if (reading.heads_known) {
+    std::vector<std::filesystem::path> heads = reading.config.faces.files;
+    std::erase_if(heads, is_missing);
+    compare_with_first(read_heads(heads, problems), problems);
+  }
+  if (reading.regions_known) {
+    std::vector<std::string> masks = reading.config.regions.mask;
+    std::erase_if(masks, is_missing);
+    check_masks(masks, problems);
+  }
+}
+
+std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
+  Inputs inputs;
+  inputs.files = read_heads(config.faces.files, problems);
+  compare_with_first(inputs.files, problems);
+  if (!problems.empty()) {
+    check_masks(config.regions.mask, problems);
+    return std::nullopt;
+  }
+
+  inputs.materials =
+      face_materials(inputs.files[0].materials, inputs.files[0].topology.face_count());
+  inputs.faces = take_faces(config, inputs.files);
+  inputs.adjacency = build_adjacency(inputs.faces.topology);
+  inputs.components = find_components(inputs.adjacency);
+  try {
+    for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
+      warn(inputs, std::move(text));
+    }
+  } catch (const Error& error) {
+    problems.add(error);
+    return std::nullopt;
+  }
+  if (auto text = odd_height(config, inputs)) warn(inputs, std::move(*text));
+  inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
+  try {
+    inputs.regions = load_regions(config, inputs.faces);
+    if (config.distance.mask) {
+      inputs.distance_mask =
+          mask_values(inputs.faces.topology, inputs.faces.uvs, MaskSource(*config.distance.mask));
+    }
+    inputs.max_level = max_level_of(config, inputs.edge_length_mm);
+  } catch (const Error& error) {
+    problems.add(error);
+    return std::nullopt;
+  }
+  if (inputs.regions.uncovered_vertices > 0) {
+    warn(inputs, concat(inputs.regions.uncovered_vertices,
+                        " vertices are covered by no mask and go to the last region, ",
+                        config.region_names().back()));
+  }
+  compute_digests(inputs);
+  const std::size_t before = problems.size();
+  read_textures(config, inputs, problems);
+  find_named_parts(config, inputs, problems);
+  if (problems.size() > before) return std::nullopt;
+  return inputs;
+}
+
+}  // namespace crowdface

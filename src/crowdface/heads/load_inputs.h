@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "crowdface/config/config_reader.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/heads/inputs.h"
+
+namespace crowdface {
+
+/// Reads heads (in parallel) and masks and checks them. Every problem is added; warnings are logged
+/// and kept.
+/// \return nothing if there is any problem.
+std::optional<Inputs> load_inputs(const Config& config, Problems& problems);
+
+/// Only adds the problems of the heads and masks that a config names, as far as it is known: what a
+/// user should hear together with what is wrong in the config.
+void check_inputs(const ConfigReading& reading, Problems& problems);
+
+}  // namespace crowdface

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/prepare.h"
+
+#include <algorithm>
+#include <span>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/result_versions.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+#include "crowdface/heads/head_cache.h"
+#include "crowdface/smooth/cubic_fit.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kSamples = 2500;
+
+Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& samples,
+              std::size_t head) {
+  const bool is_basis = config.smoothing.levels == Levels::kBasis;
+  return Hasher()
+      .add(kPrepareVersion)
+      .add(inputs.topology_digest)
+      .add(inputs.head_digests[head])
+      .add_array(std::span(samples))
+      .add(inputs.max_level)
+      .add(static_cast<int>(config.smoothing.boundary))
+      .add(static_cast<int>(config.smoothing.operator_kind))
+      .add(static_cast<int>(config.smoothing.levels))
+      .add(is_basis ? config.smoothing.tolerance_mm / mm_per(config.faces.units) : 0.0)
+      // The first head orders the filter's rows, of which a basis is fitted to every n-th.
+      .add(is_basis ? inputs.head_digests.front() : Digest{})
+      .digest();
+}
+
+/// How much the nodes may miss, as a share of the displacement at L_max, so that they take about a
+/// tenth of the tolerance: 2·10⁻⁴ at the default of 0.05 mm (measured, docs/method.md).
+double missed_by_nodes(const Config& config) {
+  constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
+  if (config.smoothing.levels != Levels::kBasis) return 2e-4;
+  return std::min(kSharePerMm * config.smoothing.tolerance_mm, kLargest);
+}
+
+/// Puts fields that were just computed in the same form as those from the cache.
+void own_fields(StoredLevels& levels, std::vector<float> fields) {
+  const auto owner = std::make_shared<const std::vector<float>>(std::move(fields));
+  levels.fields = *owner;
+  levels.owner = owner;
+}
+
+/// Computes heads when the cache does not have them; the filter is made for the first.
+class HeadPreparation {
+ public:
+  HeadPreparation(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                  Prepared& prepared)
+      : config_(config), inputs_(inputs), smoothing_(smoothing), prepared_(prepared) {}
+
+  const ChebyshevFilter& filter() {
+    if (!prepared_.filter) {
+      prepared_.filter.emplace(smoothing_, inputs_.faces.heads.front().positions);
+    }
+    return *prepared_.filter;
+  }
+
+  PreparedHead prepare(const Head& head) {
+    const LevelNodes& nodes = *prepared_.nodes;
+    PreparedHead result;
+    result.max_level = inputs_.max_level;
+    const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
+    result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.samples);
+    if (config_.smoothing.levels == Levels::kCubic) {
+      result.levels.rank = CubicFit::kRank;
+      own_fields(result.levels, fit_cubic(filter(), head.positions, inputs_.max_level).fields);
+    }
+    if (config_.smoothing.levels == Levels::kBasis) {
+      const double tolerance = config_.smoothing.tolerance_mm / mm_per(config_.faces.units);
+      LevelBasis basis = fit_level_basis(filter(), nodes, fields, tolerance);
+      result.levels.rank = basis.rank();
+      result.levels.mixing = std::move(basis.mixing);
+      result.levels.error = basis.error;
+      own_fields(result.levels, std::move(basis.fields));
+    }
+    return result;
+  }
+
+ private:
+  const Config& config_;
+  const Inputs& inputs_;
+  const SmoothingOperator& smoothing_;
+  Prepared& prepared_;
+};
+
+std::optional<PreparedHead> from_cache(const std::filesystem::path& cache, const Digest& key,
+                                       const HeadCacheShape& shape) {
+  try {
+    return read_cached_head(cache, key, shape);
+  } catch (const Error& error) {
+    log_warning(concat(error.what(), "; it is made anew"));
+    return std::nullopt;
+  }
+}
+
+/// \return whether writing works; after one failure there is no point in more warnings.
+bool into_cache(const std::filesystem::path& cache, const Digest& key, const HeadCacheShape& shape,
+                const PreparedHead& head) {
+  try {
+    write_cached_head(cache, key, shape, head);
+    return true;
+  } catch (const Error& error) {
+    log_warning(concat("prepared heads cannot be kept: ", error.what()));
+    return false;
+  }
+}
+
+}  // namespace
+
+Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                 const std::filesystem::path& cache) {
+  Prepared prepared;
+  prepared.samples = choose_face_samples(inputs.faces.topology, inputs.skin,
+                                         mean_head(inputs.faces), config.faces.front, kSamples);
+  prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
+                                                      inputs.max_level, missed_by_nodes(config));
+  const HeadCacheShape shape = {inputs.faces.topology.vertex_count,
+                                static_cast<Index>(prepared.samples.size()),
+                                static_cast<Index>(trajectory_levels(inputs.max_level).size()),
+                                static_cast<Index>(prepared.nodes->levels().size()),
+                                inputs.max_level,
+                                config.smoothing.levels};
+  remove_leftovers(cache);  // of runs that were killed while they kept a head
+  HeadPreparation preparation(config, inputs, smoothing, prepared);
+  bool cache_works = true;
+  Progress progress("preparing heads", inputs.faces.heads.size());
+  for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
+    throw_if_interrupted();
+    const Digest key = key_of(config, inputs, prepared.samples, h);
+    std::optional<PreparedHead> head = from_cache(cache, key, shape);
+    if (head) {
+      ++prepared.from_cache;
+    } else {
+      head = preparation.prepare(inputs.faces.heads[h]);
+      cache_works = cache_works && into_cache(cache, key, shape, *head);
+      // What was written is used from there, so that memory holds the fields of one head only.
+      if (cache_works) {
+        if (auto written = from_cache(cache, key, shape)) head = std::move(written);
+      }
+    }
+    prepared.trajectories.push_back(std::move(head->trajectory));
+    prepared.levels.push_back(std::move(head->levels));
+    progress.step();
+  }
+  if (config.smoothing.levels == Levels::kExact) {
+    preparation.filter();
+  } else {
+    prepared.filter.reset();
+  }
+  if (prepared.from_cache > 0) {
+    log_info(concat(prepared.from_cache, " of ", inputs.faces.heads.size(),
+                    " prepared heads came from the cache"));
+  }
+  return prepared;
+}
+
+std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared) {
+  std::vector<HeadLevels> result;
+  for (const StoredLevels& stored : prepared.levels) {
+    HeadLevels levels{stored.rank, stored.fields, {}};
+    if (config.smoothing.levels == Levels::kCubic) {
+      levels.functions = [max_level = prepared.nodes->max_level()](std::uint64_t level) {
+        const auto basis = cubic_basis(level, max_level);
+        return std::vector<double>(basis.begin(), basis.end());
+      };
+    } else {
+      levels.functions = [nodes = prepared.nodes, mixing = stored.mixing](std::uint64_t level) {
+        return basis_functions(*nodes, mixing, level);
+      };
+    }
+    result.push_back(std::move(levels));
+  }
+  return result;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "crowdface/blend/crowd_blender.h"
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/heads/prepared.h"
+
+namespace crowdface {
+
+/// Prepares every head, one after the other, or takes it from the cache. A damaged cache entry is
+/// made anew with a warning; a cache that cannot be written costs a warning, not the run.
+/// \param cache  the cache's folder, see cache_directory.
+Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                 const std::filesystem::path& cache);
+
+/// The fitted levels in the form that blending takes.
+std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);
+
+}  // namespace crowdface

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/settings_digest.h"
+
+#include <span>
+
+#include "crowdface/core/result_versions.h"
+#include "crowdface/core/units.h"
+
+namespace crowdface {
+namespace {
+
+/// Nothing if all is skin.
+void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
+  if (parts.parts.empty()) return;
+  hasher.add(kPartsVersion).add(static_cast<int>(config.parts.shape));
+  for (const Axis& axis : {config.faces.up, config.faces.front}) {
+    hasher.add(axis.index).add(axis.sign);
+  }
+  for (const Part& part : parts.parts) {
+    hasher.add(static_cast<int>(part.part_class)).add_array(std::span(part.components));
+  }
+}
+
+}  // namespace
+
+Digest settings_digest(const Config& config, const Inputs& inputs) {
+  Hasher hasher;
+  hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
+  for (std::size_t h = 0; h < inputs.head_digests.size(); ++h) {
+    // The file as well as the positions: everything else in a mesh is its target's own text.
+    hasher.add(config.faces.names[h])
+        .add(inputs.head_digests[h])
+        .add(hash_bytes(inputs.files[h].file.bytes()));
+  }
+  for (const std::string& region : config.region_names()) hasher.add(region);
+  hasher.add(static_cast<int>(config.smoothing.boundary))
+      .add(static_cast<int>(config.smoothing.operator_kind))
+      .add(static_cast<int>(config.smoothing.levels));
+  // Only fitted levels depend on L_max; exact ones do not.
+  if (config.smoothing.levels != Levels::kExact) hasher.add(inputs.max_level);
+  if (config.smoothing.levels == Levels::kBasis) {
+    hasher.add(config.smoothing.tolerance_mm / mm_per(config.faces.units));
+  }
+  add_parts(config, inputs.parts, hasher);
+  return hasher.digest();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/config/config.h"
+#include "crowdface/core/hash.h"
+#include "crowdface/heads/inputs.h"
+
+namespace crowdface {
+
+/// The hash of what a mesh depends on beside its recipe: topology, heads, masks, and the smoothing
+/// settings. Each recipe of a plan carries it.
+Digest settings_digest(const Config& config, const Inputs& inputs);
+
+}  // namespace crowdface

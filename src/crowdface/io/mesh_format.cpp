@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/mesh_format.h"
+
+#include <string>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+const std::vector<MeshFormat>& all_mesh_formats() {
+  static const std::vector<MeshFormat> all = {MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kGlb,
+                                              MeshFormat::kPoints};
+  return all;
+}
+
+std::string_view name_of(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kPly:
+      return "ply";
+    case MeshFormat::kGlb:
+      return "glb";
+    case MeshFormat::kPoints:
+      return "points";
+    case MeshFormat::kObj:
+      break;
+  }
+  return "obj";
+}
+
+std::string_view extension_of(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kPly:
+      return ".ply";
+    case MeshFormat::kGlb:
+      return ".glb";
+    case MeshFormat::kPoints:
+      return ".npy";
+    case MeshFormat::kObj:
+      break;
+  }
+  return ".obj";
+}
+
+std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
+  const std::string extension = lower_case(file.extension().string());
+  for (const MeshFormat format : all_mesh_formats()) {
+    if (extension == extension_of(format)) return format;
+  }
+  return std::nullopt;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/crowd_renders.h"
+
+#include <cmath>
+
+#include "crowdface/core/file.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/single_precision.h"
+#include "crowdface/pictures/surfaces.h"
+#include "crowdface/render/contact_sheet.h"
+
+namespace crowdface {
+namespace {
+
+/// Of a bust, shoulders may leave the picture: it is for judging faces.
+constexpr double kCutBelow = 0.22;
+
+std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
+                                 const Inputs& inputs) {
+  std::vector<const Positions*> heads;
+  for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
+  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views,
+                     {.cut_below = kCutBelow});
+}
+
+std::string to_png(const Rgb8Image& image) {
+  return encode_png(image.width, image.height, 3, image.pixels);
+}
+
+}  // namespace
+
+CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& sheet,
+                           const Inputs& inputs)
+    : cameras_(fit_to_heads(config, sheet, inputs)),
+      renderer_(inputs.faces.topology,
+                RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
+                surfaces_of(config, inputs), &inputs.faces.heads.front().positions),
+      textures_(inputs.textures) {}
+
+void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
+  make_directories(directory.renders());
+  if (gallery_ != nullptr) make_directories(directory.gallery_face("").parent_path());
+}
+
+WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
+                                    Index target, const Positions& positions) const {
+  // As every mesh file holds them, so that pictures made from those are the same.
+  const Positions single =
+      positions.unaryExpr([](double value) -> double { return to_single(value); });
+  const auto put = [](const std::filesystem::path& path, const std::string& bytes) {
+    write_file(path, bytes);
+    return FileDigest{bytes.size(), hash_bytes(bytes)};
+  };
+  WrittenPictures written{put(directory.render(id), render_png(single, target)), std::nullopt};
+  if (gallery_ != nullptr) {
+    written.preview = put(directory.gallery_face(id), gallery_->face_script(id, single));
+  }
+  return written;
+}
+
+Rgb8Image CrowdRenders::render_front(const Positions& positions,
+                                     const VertexColours* colours) const {
+  return renderer_.render(positions, cameras_.front(), colours);
+}
+
+std::string CrowdRenders::render_png(const Positions& positions, const VertexColours* colours,
+                                     const TextureCoat* coat) const {
+  std::vector<Rgb8Image> views;
+  for (const Camera& camera : cameras_) {
+    views.push_back(renderer_.render(positions, camera, colours, coat));
+  }
+  return to_png(side_by_side(views));
+}
+
+std::string CrowdRenders::render_png(const Positions& positions, Index target) const {
+  const bool textured = !textures_.coats.empty();
+  return render_png(positions, nullptr,
+                    textured ? &textures_.coats[static_cast<std::size_t>(target)] : nullptr);
+}
+
+std::string CrowdRenders::render_png(const Positions& positions,
+                                     const VertexColours& colours) const {
+  return render_png(positions, &colours, nullptr);
+}
+
+Rgb8Image read_render(const std::filesystem::path& path) {
+  const Image image = read_image(path, {.ours = true});
+  Rgb8Image result(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const float value = image.at(x, y, std::min(c, image.channels - 1));
+        result.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(value * 255.0F));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/config/config.h"
+#include "crowdface/core/file.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/pictures/gallery.h"
+#include "crowdface/render/camera.h"
+#include "crowdface/render/face_renderer.h"
+
+namespace crowdface {
+
+/// What was written of one face.
+struct WrittenPictures {
+  FileDigest picture;
+  std::optional<FileDigest> preview;  ///< if there is a gallery
+};
+
+/// Pictures of one crowd: one camera a view, fitted once to the input heads, so that sizes compare.
+class CrowdRenders {
+ public:
+  /// \param inputs  must outlive this object.
+  CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs);
+
+  /// From now on `write` leaves a face's mesh for the gallery, too. Must outlive this object.
+  void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
+
+  /// The folders that `write` needs.
+  void make_folders(const CrowdDirectory& directory) const;
+  /// Writes a face's picture, and what the gallery shows of it.
+  WrittenPictures write(const CrowdDirectory& directory, const std::string& id, Index target,
+                        const Positions& positions) const;
+
+  /// All views of a face side by side, as a PNG file's bytes.
+  /// \param target  the head whose texture it bears, if there are textures.
+  std::string render_png(const Positions& positions, Index target) const;
+  /// The same in colours of the vertices.
+  std::string render_png(const Positions& positions, const VertexColours& colours) const;
+  /// The first of the views alone.
+  Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
+
+ private:
+  std::string render_png(const Positions& positions, const VertexColours* colours,
+                         const TextureCoat* coat) const;
+
+  std::vector<Camera> cameras_;
+  FaceRenderer renderer_;
+  const HeadTextures& textures_;
+  const GalleryMeshes* gallery_ = nullptr;
+};
+
+/// A picture written earlier, read back. \throws MissingInput, InvalidInput.
+Rgb8Image read_render(const std::filesystem::path& path);
+
+}  // namespace crowdface

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/gallery.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/version.h"
+#include "crowdface/crowd/face_json.h"
+#include "crowdface/pictures/surfaces.h"
+#include "crowdface/render/eyeballs.h"
+#include "crowdface/render/vertex_colours.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// 24,000 triangles have some 12,000 vertices of ten bytes each: as text 160 kB a face.
+constexpr std::size_t kMostTriangles = 24'000;
+
+constexpr std::array<std::string_view, 4> kPageFiles = {"index.html", "gallery.js", "gallery.css",
+                                                        "three.LICENSE.txt"};
+
+std::vector<const Positions*> positions_of(const FaceSet& faces) {
+  std::vector<const Positions*> heads;
+  for (const Head& head : faces.heads) heads.push_back(&head.positions);
+  return heads;
+}
+
+Json axis_to_json(Axis axis) {
+  Json json = {0, 0, 0};
+  json[static_cast<std::size_t>(axis.index)] = axis.sign;
+  return json;
+}
+
+Json to_json(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// A call with one JSON value, which is JavaScript too.
+std::string call(const char* function, const Json& value) {
+  return concat("crowdface.", function, "(", value.dump(), ");\n");
+}
+
+Json crowd_to_json(const Config& config, const std::vector<CastFace>& crowd, const Digest& settings,
+                   const CrowdLikeness& likeness) {
+  const PlanNames names = config.plan_names();
+  Json json;
+  json["name"] = config.crowd.name;
+  json["seed"] = config.crowd.seed;
+  json["version"] = kVersion;
+  json["regions"] = config.regions.names;
+  json["pictures"] = config.output.contact_sheet.has_value();
+  json["heads"] = Json::array();
+  for (std::size_t h = 0; h < names.heads.size(); ++h) {
+    json["heads"].push_back({{"name", names.heads[h]},
+                             {"tags", config.faces.tags[h]},
+                             {"anchor", {likeness.anchors[h].x(), likeness.anchors[h].y()}}});
+  }
+  json["faces"] = Json::array();
+  for (const CastFace& face : crowd) {
+    json["faces"].push_back(face_to_json(face, names, settings));
+  }
+  std::vector<std::size_t> rank(crowd.size());
+  for (std::size_t i = 0; i < likeness.likeness.order.size(); ++i) {
+    rank[likeness.likeness.order[i]] = i;
+  }
+  json["likeness"] = rank;
+  json["near"] = Json::array();
+  for (const std::vector<Neighbour>& near : likeness.likeness.near) {
+    Json others = Json::array();
+    for (const Neighbour& other : near) others.push_back({other.face, other.mm});
+    json["near"].push_back(others);
+  }
+  return json;
+}
+
+/// What the page paints irises by, finer than the reduced mesh's vertices could.
+void add_eyes(const Config& config, const Inputs& inputs, const ReducedMesh& mesh, Json& json) {
+  const auto eyes = eye_coordinates(inputs.faces.topology, surfaces_of(config, inputs),
+                                    mean_head(inputs.faces), config.faces.front);
+  if (!eyes) return;
+  constexpr float kSteps = 65536;  // to a radius
+  std::vector<std::uint32_t> values;
+  for (const std::uint32_t vertex : mesh.vertices) {
+    for (int c = 0; c < 3; ++c) {
+      const float value = std::clamp((*eyes)(vertex, c), -3.9F, 3.9F);
+      values.push_back(static_cast<std::uint32_t>(std::lround(kSteps * (value + 4))));
+    }
+  }
+  const auto colour = [](SurfaceKind kind) {
+    const Light light = albedo_of(kind);
+    return Json{light[0], light[1], light[2]};
+  };
+  json["eyes"] = {{"places", base64(little_endian(values))},
+                  {"steps", kSteps},
+                  {"pupil", kPupilRadius},
+                  {"iris", kIrisRadius},
+                  {"softness", kIrisSoftness},
+                  {"white", colour(SurfaceKind::kEye)},
+                  {"colour", colour(SurfaceKind::kIris)}};
+}
+
+/// Scripts of faces that the crowd no longer has.
+void remove_others(const fs::path& folder, const std::set<std::string>& names) {
+  std::error_code ignored;
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path& path = entry.path();
+    if (path.extension() == ".js" && !names.contains(path.stem().string())) old.push_back(path);
+  }
+  for (const fs::path& path : old) fs::remove(path, ignored);
+}
+
+}  // namespace
+
+std::optional<fs::path> find_gallery_page() {
+  std::error_code error;
+  fs::path folder;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
+  if (const char* chosen = std::getenv("CROWDFACE_GALLERY"); chosen != nullptr && *chosen != 0) {
+    folder = chosen;
+  } else {
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (error) return std::nullopt;
+    folder = program.parent_path().parent_path() / "share/crowdface/gallery";
+  }
+  for (const std::string_view file : kPageFiles) {
+    if (!fs::exists(folder / file, error)) return std::nullopt;
+  }
+  return folder;
+}
+
+bool has_gallery(const Config& config) {
+  return config.output.contact_sheet && config.output.gallery == Gallery::kAuto &&
+         find_gallery_page();
+}
+
+bool is_page_file(const fs::path& path) {
+  return std::find(kPageFiles.begin(), kPageFiles.end(), path.filename().string()) !=
+         kPageFiles.end();
+}
+
+Digest gallery_page_digest(const Config& config) {
+  Hasher hasher;
+  if (has_gallery(config)) {
+    const fs::path page = *find_gallery_page();
+    for (const std::string_view file : kPageFiles) hasher.add(hash_file(page / file).digest);
+  }
+  return hasher.digest();
+}
+
+GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
+    : config_(config), inputs_(inputs) {
+  const FaceSet& faces = inputs.faces;
+  std::vector<bool> drawn;
+  for (const SurfaceKind kind : surfaces_of(config, inputs).kinds) {
+    drawn.push_back(kind != SurfaceKind::kHidden);
+  }
+  mesh_ = reduce_mesh(faces.topology, mean_head(faces), drawn, kMostTriangles);
+  fans_ = reduced_fans(faces.topology, mesh_);
+  const std::vector<const Positions*> heads = positions_of(faces);
+  frame_ = PackingFrame::around(heads);
+  low_ = heads.front()->colwise().minCoeff().transpose();
+  high_ = heads.front()->colwise().maxCoeff().transpose();
+  for (const Positions* head : heads) {
+    low_ = low_.cwiseMin(head->colwise().minCoeff().transpose());
+    high_ = high_.cwiseMax(head->colwise().maxCoeff().transpose());
+  }
+}
+
+std::string GalleryMeshes::shared_script() const {
+  const VertexColours colours =
+      surface_colours(inputs_.faces.topology, surfaces_of(config_, inputs_),
+                      mean_head(inputs_.faces), config_.faces.front);
+  std::string shades;
+  for (const std::uint32_t vertex : mesh_.vertices) {
+    for (int c = 0; c < 3; ++c) {
+      shades += static_cast<char>(std::lround(255 * colours(vertex, c)));
+    }
+  }
+  Json json;
+  json["vertices"] = mesh_.vertices.size();
+  json["up"] = axis_to_json(config_.faces.up);
+  json["front"] = axis_to_json(config_.faces.front);
+  json["low"] = to_json(frame_.low);
+  json["step"] = frame_.step;
+  json["box"] = {to_json(low_), to_json(high_)};
+  json["triangles"] = base64(little_endian(mesh_.triangles));
+  json["colours"] = base64(shades);
+  add_eyes(config_, inputs_, mesh_, json);
+  return call("setMesh", json);
+}
+
+std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions) const {
+  const std::string bytes = pack_face(inputs_.faces.topology, mesh_, fans_, frame_, positions);
+  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), "\");\n");
+}
+
+void write_gallery(const CrowdDirectory& directory, const Config& config, const fs::path& page,
+                   const GalleryMeshes& meshes, const std::vector<CastFace>& crowd,
+                   const Digest& settings, const CrowdLikeness& likeness) {
+  make_directories(directory.gallery_head("").parent_path());
+  std::set<std::string> ids;
+  for (const CastFace& face : crowd) ids.insert(face.id);
+  remove_others(directory.gallery_face("").parent_path(), ids);
+  for (const Head& head : meshes.heads()) {
+    // A face may bear a head's name.
+    write_file(directory.gallery_head(head.name),
+               meshes.face_script(concat("head ", head.name), head.positions));
+  }
+  write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
+  write_file(directory.gallery() / "data/crowd.js",
+             call("setCrowd", crowd_to_json(config, crowd, settings, likeness)));
+  for (const std::string_view file : kPageFiles) {
+    write_file(directory.gallery() / file, read_file(page / file));
+  }
+}
+
+}  // namespace crowdface

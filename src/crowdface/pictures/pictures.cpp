@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/pictures.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/face_mesh.h"
+
+namespace crowdface {
+namespace {
+
+/// The page, if this crowd is to have one; says what is missing.
+std::optional<std::filesystem::path> page_for(const Config& config) {
+  if (config.output.gallery == Gallery::kNone) return std::nullopt;
+  auto page = find_gallery_page();
+  if (!page) {
+    log_info(
+        "no gallery: its page was not built (scripts/build_gallery.sh builds it; it needs npm)");
+  }
+  return page;
+}
+
+}  // namespace
+
+CrowdPictures::CrowdPictures(const Config& config, const Config::ContactSheet& sheet,
+                             const Inputs& inputs, const Digest& settings,
+                             const CrowdDirectory& directory)
+    : config_(config),
+      sheet_(sheet),
+      inputs_(inputs),
+      settings_(settings),
+      directory_(directory),
+      renders_(config, sheet, inputs),
+      page_(page_for(config)) {
+  if (!page_) return;
+  gallery_ = std::make_unique<GalleryMeshes>(config, inputs);
+  renders_.add_gallery(*gallery_);
+}
+
+void CrowdPictures::write_heads() const {
+  make_directories(directory_.head_render("").parent_path());
+  const std::vector<Head>& heads = inputs_.faces.heads;
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    throw_if_interrupted();
+    write_file(directory_.head_render(heads[h].name),
+               renders_.render_png(heads[h].positions, static_cast<Index>(h)));
+  }
+}
+
+void CrowdPictures::write_founder(const std::string& family, const Positions& positions,
+                                  Index target) const {
+  const std::filesystem::path path = directory_.founder_render(family);
+  make_directories(path.parent_path());
+  write_file(path, renders_.render_png(positions, target));
+}
+
+void CrowdPictures::write_faces(const std::vector<CastFace>& crowd) const {
+  renders_.make_folders(directory_);
+  Progress progress("pictures", crowd.size());
+  parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
+    throw_if_interrupted();
+    const CastFace& face = crowd[static_cast<std::size_t>(i)];
+    renders_.write(
+        directory_, face.id, face.recipe.target,
+        read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count));
+    progress.step();
+  });
+}
+
+std::size_t CrowdPictures::finish(const std::vector<CastFace>& crowd,
+                                  const CrowdLikeness& likeness) const {
+  std::vector<std::string> ids;
+  for (const CastFace& face : crowd) ids.push_back(face.id);
+  write_file(directory_.likeness(), format_likeness(likeness, config_.plan_names(), ids));
+  if (page_) {
+    write_gallery(directory_, config_, *page_, *gallery_, crowd, settings_, likeness);
+    log_info(concat("gallery: ", (directory_.gallery() / "index.html").string()));
+  }
+  return write_sheets(config_, sheet_, inputs_, directory_, renders_, crowd, likeness.likeness);
+}
+
+std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory) {
+  std::vector<std::filesystem::path> files = {directory.likeness()};
+  const auto add = [&](const std::filesystem::path& folder, const auto& is_ours) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      if (entry.is_regular_file() && is_ours(entry.path())) files.push_back(entry.path());
+    }
+  };
+  const auto ends_in = [](const char* ending) {
+    return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
+  };
+  add(directory.sheets(), is_sheet_file);
+  add(directory.head_render("").parent_path(), ends_in(".png"));
+  add(directory.founder_render("").parent_path(), ends_in(".png"));
+  add(directory.gallery(), is_page_file);
+  add(directory.gallery() / "data", ends_in(".js"));
+  add(directory.gallery_head("").parent_path(), ends_in(".js"));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/sheet_pages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <system_error>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/pdf_pages.h"
+#include "crowdface/render/shading.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kIndexWidth = 480, kIndexHeight = 960;  // pixels of one page in the index, at most
+constexpr std::size_t kPagesAVolume = 64;
+
+std::string to_png(const Rgb8Image& image) {
+  return encode_png(image.width, image.height, 3, image.pixels);
+}
+
+/// In linear light, as that format wants it.
+std::string to_exr(const Rgb8Image& image) {
+  std::array<float, 256> linear{};
+  for (std::size_t value = 0; value < linear.size(); ++value) {
+    linear[value] = from_srgb(Eigen::Array3f::Constant(static_cast<float>(value) / 255))[0];
+  }
+  std::vector<float> pixels(image.pixels.size());
+  std::transform(image.pixels.begin(), image.pixels.end(), pixels.begin(),
+                 [&](std::uint8_t value) { return linear[value]; });
+  return encode_exr(image.width, image.height, pixels);
+}
+
+}  // namespace
+
+SheetPages::SheetPages(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
+                       std::string title)
+    : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {}
+
+bool SheetPages::has(SheetFormat format) const {
+  return std::find(formats_.begin(), formats_.end(), format) != formats_.end();
+}
+
+void SheetPages::write(const std::string& name, const std::string& bytes) {
+  write_file(folder_ / name, bytes);
+  written_.push_back(name);
+}
+
+void SheetPages::add(const std::string& stem, const std::string& caption, const Rgb8Image& page) {
+  if (index_.size() == kPagesAVolume) finish_volume(false);
+  std::string png = to_png(page);
+  write(stem + ".png", png);
+  if (has(SheetFormat::kExr)) write(stem + ".exr", to_exr(page));
+  if (has(SheetFormat::kPdf)) pngs_.push_back(std::move(png));
+  const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
+  index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
+                    concat(stem, "\n", caption)});
+}
+
+void SheetPages::write_index(const std::string& number) {
+  int width = 0, height = 0;
+  for (const SheetCell& cell : index_) {
+    width = std::max(width, cell.image.width);
+    height = std::max(height, cell.image.height);
+  }
+  for (SheetCell& cell : index_) cell.image = padded(cell.image, width, height);
+  const auto columns = static_cast<int>(
+      std::clamp(std::ceil(std::sqrt(static_cast<double>(index_.size()))), 1.0, 8.0));
+  const std::size_t before = volumes_ * kPagesAVolume;
+  const std::string note = number.empty()
+                               ? concat(index_.size(), " sheets")
+                               : concat("sheets ", before + 1, " to ", before + index_.size());
+  const Rgb8Image page = contact_sheet(
+      index_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
+  const std::string png = to_png(page);
+  write(concat("index", number, ".png"), png);
+  if (has(SheetFormat::kPdf)) pngs_.insert(pngs_.begin(), png);
+}
+
+void SheetPages::finish_volume(bool is_last) {
+  const bool is_only = is_last && volumes_ == 0;
+  const std::string number = is_only ? std::string() : concat('_', zero_padded(volumes_ + 1, 3));
+  if (!is_only || index_.size() > 1) write_index(number);
+  if (!pngs_.empty()) write(concat("sheets", number, ".pdf"), encode_pdf(pngs_));
+  index_.clear();
+  pngs_.clear();
+  ++volumes_;
+}
+
+void SheetPages::finish() {
+  finish_volume(true);
+  std::error_code ignored;
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (is_sheet_file(entry.path()) &&
+        std::find(written_.begin(), written_.end(), name) == written_.end()) {
+      old.push_back(entry.path());
+    }
+  }
+  for (const std::filesystem::path& path : old) std::filesystem::remove(path, ignored);
+}
+
+}  // namespace crowdface

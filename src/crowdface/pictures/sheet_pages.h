@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crowdface/config/config.h"
+#include "crowdface/render/contact_sheet.h"
+
+namespace crowdface {
+
+/// Writes pages of contact sheets into one folder, in the formats asked for. Every 64 pages have an
+/// index and, if asked for, a PDF of their own, so that memory does not grow with the crowd.
+class SheetPages {
+ public:
+  /// \param folder  must be there; pages of an earlier run that are not written again are removed by
+  ///                `finish`. \param title  of each index.
+  SheetPages(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
+             std::string title);
+
+  /// \param stem     the file's name without ending. \param caption  under its picture in the index.
+  void add(const std::string& stem, const std::string& caption, const Rgb8Image& page);
+  /// Writes the index, if there are several pages, and the PDF.
+  void finish();
+
+ private:
+  bool has(SheetFormat format) const;
+  void write(const std::string& name, const std::string& bytes);
+  void write_index(const std::string& number);
+  void finish_volume(bool is_last);
+
+  std::filesystem::path folder_;
+  std::vector<SheetFormat> formats_;
+  std::string title_;
+  std::size_t volumes_ = 0;        ///< finished
+  std::vector<std::string> pngs_;  ///< of this volume's pages, if there is to be a PDF
+  std::vector<SheetCell> index_;   ///< of this volume
+  std::vector<std::string> written_;
+};
+
+}  // namespace crowdface

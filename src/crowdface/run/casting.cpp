@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/casting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/feasibility.h"
+#include "crowdface/cast/sample_cells.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/run/mesh_judge.h"
+
+namespace crowdface {
+namespace {
+
+std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& head_distances) {
+  const auto heads = static_cast<Index>(config.faces.names.size());
+  std::vector<PlanePoint> anchors(static_cast<std::size_t>(heads), PlanePoint::Zero());
+  switch (config.plane.layout) {
+    case Layout::kCircle:
+      anchors = circle_layout(heads);
+      break;
+    case Layout::kGrid:
+      anchors = grid_layout(heads);
+      break;
+    case Layout::kSimilarity:
+      anchors = similarity_layout(head_distances);
+      break;
+    case Layout::kManual:
+      break;  // every head has an anchor of its own below
+  }
+  for (const auto& [head, anchor] : config.plane.anchors) {
+    anchors[static_cast<std::size_t>(head)] = anchor;
+  }
+  return anchors;
+}
+
+/// Distances below the diagonal.
+std::vector<double> below_diagonal(const Eigen::MatrixXd& distances) {
+  std::vector<double> values;
+  for (Index a = 0; a < distances.rows(); ++a) {
+    for (Index b = 0; b < a; ++b) values.push_back(distances(a, b));
+  }
+  return values;
+}
+
+CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_distances,
+                       const CrowdCast& cast) {
+  CrowdDistances distances;
+  distances.heads = quartiles(below_diagonal(head_distances));
+  distances.crowd = quartiles(pair_distances(cast.places));
+  if (distances.heads.median > 0) {
+    distances.ratio = distances.crowd.median / distances.heads.median;
+  }
+  const Index regions = space.sampled().alpha.cols();
+  for (Index k = 0; regions > 1 && k < regions; ++k) {
+    distances.regions.push_back(quartiles(pair_distances(space, k, cast.places)));
+  }
+  std::vector<double> to_head, to_face;
+  for (const CastFace& face : cast.crowd) {
+    to_head.push_back(face.notes.nearest->head_mm);
+    if (face.notes.nearest->crowd) to_face.push_back(face.notes.nearest->crowd_mm);
+  }
+  distances.to_nearest_head = quartiles(std::move(to_head));
+  distances.to_nearest_face = quartiles(std::move(to_face));
+  return distances;
+}
+
+std::vector<FamilyReport> report_families(const CrowdCast& cast) {
+  std::vector<FamilyReport> reports;
+  PlaceIndex index(cast.places.empty() ? 1 : cast.places[0].as_built.size());
+  for (const FaceSpace::Place& place : cast.places) index.add(place);
+  for (std::size_t f = 0; f < cast.families.size(); ++f) {
+    const FamilyCast& family = cast.families[f];
+    FamilyReport report;
+    report.name = family.name;
+    report.members = static_cast<std::uint64_t>(family.end - family.begin);
+    const std::vector<FaceSpace::Place> members(cast.places.begin() + family.begin,
+                                                cast.places.begin() + family.end);
+    report.within = quartiles(pair_distances(members));
+    std::vector<double> to_founder;
+    double nearest = HUGE_VAL;
+    for (const FaceSpace::Place& member : members) {
+      to_founder.push_back(FaceSpace::distance(member, family.founder_place));
+      nearest = std::min(nearest, index.nearest(member, nearest, 0, family.begin).mm);
+      nearest = std::min(nearest, index.nearest(member, nearest, family.end, index.size()).mm);
+    }
+    report.to_founder = quartiles(std::move(to_founder));
+    report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
+    report.silhouette = silhouette(cast.families, f, cast.places);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+std::string asked_of(const Config& config, Reason reason) {
+  const DiversityOptions& diversity = config.diversity;
+  switch (reason) {
+    case Reason::kMinDistance:
+      return concat("diversity.min_distance, ", diversity.min_distance_mm, " mm");
+    case Reason::kMinDistanceToFaces:
+      return concat("diversity.min_distance_to_faces, ", diversity.min_distance_to_faces_mm, " mm");
+    case Reason::kMaxWeight:
+      return concat("diversity.max_weight, ", diversity.max_weight);
+    case Reason::kImplausible:
+      return concat("believability.max_deviation, ", config.believability.max_deviation);
+    case Reason::kFamily:
+      return "what keeps families together";
+    case Reason::kStretched:
+    case Reason::kFlipped:
+    case Reason::kIntersecting:
+      break;
+  }
+  return concat("believability.", name_of(reason));
+}
+
+/// What a user can change, most promising first.
+std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
+  std::vector<std::string> advice;
+  if (remedy.largest_mm) {
+    advice.push_back(concat("the largest ", name_of(remedy.binding), " with which all ",
+                            config.crowd.count, " were cast in a trial: ", *remedy.largest_mm,
+                            " mm"));
+  }
+  if (remedy.binding == Reason::kMinDistance) {
+    if (config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
+      advice.emplace_back("mode: spread fits more faces at the same distance");
+    } else {
+      advice.emplace_back("a larger pool");
+    }
+    advice.emplace_back("more heads, or regions blended apart");
+    advice.emplace_back("a wider range of smoothness, or a smaller pull");
+  } else if (remedy.binding == Reason::kMinDistanceToFaces ||
+             remedy.binding == Reason::kMaxWeight) {
+    advice.emplace_back("a larger pull or distribution: uniform, which mix more heads into a face");
+    advice.emplace_back("another range of smoothness");
+  } else if (remedy.binding == Reason::kFamily) {
+    advice.emplace_back(
+        "another max_distance or min_distance of the family, fewer members or families");
+    advice.emplace_back("more heads, so that families have more room between them");
+    if (std::any_of(config.families.begin(), config.families.end(), [](const auto& family) {
+          return family.age.low != 0 || family.age.high != 0;
+        })) {
+      advice.emplace_back("a smaller range of age");
+    }
+  } else {
+    advice.emplace_back("extrapolation nearer to 1");
+    advice.emplace_back("a larger limit under believability");
+  }
+  return advice;
+}
+
+[[noreturn]] void tell_shortfall(const Job& job, const Remedy& remedy, const Shortfall& shortfall) {
+  const Config& config = job.config;
+  const std::uint64_t thrown = shortfall.rejections.total();
+  const std::uint64_t by_main =
+      shortfall.rejections.count[static_cast<std::size_t>(remedy.binding)];
+  std::string message = concat(config.file.string(), ": ");
+  if (!shortfall.family.empty()) {
+    message += concat("the family ", shortfall.family, " cannot be cast: its members cannot be ",
+                      "within max_distance of a founder, min_distance apart and nearer to each ",
+                      "other than to everyone else (most candidates failed by ",
+                      asked_of(config, remedy.binding), ")");
+  } else if (!shortfall.reviewed.empty()) {
+    message += concat(shortfall.reviewed, ", which the review rejects, cannot be drawn anew: ",
+                      asked_of(config, remedy.binding), ", cannot be kept");
+  } else {
+    message += concat(
+        config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding),
+        ", cannot be kept; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
+  }
+  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty()) {
+    message += concat(" (for the next one ", by_main, " of ", thrown,
+                      " candidates were thrown away for that)");
+  }
+  if (shortfall.quota >= 0) {
+    message += concat("; the next one counts for the quota ",
+                      config.diversity.quotas[static_cast<std::size_t>(shortfall.quota)].name);
+  }
+  for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
+  throw Unsatisfiable(message);
+}
+
+}  // namespace
+
+CastingGround casting_ground(const Job& job, const Prepared& prepared) {
+  const Inputs& inputs = job.inputs;
+  const Config& config = job.config;
+  const Positions mean = mean_head(inputs.faces);
+  const std::vector<double> areas =
+      face_areas(inputs.faces.topology, inputs.skin, mean, config.distance.area, config.faces.front,
+                 inputs.distance_mask);
+  const SampleCells cells = find_sample_cells(inputs.adjacency, mean, prepared.samples);
+  FaceSpace space(sample_heads(inputs.faces, inputs.regions, prepared.samples,
+                               prepared.trajectories, inputs.max_level, mm_per(config.faces.units)),
+                  sample_weights(cells, prepared.samples, areas));
+  ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
+                 space.sampled().heads);
+  return {std::move(space), std::move(skin)};
+}
+
+Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances) {
+  const Config& config = job.config;
+  return {config.crowd.name, config.crowd.count, config.crowd.seed, lay_out(config, head_distances),
+          job.names.regions, config.sampling,    config.recipes,    config.blending.normalization,
+          level_scale(job),  config.diversity,   config.families,   config.review.reviews};
+}
+
+Cast cast(const Job& job, const Prepared& prepared) {
+  const CastingGround ground = casting_ground(job, prepared);
+  const FaceSpace& space = ground.space;
+  const Eigen::MatrixXd head_distances = space.head_distances();
+  const Casting casting = casting_of(job, head_distances);
+  const BelievabilityOptions& believability = job.config.believability;
+  const FaceJudge judge(space, casting.diversity, believability, &ground.skin,
+                        mesh_defects(job, prepared));
+  CrowdCast crowd;
+  {
+    Progress progress("casting", casting.count);
+    crowd = cast_crowd(casting, judge, [&] { progress.step(); });
+  }
+  if (crowd.shortfall) {
+    tell_shortfall(job, find_remedy(casting, space, believability, &ground.skin, *crowd.shortfall),
+                   *crowd.shortfall);
+  }
+  Cast result;
+  result.distances = measure(space, head_distances, crowd);
+  result.families = report_families(crowd);
+  result.anchors = casting.anchors;
+  result.crowd = std::move(crowd.crowd);
+  for (FamilyCast& family : crowd.families) {
+    result.founders.push_back({family.name, std::move(family.founder)});
+  }
+  result.places = std::move(crowd.places);
+  result.quotas = std::move(crowd.quotas);
+  result.rejections = crowd.rejections;
+  return result;
+}
+
+}  // namespace crowdface

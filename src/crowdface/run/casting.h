@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/cast/cast_crowd.h"
+#include "crowdface/cast/crowd_statistics.h"
+#include "crowdface/run/pipeline.h"
+
+namespace crowdface {
+
+/// Where this job's faces are compared and judged.
+struct CastingGround {
+  FaceSpace space;
+  ProxySkin skin;
+};
+CastingGround casting_ground(const Job& job, const Prepared& prepared);
+
+/// What casting is to do, from the config.
+Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances);
+
+/// The distances of a crowd beside those of its heads.
+struct CrowdDistances {
+  Quartiles heads;                 ///< between input heads
+  Quartiles crowd;                 ///< between faces of the crowd
+  std::vector<Quartiles> regions;  ///< the same over each region, if there are several
+  Quartiles to_nearest_head, to_nearest_face;
+  double ratio = 0;  ///< of the medians, crowd to heads; 0 if there are none to compare
+};
+
+/// How alike a family is.
+struct FamilyReport {
+  std::string name;
+  std::uint64_t members = 0;
+  Quartiles within;             ///< between members
+  Quartiles to_founder;         ///< of each member
+  double nearest_other_mm = 0;  ///< from any member to anyone else; 0 if there is nobody
+  double silhouette = 0;
+};
+
+/// The hidden head of a family, who is not in the crowd.
+struct FamilyFounder {
+  std::string family;
+  CastFace face;
+};
+
+/// A crowd cast: where the heads stand on the plane, and its faces.
+struct Cast {
+  std::vector<PlanePoint> anchors;  ///< #heads
+  std::vector<CastFace> crowd;      ///< with their nearest neighbours
+  std::vector<int> quotas;          ///< of each sampled face, or −1
+  Rejections rejections;
+  CrowdDistances distances;
+  std::vector<FamilyReport> families;
+  std::vector<FamilyFounder> founders;
+  std::vector<FaceSpace::Place> places;  ///< of each face of the crowd
+};
+
+/// Casts the crowd. \throws Unsatisfiable if the constraints cannot be met: which one binds, how far
+/// it went, and what would help.
+Cast cast(const Job& job, const Prepared& prepared);
+
+}  // namespace crowdface

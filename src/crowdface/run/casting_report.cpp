@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/casting_report.h"
+
+#include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Quartiles& q) {
+  if (q.count == 0) return nullptr;
+  return {{"pairs", q.count},
+          {"min", rounded(q.min)},
+          {"quarter", rounded(q.lower)},
+          {"median", rounded(q.median)},
+          {"three_quarters", rounded(q.upper)},
+          {"max", rounded(q.max)}};
+}
+
+/// Distances of single faces to their nearest: the same without "pairs".
+Json nearest_to_json(const Quartiles& q) {
+  Json json = to_json(q);
+  if (json.is_object()) json.erase("pairs");
+  return json;
+}
+
+Json distances_to_json(const Job& job, const CrowdDistances& distances) {
+  Json json;
+  json["between_heads_mm"] = to_json(distances.heads);
+  json["between_faces_mm"] = to_json(distances.crowd);
+  json["median_ratio"] = distances.ratio > 0 ? Json(rounded(distances.ratio)) : Json();
+  for (std::size_t k = 0; k < distances.regions.size(); ++k) {
+    json["between_faces_by_region_mm"][job.names.regions[k]] = to_json(distances.regions[k]);
+  }
+  json["to_nearest_head_mm"] = nearest_to_json(distances.to_nearest_head);
+  json["to_nearest_earlier_face_mm"] = nearest_to_json(distances.to_nearest_face);
+  return json;
+}
+
+Json asked_to_json(const DiversityOptions& diversity) {
+  const bool spread = diversity.mode == DiversityOptions::Mode::kSpread;
+  return {{"mode", spread ? "spread" : "first_fit"},
+          {"min_distance_mm", diversity.min_distance_mm},
+          {"min_distance_to_faces_mm", diversity.min_distance_to_faces_mm},
+          {"max_weight", diversity.max_weight}};
+}
+
+Json quotas_to_json(const Job& job, const Cast& cast) {
+  Json json = Json::object();
+  const auto& quotas = job.config.diversity.quotas;
+  for (std::size_t q = 0; q < quotas.size(); ++q) {
+    std::uint64_t faces = 0;
+    for (const int quota : cast.quotas) faces += quota == static_cast<int>(q) ? 1U : 0U;
+    json[quotas[q].name] = {{"share", quotas[q].share}, {"faces", faces}};
+  }
+  return json;
+}
+
+Json rejections_to_json(const Rejections& rejections) {
+  Json json = Json::object();
+  for (std::size_t r = 0; r < kReasonCount; ++r) {
+    json[std::string(name_of(static_cast<Reason>(r)))] = rejections.count[r];
+  }
+  return json;
+}
+
+Json families_to_json(const Cast& cast) {
+  Json json = Json::array();
+  for (const FamilyReport& family : cast.families) {
+    json.push_back({{"name", family.name},
+                    {"members", family.members},
+                    {"within_mm", to_json(family.within)},
+                    {"to_founder_mm", nearest_to_json(family.to_founder)},
+                    {"nearest_other_mm", rounded(family.nearest_other_mm)},
+                    {"silhouette", rounded(family.silhouette)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string format_founders(const Job& job, const std::vector<FamilyFounder>& founders) {
+  std::vector<CastFace> faces;
+  for (const FamilyFounder& founder : founders) {
+    CastFace face = founder.face;
+    face.id = concat(founder.family, "_founder");
+    face.family = founder.family;
+    face.index.reset();
+    faces.push_back(std::move(face));
+  }
+  return format_plan(job, faces);
+}
+
+Json casting_to_json(const Job& job, const Cast& cast) {
+  Json json;
+  json["asked"] = asked_to_json(job.config.diversity);
+  json["faces"] = cast.crowd.size();
+  json["distances"] = distances_to_json(job, cast.distances);
+  json["quotas"] = quotas_to_json(job, cast);
+  json["families"] = families_to_json(cast);
+  json["thrown_away"] = rejections_to_json(cast.rejections);
+  return json;
+}
+
+std::string format_casting(const Job& job, const Cast& cast) {
+  return casting_to_json(job, cast).dump(2) + "\n";
+}
+
+}  // namespace crowdface

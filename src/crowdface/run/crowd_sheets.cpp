@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/crowd_sheets.h"
+
+#include "crowdface/config/config_writer.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/result_versions.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_lock.h"
+#include "crowdface/crowd/likeness_file.h"
+#include "crowdface/run/casting_report.h"
+#include "crowdface/run/face_builder.h"
+#include "crowdface/run/face_ledger.h"
+#include "crowdface/run/resume.h"
+
+namespace crowdface {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kItem = "sheets";  // in the ledger
+
+std::vector<std::string> sheet_files(const CrowdDirectory& directory) {
+  std::vector<std::string> names;
+  for (const fs::path& path : picture_files(directory)) names.push_back(directory.relative(path));
+  return names;
+}
+
+/// None if the heads or the settings are no longer those that the founders were cast from.
+std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& directory) {
+  std::vector<FamilyFounder> founders;
+  if (!fs::exists(directory.founders())) return founders;
+  for (PlanLine& line : read_plan(directory.founders(), job.names)) {
+    if (line.settings != job.settings.hex()) {
+      log_info("founders of families stay as they were: heads or settings have changed since");
+      return {};
+    }
+    founders.push_back({line.face.family.value_or(line.face.id), std::move(line.face)});
+  }
+  return founders;
+}
+
+void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilder& builder,
+                    const CrowdPictures& pictures) {
+  std::vector<Positions> built(1);
+  for (const FamilyFounder& founder : founders) {
+    throw_if_interrupted();
+    const Recipe* recipe = &founder.face.recipe;
+    builder.build({&recipe, 1}, built);
+    pictures.write_founder(founder.family, built[0], recipe->target);
+  }
+}
+
+/// The hash of all that sheets and gallery show.
+Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+                     const std::vector<FaceFiles>& files) {
+  Hasher hasher;
+  hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
+  hasher.add(effective_config(job.config, directory.root)).add(gallery_page_digest(job.config));
+  // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
+  hasher.add(format_plan(job, cast.crowd)).add(format_founders(job, cast.founders));
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
+    ids.push_back(cast.crowd[i].id);
+    hasher.add(files[i].picture->digest);
+    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
+  }
+  hasher.add(format_likeness(crowd_likeness(cast.anchors, cast.places), job.names, ids));
+  return hasher.digest();
+}
+
+}  // namespace
+
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
+                        const Cast& cast, const std::vector<FaceFiles>& files,
+                        LazyPictures& pictures, Ledger& ledger) {
+  const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
+  const std::vector<CastFace>& crowd = cast.crowd;
+  const Digest key = key_of_sheets(job, directory, cast, files);
+  // What faces are compared with may have changed since.
+  const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
+  if (!may_change && ledger.proven(kItem, key)) return sheet_pages(sheet, crowd.size());
+  pictures.get().write_heads();
+  if (!cast.founders.empty()) {
+    write_founders(cast.founders, FaceBuilder(job, prepared), pictures.get());
+  }
+  const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast.anchors, cast.places));
+  ledger.record(kItem, key, sheet_files(directory));
+  return pages;
+}
+
+void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set,
+                   const fs::path& cache) {
+  const CrowdDirectory directory{crowd_directory};
+  std::error_code ignored;
+  if (!fs::exists(directory.config(), ignored)) {
+    throw MissingInput(
+        concat(directory.config().string(), ": not there; expected a crowd's folder"));
+  }
+  const CrowdLock lock(directory, {});  // another run may be about to replace what is read here
+  ConfigOverrides overrides;
+  overrides.set = set;
+  const Job job = load_job(directory.config(), overrides);
+  if (!job.config.output.contact_sheet) {
+    throw UsageError(concat(directory.config().string(),
+                            ": this crowd has no contact sheet; ask for one with --set "
+                            "output.contact_sheet='{columns: 6}'"));
+  }
+  check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
+  std::vector<CastFace> crowd;
+  std::vector<std::string> ids;
+  for (PlanLine& line : read_plan(directory.plan(), job.names)) {
+    ids.push_back(line.face.id);
+    crowd.push_back(std::move(line.face));
+  }
+  const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
+  const CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs,
+                               job.settings, directory);
+  pictures.write_heads();
+  pictures.write_faces(crowd);
+  const std::vector<FamilyFounder> founders = read_founders(job, directory);
+  if (!founders.empty()) {
+    const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+    write_founders(founders, FaceBuilder(job, prepared), pictures);
+  }
+  const std::size_t pages = pictures.finish(crowd, likeness);
+  Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
+  ledger.adopt(kItem, sheet_files(directory), {"renders", "gallery"});
+  log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/config/config_writer.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/run/casting.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::uint64_t kSmallestPool = 5000;
+constexpr std::uint64_t kLargestPool = 20000;
+
+std::vector<std::uint64_t> counts_up_to(std::uint64_t asked) {
+  std::vector<std::uint64_t> counts = {10, 20, 50, 100, 200, 500, 1000, 2000};
+  if (asked >= 2) counts.push_back(asked);
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  return counts;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+}
+
+std::string format_csv(const std::vector<EstimateRow>& rows) {
+  std::string csv = "faces,spread_mm,first_fit_mm\r\n";
+  for (const EstimateRow& row : rows) {
+    csv += concat(row.faces, ',', format_fixed(row.spread_mm, 3), ',',
+                  format_fixed(row.first_fit_mm, 3), "\r\n");
+  }
+  return csv;
+}
+
+/// From faces and millimetres to the picture's pixels.
+class Frame {
+ public:
+  Frame(const std::vector<EstimateRow>& rows, std::uint64_t asked_count, double asked_mm) {
+    double most = 1, high = asked_mm;
+    for (const EstimateRow& row : rows) {
+      most = std::max(most, static_cast<double>(row.faces));
+      high = std::max({high, row.spread_mm, row.first_fit_mm});
+    }
+    most = std::max(most, static_cast<double>(asked_count));
+    decades_ = std::max(1.0, std::ceil(std::log10(most) - 1));
+    high_mm_ = std::max(1.0, std::ceil(high));
+  }
+  double x(double faces) const {
+    return kLeft + kWidth * std::clamp((std::log10(std::max(faces, 1.0)) - 1) / decades_, 0.0, 1.0);
+  }
+  double y(double mm) const { return kTop + kHeight * (1 - mm / high_mm_); }
+  int decades() const { return static_cast<int>(decades_); }
+  int high_mm() const { return static_cast<int>(high_mm_); }
+
+  static constexpr double kLeft = 60, kTop = 40, kWidth = 560, kHeight = 320;
+
+ private:
+  double decades_, high_mm_;
+};
+
+std::string px(double value) {
+  return format_fixed(value, 1);
+}
+
+std::string text_at(double x, double y, const char* anchor, const std::string& text) {
+  return concat("<text x=\"", px(x), "\" y=\"", px(y), "\" text-anchor=\"", anchor, "\">", text,
+                "</text>\n");
+}
+
+std::string line_of(const Frame& frame, const std::vector<EstimateRow>& rows,
+                    double EstimateRow::*mm, const char* colour) {
+  std::string points;
+  for (const EstimateRow& row : rows) {
+    points += concat(px(frame.x(static_cast<double>(row.faces))), ',', px(frame.y(row.*mm)), ' ');
+  }
+  return concat("<polyline fill=\"none\" stroke=\"", colour, "\" stroke-width=\"2\" points=\"",
+                points, "\"/>\n");
+}
+
+}  // namespace
+
+std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
+                            double asked_mm) {
+  std::string table = "   faces   spread, mm   first fit, mm\n";
+  for (const EstimateRow& row : rows) {
+    table += concat(padded(concat(row.faces), 8), padded(format_fixed(row.spread_mm, 2), 13),
+                    padded(format_fixed(row.first_fit_mm, 2), 16),
+                    row.faces == asked_count ? "   <- asked for" : "", '\n');
+  }
+  if (asked_mm > 0) table += concat("asked for: min_distance ", asked_mm, " mm\n");
+  return table;
+}
+
+std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
+                          double asked_mm) {
+  const Frame frame(rows, asked_count, asked_mm);
+  const double bottom = Frame::kTop + Frame::kHeight, right = Frame::kLeft + Frame::kWidth;
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"420\" "
+      "font-family=\"sans-serif\" font-size=\"13\">\n"
+      "<rect width=\"660\" height=\"420\" fill=\"white\"/>\n";
+  const int step = std::max(1, frame.high_mm() / 8);
+  for (int mm = 0; mm <= frame.high_mm(); mm += step) {
+    svg += concat("<line x1=\"", px(Frame::kLeft), "\" x2=\"", px(right), "\" y1=\"",
+                  px(frame.y(mm)), "\" y2=\"", px(frame.y(mm)), "\" stroke=\"#ddd\"/>\n");
+    svg += text_at(Frame::kLeft - 8, frame.y(mm) + 4, "end", concat(mm));
+  }
+  std::uint64_t faces = 10;
+  for (int decade = 0; decade <= frame.decades(); ++decade, faces *= 10) {
+    const double x = frame.x(static_cast<double>(faces));
+    svg += concat("<line x1=\"", px(x), "\" x2=\"", px(x), "\" y1=\"", px(Frame::kTop), "\" y2=\"",
+                  px(bottom), "\" stroke=\"#ddd\"/>\n");
+    svg += text_at(x, bottom + 18, "middle", concat(faces));
+  }
+  svg += line_of(frame, rows, &EstimateRow::spread_mm, "#1f6fb4");
+  svg += line_of(frame, rows, &EstimateRow::first_fit_mm, "#d0632a");
+  if (asked_mm > 0 && asked_count > 0) {
+    const double x = frame.x(static_cast<double>(asked_count)), y = frame.y(asked_mm);
+    svg += concat("<path d=\"M", px(x - 6), ' ', px(y - 6), 'L', px(x + 6), ' ', px(y + 6), 'M',
+                  px(x - 6), ' ', px(y + 6), 'L', px(x + 6), ' ', px(y - 6),
+                  "\" stroke=\"black\" stroke-width=\"2\"/>\n");
+  }
+  svg += text_at(Frame::kLeft + Frame::kWidth / 2, bottom + 42, "middle", "faces");
+  svg += text_at(Frame::kLeft, 24, "start",
+                 "closest pair, mm: <tspan fill=\"#1f6fb4\">spread</tspan>, "
+                 "<tspan fill=\"#d0632a\">first fit</tspan>");
+  return svg + "</svg>\n";
+}
+
+std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
+                     const std::filesystem::path& cache) {
+  const Job job = load_job(config_file, overrides);
+  const CrowdDirectory directory{job.config.output.directory};
+  // Beside whatever crowd is there: two files of its own.
+  check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
+  const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+  const CastingGround ground = casting_ground(job, prepared);
+  const Casting casting = casting_of(job, ground.space.head_distances());
+  const FaceJudge judge(ground.space, casting.diversity, job.config.believability, &ground.skin);
+  const std::uint64_t asked = job.config.crowd.count;
+  const auto rows = estimate_capacity(casting, judge, counts_up_to(asked),
+                                      std::clamp(5 * asked, kSmallestPool, kLargestPool));
+  const double asked_mm = job.config.diversity.min_distance_mm;
+  const std::filesystem::path& folder = directory.root;
+  make_directories(folder);
+  write_file(folder / "estimate.csv", format_csv(rows));
+  write_file(folder / "estimate.svg", plot_estimate(rows, asked, asked_mm));
+  log_info(concat("plot: ", (folder / "estimate.svg").string()));
+  return format_estimate(rows, asked, asked_mm);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "crowdface/blend/crowd_blender.h"
+#include "crowdface/parts/follower.h"
+#include "crowdface/run/pipeline.h"
+
+namespace crowdface {
+
+/// Builds the meshes of recipes with the levels the config asks for; several at once cost less than
+/// one by one and have the same bytes.
+class FaceBuilder {
+ public:
+  /// Both must outlive the builder.
+  FaceBuilder(const Job& job, const Prepared& prepared);
+  FaceBuilder(const FaceBuilder&) = delete;
+  FaceBuilder& operator=(const FaceBuilder&) = delete;
+
+  /// \param results  one for each recipe, #V by 3 in file units; their memory is used again.
+  void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
+
+  /// Memory that building `faces` at once takes, their positions included.
+  std::uint64_t bytes(std::size_t faces) const;
+
+ private:
+  const Job& job_;
+  const Prepared& prepared_;
+  /// The masks, without those vertices of parts that get other positions anyway.
+  RegionWeights regions_;
+  std::optional<CrowdBlender> blender_;   ///< of fitted levels
+  std::optional<PartFollower> follower_;  ///< if there are parts beside the skin
+};
+
+}  // namespace crowdface

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/face_ledger.h"
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/result_versions.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What determines a face's files beside its recipe and `settings`: formats, frame, pictures.
+Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras) {
+  Hasher hasher;
+  hasher.add(kFaceFilesVersion).add(job.settings);
+  hasher.add(config.output.meshes.size());
+  for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
+  hasher.add(static_cast<int>(config.faces.units));
+  for (const Axis& axis : {config.faces.up, config.faces.front}) {
+    hasher.add(axis.index).add(axis.sign);
+  }
+  hasher.add(extras.skin).add(extras.picture).add(extras.preview);
+  if (extras.picture) {
+    const Config::ContactSheet& sheet = *config.output.contact_sheet;
+    hasher.add(sheet.cell).add(sheet.views.size());
+    for (const View view : sheet.views) hasher.add(static_cast<int>(view));
+    hasher.add(job.inputs.textures.digest);
+    for (const auto& [material, surface] : config.output.surfaces) {
+      hasher.add(material).add(static_cast<int>(surface.kind)).add(surface.colour.has_value());
+      for (const std::uint8_t value : surface.colour.value_or(std::array<std::uint8_t, 3>{})) {
+        hasher.add(static_cast<int>(value));
+      }
+    }
+  }
+  return hasher.digest();
+}
+
+std::string item_of(const CastFace& face) {
+  return concat("faces/", face.id);
+}
+
+Json to_json(const SkinDefects& skin) {
+  return {{"compared", skin.local.compared},
+          {"flipped", skin.local.flipped},
+          {"stretch", skin.local.stretch},
+          {"intersecting", skin.intersecting}};
+}
+
+/// The line's checksum was right, so it is what `to_json` made; a line of another program's version
+/// throws.
+SkinDefects skin_of(const std::string& note) {
+  const Json json = Json::parse(note);
+  SkinDefects skin;
+  skin.local.compared = json.at("compared").get<Index>();
+  skin.local.flipped = json.at("flipped").get<Index>();
+  skin.local.stretch = json.at("stretch").get<double>();
+  skin.intersecting = json.at("intersecting").get<Index>();
+  return skin;
+}
+
+}  // namespace
+
+FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
+                       FaceExtras extras)
+    : ledger_(ledger),
+      job_(job),
+      directory_(directory),
+      extras_(extras),
+      output_(digest_of_output(job.config, job, extras)) {}
+
+Digest FaceLedger::key_of(const CastFace& face) const {
+  CastFace shape = face;
+  shape.notes = {};  // no file depends on how it was found
+  return Hasher().add(output_).add(format_recipe(shape, job_.names, job_.settings)).digest();
+}
+
+std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
+  const auto entry = ledger_.proven(item_of(face), key_of(face));
+  if (!entry) return std::nullopt;
+  const std::vector<MeshFormat>& formats = job_.config.output.meshes;
+  const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);
+  if (entry->files.size() != formats.size() + pictures) return std::nullopt;
+  FaceFiles files;
+  for (std::size_t f = 0; f < formats.size(); ++f) {
+    files.meshes.push_back(
+        {formats[f], entry->files[f].content.digest, entry->files[f].content.bytes});
+  }
+  if (extras_.picture) files.picture = entry->files[formats.size()].content;
+  if (extras_.preview) files.preview = entry->files.back().content;
+  try {
+    if (extras_.skin) files.skin = skin_of(entry->note);
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+  return files;
+}
+
+void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
+  LedgerEntry entry{item_of(face), key_of(face), {}, {}};
+  for (const MeshFile& mesh : files.meshes) {
+    entry.files.push_back(
+        {directory_.relative(directory_.mesh(face.id, mesh.format)), {mesh.bytes, mesh.digest}});
+  }
+  if (files.picture) {
+    entry.files.push_back({directory_.relative(directory_.render(face.id)), *files.picture});
+  }
+  if (files.preview) {
+    entry.files.push_back({directory_.relative(directory_.gallery_face(face.id)), *files.preview});
+  }
+  if (files.skin) entry.note = to_json(*files.skin).dump();
+  ledger_.record(std::move(entry));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/crowd/ledger.h"
+#include "crowdface/run/face_files.h"
+#include "crowdface/run/pipeline.h"
+
+namespace crowdface {
+
+/// What belongs to a face beside its meshes.
+struct FaceExtras {
+  bool picture = false;  ///< its render
+  bool preview = false;  ///< its mesh in the gallery
+  bool skin = false;     ///< its mesh is judged
+};
+
+/// The faces of a crowd in its ledger. A face is one item: its meshes, its picture and what was
+/// found about its skin, so that a run that goes on writes the same sheets and the same report.
+class FaceLedger {
+ public:
+  /// All must outlive this object.
+  FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory, FaceExtras extras);
+
+  /// A face's files if all of them are there as an earlier run wrote them.
+  std::optional<FaceFiles> done(const CastFace& face) const;
+  void record(const CastFace& face, const FaceFiles& files) const;
+
+ private:
+  Digest key_of(const CastFace& face) const;
+
+  Ledger& ledger_;
+  const Job& job_;
+  const CrowdDirectory& directory_;
+  FaceExtras extras_;
+  Digest output_;  ///< of what the config says about files and pictures
+};
+
+}  // namespace crowdface

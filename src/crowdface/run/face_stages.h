@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/pictures/crowd_renders.h"
+#include "crowdface/run/face_builder.h"
+#include "crowdface/run/face_ledger.h"
+#include "crowdface/run/mesh_judge.h"
+#include "crowdface/run/mesh_writers.h"
+#include "crowdface/run/report.h"
+#include "crowdface/validity/skin_check.h"
+
+namespace crowdface {
+
+/// The crowd's files as they were written, and what they took.
+struct BuiltFaces {
+  std::vector<FaceFiles> files;  ///< #faces
+  StageBusy busy;
+};
+
+/// What is known before heads are prepared and faces cast: a job that cannot fit need not begin.
+/// \throws UsageError if inputs and pictures alone take more than `memory` bytes.
+void refuse_too_little_memory(const Job& job, std::uint64_t memory);
+
+/// Makes faces: blends them, judges them, writes and renders them.
+class FaceStages {
+ public:
+  /// \param crowd   recipes of all faces that may be made.
+  /// \param memory  bytes that the whole process may take; sets how many faces are blended together.
+  /// \throws UsageError if one face at a time does not fit.
+  FaceStages(const Job& job, const Prepared& prepared, const std::vector<CastFace>& crowd,
+             std::uint64_t memory);
+
+  /// Each face is recorded when all its files are there. While one group of faces is written and
+  /// rendered the next is blended: two groups at most are in memory.
+  /// \param renders  may be null: no pictures.
+  BuiltFaces build(const CrowdDirectory& directory, const CrowdRenders* renders,
+                   const FaceLedger& ledger, const std::vector<CastFace>& faces) const;
+
+ private:
+  bool writes_meshes_;
+  MeshWriters writers_;
+  FaceBuilder builder_;
+  std::unique_ptr<SkinCheck> check_;  ///< null: no mesh is judged
+  std::size_t at_once_;
+};
+
+}  // namespace crowdface

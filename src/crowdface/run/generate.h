@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "crowdface/config/config_reader.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/crowd/shard.h"
+#include "crowdface/heads/head_cache.h"
+
+namespace crowdface {
+
+struct GenerateOptions {
+  std::filesystem::path cache;         ///< folder of prepared heads
+  Replace replace = Replace::kRefuse;  ///< what to do about another config's crowd in the folder
+  bool dry_run = false;                ///< say what would be written, and write nothing
+  /// Bytes the process may take, which sets how many faces are in flight; 0: three quarters of what
+  /// the machine, or its control group, has.
+  std::uint64_t memory = 0;
+  Shard shard = {};  ///< only these faces, and neither sheets nor report: `gather` makes those
+};
+
+/// The whole job: read, prepare, cast, blend, write, render, report. Nothing is written before all
+/// inputs are checked. What the folder's ledger proves to be done is not done again: a run that was
+/// stopped goes on, and a finished crowd is repaired. \throws Error.
+void generate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
+              const GenerateOptions& options);
+
+/// Checks the faces that shards have made, and makes what one run over the whole crowd would have
+/// left beside them: sheets, report, one ledger.
+/// \param cache  folder of prepared heads.
+/// \throws MissingInput if faces are missing or altered, naming them.
+void gather(const std::filesystem::path& crowd_directory, const std::filesystem::path& cache);
+
+/// Casting only: writes config.yaml, plan.jsonl and crowd.csv into the crowd's folder.
+void plan(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
+          const GenerateOptions& options);
+
+}  // namespace crowdface

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "crowdface/cast/cast_face.h"
+#include "crowdface/config/config.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/io/encoded_file.h"
+#include "crowdface/io/glb_template.h"
+#include "crowdface/io/mesh_format.h"
+#include "crowdface/io/obj_template.h"
+#include "crowdface/io/ply_template.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/run/face_files.h"
+
+namespace crowdface {
+
+/// A face in one format, ready to be written.
+struct EncodedMesh {
+  MeshFormat format = MeshFormat::kObj;
+  EncodedFile file;
+};
+
+/// Writes the faces of a crowd in the formats asked for. What the faces share is prepared once;
+/// encoding and writing then need no more than positions, and may be done by different threads.
+class MeshWriters {
+ public:
+  /// \param inputs  must outlive this object and all that it encodes.
+  /// \param crowd   the recipes of all faces that are to be written.
+  /// \throws InvalidInput if a format cannot hold such a mesh.
+  MeshWriters(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
+              std::span<const CastFace> crowd);
+
+  /// The face in each of the formats, in their order; refers to this object.
+  /// \throws InvalidInput if positions are not finite.
+  std::vector<EncodedMesh> encode(const CastFace& face, const Positions& positions) const;
+
+  /// What this object itself takes, and what the encoding of one face takes at most.
+  std::size_t memory_bytes() const;
+  std::size_t encode_bytes() const;
+
+ private:
+  bool has(MeshFormat format) const;
+  bool needs_normals(Index target) const;
+  bool had_normals(Index target) const;
+
+  const Inputs& inputs_;
+  std::vector<MeshFormat> formats_;
+  std::map<Index, ObjTemplate> obj_;  ///< of each head that is a target
+  std::optional<PlyTemplate> ply_;
+  std::optional<GlbTemplate> glb_;
+  std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
+};
+
+/// Writes what stands once beside all faces: with `points`, the topology. \return the files.
+std::vector<std::filesystem::path> write_shared(const Inputs& inputs,
+                                                const std::vector<MeshFormat>& formats,
+                                                const CrowdDirectory& directory);
+
+/// Writes what `encode` made and tells what it was.
+MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path);
+
+/// About how many bytes one face takes in these formats.
+std::uint64_t estimate_mesh_bytes(const Inputs& inputs, const std::vector<MeshFormat>& formats);
+
+}  // namespace crowdface

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/output_check.h"
+
+#include <system_error>
+
+#include "crowdface/config/config_writer.h"
+#include "crowdface/config/input_files.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/shallow_json.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool lies_below(const fs::path& path, const fs::path& folder) {
+  std::error_code of_path, of_folder;
+  const fs::path way = fs::weakly_canonical(path, of_path)
+                           .lexically_relative(fs::weakly_canonical(folder, of_folder));
+  return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
+}
+
+/// \throws UsageError if an input lies where this run writes files and removes those of an old
+/// crowd.
+void refuse_to_write_over_inputs(const Job& job, const CrowdDirectory& directory) {
+  const auto& sheet = job.config.output.contact_sheet;
+  for (const fs::path& input : input_files(job.config)) {
+    if (sheet && input == sheet->compare.file) continue;  // may be one of this crowd's own
+    for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
+      if (!lies_below(input, folder)) continue;
+      throw UsageError(concat(directory.root.string(), ": the input ", input.string(),
+                              " lies where files of this crowd are written; choose another folder "
+                              "with --out"));
+    }
+  }
+}
+
+/// With `output.directory: .` beside a config.yaml of the user's, that would be replaced.
+void refuse_to_write_over_config(const Job& job, const CrowdDirectory& directory) {
+  std::error_code ignored;
+  if (!fs::equivalent(job.config.file, directory.config(), ignored)) return;
+  if (fs::exists(directory.plan(), ignored)) return;  // it is a crowd's own
+  if (read_file(job.config.file) == effective_config(job.config, directory.root)) return;
+  throw UsageError(concat(job.config.file.string(),
+                          ": stands where the crowd's own config would be written; choose another "
+                          "folder with --out, or rename it"));
+}
+
+}  // namespace
+
+void refuse_other_heads(const Job& job, const CrowdDirectory& directory, Replace replace) {
+  std::error_code ignored;
+  if (replace == Replace::kForce || !fs::exists(directory.plan(), ignored)) return;
+  const std::string plan = read_file(directory.plan());
+  // Of a plan that is damaged some line tells.
+  if (plan.find(job.settings.hex()) != plan.npos) return;
+  const auto first = parse_shallow_json(std::string_view(plan).substr(0, plan.find('\n')));
+  if (!first.is_object() || !first.contains("settings")) return;
+  throw UsageError(
+      concat(directory.root.string(),
+             ": holds a crowd of other heads or masks than they are now, or of another "
+             "version of crowdface (\"settings\" in its plan.jsonl); choose another "
+             "folder with --out, or replace it with --force (before shards: crowdface "
+             "plan --force)"));
+}
+
+void check_output(const Job& job, Replace replace) {
+  const CrowdDirectory directory{job.config.output.directory};
+  refuse_to_write_over_inputs(job, directory);
+  refuse_to_write_over_config(job, directory);
+  check_crowd_directory(directory, effective_config(job.config, directory.root), replace);
+  refuse_other_heads(job, directory, replace);
+}
+
+}  // namespace crowdface

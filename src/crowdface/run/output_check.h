@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/run/pipeline.h"
+
+namespace crowdface {
+
+/// Refuses a folder that the crowd cannot be written to, or where it would destroy what it reads or
+/// what could not be made again. \throws UsageError, CannotCreate.
+void check_output(const Job& job, Replace replace);
+
+/// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
+void refuse_other_heads(const Job& job, const CrowdDirectory& directory, Replace replace);
+
+}  // namespace crowdface

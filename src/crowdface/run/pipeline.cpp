@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/pipeline.h"
+
+#include "crowdface/config/input_files.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/load_inputs.h"
+#include "crowdface/heads/settings_digest.h"
+#include "crowdface/pictures/sheets.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+LevelScale level_scale(const Config& config, const Inputs& inputs) {
+  return {config.smoothing.operator_kind, inputs.max_level, inputs.edge_length_mm};
+}
+
+/// A smoothness must not ask for more than L_max, which is known only once the heads are read.
+void check_smoothness(const SmoothnessDistribution& distribution, const std::string& where,
+                      const Config& config, const Inputs& inputs, Problems& problems) {
+  const LevelScale scale = level_scale(config, inputs);
+  const double high = distribution.range.high;
+  std::string asked;
+  double level = 0;
+  if (distribution.unit == SmoothnessDistribution::Unit::kSize && high > 0) {
+    level = static_cast<double>(iterations_of_size(scale.kind, high, scale.edge_length_mm));
+    asked = concat("a size of ", high, " mm, which is ", level, " iterations");
+  } else if (distribution.unit == SmoothnessDistribution::Unit::kIterations) {
+    level = high;
+    asked = concat(high, " iterations");
+  }
+  if (level > static_cast<double>(inputs.max_level)) {
+    problems.add(ExitCode::kUsage,
+                 concat(config.file.string(), ": ", where, ": expected at most ", inputs.max_level,
+                        " iterations (smoothing.max_size or max_iterations), found ", asked));
+  }
+}
+
+void check_levels(const Config& config, const Inputs& inputs, Problems& problems) {
+  const auto names = config.region_names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    check_smoothness(config.sampling.regions[k].smoothness,
+                     concat("sampling.smoothness (", names[k], ')'), config, inputs, problems);
+  }
+  for (const HandRecipe& recipe : config.recipes) {
+    for (const HandRecipe::Region& region : recipe.regions) {
+      if (!region.smoothness) continue;
+      check_smoothness(*region.smoothness, concat("recipe ", recipe.id), config, inputs, problems);
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Job> load_job(const std::filesystem::path& config_file,
+                            const ConfigOverrides& overrides, Problems& problems) {
+  ConfigReading reading = read_config_parts(config_file, overrides, problems);
+  if (!reading.complete) {
+    check_inputs(reading, problems);
+    return std::nullopt;
+  }
+  Config& config = reading.config;
+  check_paths(config, problems);
+  std::optional<Inputs> inputs = load_inputs(config, problems);
+  if (!inputs) return std::nullopt;
+  check_levels(config, *inputs, problems);
+  check_compared_mesh(config, *inputs, problems);
+  if (!problems.empty()) return std::nullopt;
+  const SmoothingOperator smoothing(inputs->adjacency, config.smoothing.boundary,
+                                    config.smoothing.operator_kind);
+  const PlanNames names = config.plan_names();
+  const Digest settings = settings_digest(config, *inputs);
+  return Job{std::move(config), std::move(*inputs), smoothing, names, settings};
+}
+
+Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides) {
+  Problems problems;
+  std::optional<Job> job = load_job(config_file, overrides, problems);
+  problems.throw_if_any();
+  return std::move(*job);
+}
+
+LevelScale level_scale(const Job& job) {
+  return level_scale(job.config, job.inputs);
+}
+
+std::string format_plan(const Job& job, const std::vector<CastFace>& crowd) {
+  std::string plan;
+  for (const CastFace& face : crowd) {
+    plan += format_recipe(face, job.names, job.settings);
+    plan += '\n';
+  }
+  return plan;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/config/config.h"
+#include "crowdface/config/config_reader.h"
+#include "crowdface/crowd/plan_file.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/heads/prepare.h"
+
+namespace crowdface {
+
+/// A config with everything it names, read and checked.
+struct Job {
+  Config config;
+  Inputs inputs;
+  SmoothingOperator smoothing;
+  PlanNames names;
+  Digest settings;  ///< see settings_digest
+};
+
+/// Reads config, heads and masks. Every problem is added.
+/// \return nothing if there is any problem.
+std::optional<Job> load_job(const std::filesystem::path& config_file,
+                            const ConfigOverrides& overrides, Problems& problems);
+/// \throws Error with all problems.
+Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides);
+
+/// What turns a smoothness into iterations on these heads.
+LevelScale level_scale(const Job& job);
+
+/// The plan as it stands in plan.jsonl.
+std::string format_plan(const Job& job, const std::vector<CastFace>& crowd);
+
+}  // namespace crowdface

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/memory.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+#include "crowdface/core/version.h"
+#include "crowdface/run/casting_report.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Smallest, median and largest; null where there is nothing.
+Json distribution(const Quartiles& values) {
+  if (values.count == 0) return nullptr;
+  return {{"min", rounded(values.min)},
+          {"median", rounded(values.median)},
+          {"max", rounded(values.max)}};
+}
+
+Json heads_to_json(const Job& job, const Cast& cast) {
+  Json heads = Json::array();
+  for (std::size_t h = 0; h < job.names.heads.size(); ++h) {
+    heads.push_back({{"name", job.names.heads[h]},
+                     {"file", job.config.faces.files[h].filename().string()},
+                     {"positions", job.inputs.head_digests[h].hex()},
+                     {"anchor", {cast.anchors[h].x(), cast.anchors[h].y()}}});
+  }
+  return heads;
+}
+
+Json topology_to_json(const Inputs& inputs) {
+  const auto& boundary = inputs.adjacency.boundary;
+  return {{"vertices", inputs.faces.topology.vertex_count},
+          {"faces", inputs.faces.topology.face_count()},
+          {"components", inputs.components.count()},
+          {"boundary_vertices", std::count(boundary.begin(), boundary.end(), true)},
+          {"digest", inputs.topology_digest.hex()}};
+}
+
+/// How good the fitted levels of each head are, measured when they were fitted.
+Json levels_to_json(const Job& job, const Prepared& prepared) {
+  const double mm = mm_per(job.config.faces.units);
+  const auto fine = [](double value) { return std::round(value * 1e7) / 1e7; };
+  Json heads = Json::array();
+  for (std::size_t h = 0; h < prepared.levels.size(); ++h) {
+    const StoredLevels& levels = prepared.levels[h];
+    heads.push_back({{"name", job.names.heads[h]},
+                     {"rank", levels.rank},
+                     {"error_max_mm", fine(levels.error.max * mm)},
+                     {"error_rms_mm", fine(levels.error.rms * mm)},
+                     {"error_max_at_iterations", levels.error.level}});
+  }
+  return {{"tolerance_mm", job.config.smoothing.tolerance_mm}, {"heads", std::move(heads)}};
+}
+
+Json smoothing_to_json(const Job& job, const Prepared& prepared) {
+  const Inputs& inputs = job.inputs;
+  Json smoothing = {
+      {"max_iterations", inputs.max_level},
+      {"max_size_mm",
+       rounded(size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm))},
+      {"edge_length_mm", inputs.edge_length_mm}};
+  if (job.config.smoothing.levels == Levels::kBasis) {
+    smoothing["basis"] = levels_to_json(job, prepared);
+  }
+  return smoothing;
+}
+
+Json distances_to_json(const CrowdDistances& distances) {
+  return {{"between_heads_mm", distribution(distances.heads)},
+          {"to_nearest_head_mm", distribution(distances.to_nearest_head)},
+          {"to_nearest_earlier_face_mm", distribution(distances.to_nearest_face)}};
+}
+
+/// "mesh" was there before there were other formats.
+std::string report_key(MeshFormat format) {
+  return format == MeshFormat::kObj ? "mesh" : std::string(name_of(format));
+}
+
+Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
+  Json faces = Json::array();
+  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
+    Json face = {{"id", cast.crowd[i].id}};
+    for (const MeshFile& mesh : files[i].meshes) face[report_key(mesh.format)] = mesh.digest.hex();
+    if (files[i].skin) {
+      const SkinDefects& skin = *files[i].skin;
+      face["skin"] = {{"triangles", skin.local.compared},
+                      {"flipped", skin.local.flipped},
+                      {"stretch", rounded(skin.local.stretch)},
+                      {"intersecting", skin.intersecting}};
+    }
+    faces.push_back(std::move(face));
+  }
+  return faces;
+}
+
+}  // namespace
+
+std::string format_report(const Job& job, const Prepared& prepared, const Cast& cast,
+                          const std::vector<FaceFiles>& files, std::size_t sheets,
+                          const std::vector<std::string>& warnings) {
+  Json report;
+  report["crowdface"] = kVersion;
+  report["crowd"] = job.config.crowd.name;
+  report["asked"] = {{"count", job.config.crowd.count},
+                     {"recipes", job.config.recipes.size()},
+                     {"families", job.config.families.size()},
+                     {"seed", job.config.crowd.seed}};
+  report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
+  report["settings"] = job.settings.hex();
+  report["topology"] = topology_to_json(job.inputs);
+  report["smoothing"] = smoothing_to_json(job, prepared);
+  report["heads"] = heads_to_json(job, cast);
+  report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
+                     {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
+  report["distances"] = distances_to_json(cast.distances);
+  report["casting"] = casting_to_json(job, cast);
+  report["warnings"] = warnings;
+  report["faces"] = faces_to_json(cast, files);
+  // Warnings may name files whose names are not UTF-8.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
+                           std::size_t heads_from_cache) {
+  Json timings;
+  timings["crowdface"] = kVersion;
+  timings["threads"] = thread_count();
+  timings["hardware_threads"] = std::thread::hardware_concurrency();
+  timings["faces"] = faces;
+  timings["heads_from_cache"] = heads_from_cache;
+  double total = 0;
+  for (const auto& [stage, seconds] : stages) {
+    timings["seconds"][stage] = rounded(seconds);
+    total += seconds;
+  }
+  timings["seconds"]["total"] = rounded(total);
+  const std::pair<const char*, double> parts[] = {{"blend", busy.blend},
+                                                  {"encode", busy.encode},
+                                                  {"write", busy.write},
+                                                  {"render", busy.render},
+                                                  {"check", busy.check}};
+  const auto* slowest = std::max_element(std::begin(parts), std::end(parts),
+                                         [](auto& a, auto& b) { return a.second < b.second; });
+  for (const auto& [part, seconds] : parts) timings["busy_seconds"][part] = rounded(seconds);
+  timings["slowest"] = slowest->first;
+  timings["peak_memory_bytes"] = peak_memory();
+  return timings.dump(2) + "\n";
+}
+
+}  // namespace crowdface

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crowdface/run/casting.h"
+#include "crowdface/run/face_files.h"
+#include "crowdface/run/pipeline.h"
+
+namespace crowdface {
+
+/// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no
+/// time and no machine: the same inputs give the same bytes.
+std::string format_report(const Job& job, const Prepared& prepared, const Cast& cast,
+                          const std::vector<FaceFiles>& files, std::size_t sheets,
+                          const std::vector<std::string>& warnings);
+
+/// How long each stage took, in the order it ran.
+using StageSeconds = std::vector<std::pair<std::string, double>>;
+
+/// How long threads were busy with each stage of making faces, in seconds; together more than the
+/// time it took, as stages overlap and several threads work.
+struct StageBusy {
+  double blend = 0, encode = 0, write = 0, render = 0, check = 0;
+};
+
+/// timings.json: times and machine, which may differ from run to run.
+std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
+                           std::size_t heads_from_cache);
+
+}  // namespace crowdface

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/resume.h"
+
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "crowdface/core/append_file.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/run/mesh_writers.h"
+
+namespace crowdface {
+
+namespace fs = std::filesystem;
+
+void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan) {
+  std::error_code ignored;
+  if (fs::exists(directory.plan(), ignored) && read_file(directory.plan()) == plan) return;
+  fs::remove(directory.report(), ignored);
+}
+
+FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
+                           const Shard& shard) {
+  FacesSoFar so_far;
+  so_far.files.resize(crowd.size());
+  std::vector<char> missing(crowd.size(), 0);
+  parallel_for_each(static_cast<Index>(crowd.size()), [&](Index c) {
+    throw_if_interrupted();
+    const auto i = static_cast<std::size_t>(c);
+    if (!shard.owns(i)) return;
+    if (auto files = ledger.done(crowd[i])) {
+      so_far.files[i] = std::move(*files);
+    } else {
+      missing[i] = 1;
+    }
+  });
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    if (missing[i] != 0) so_far.todo.push_back(i);
+  }
+  return so_far;
+}
+
+void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
+                          const std::vector<std::size_t>& todo) {
+  if (todo.empty()) return;
+  constexpr std::size_t kNamed = 8;
+  std::vector<std::string> names;
+  for (const std::size_t i : todo) {
+    if (names.size() == kNamed) {
+      names.emplace_back("…");
+      break;
+    }
+    names.push_back(concat(crowd[i].id, " (number ", i + 1, " of the plan)"));
+  }
+  throw MissingInput(concat(directory.root.string(), ": ", todo.size(), " of ", crowd.size(),
+                            " faces are missing or altered: ", join(names),
+                            "; run their shards again, or generate without --shard"));
+}
+
+void write_shared_arrays(const Job& job, const CrowdDirectory& directory, Ledger& ledger) {
+  constexpr const char* kItem = "topology";
+  const TextureCoordinates& uvs = job.inputs.faces.uvs;
+  Hasher key;
+  key.add(job.inputs.topology_digest)
+      .add_array(std::span(job.inputs.faces.topology.corner_uvs))
+      .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
+  if (ledger.proven(kItem, key.digest())) return;
+  std::vector<std::string> names;
+  for (const fs::path& file : write_shared(job.inputs, job.config.output.meshes, directory)) {
+    names.push_back(directory.relative(file));
+  }
+  if (!names.empty()) ledger.record(kItem, key.digest(), names);
+}
+
+void gather_logs(const CrowdDirectory& directory) {
+  for (const fs::path& log : directory.shard_logs()) {
+    AppendFile(directory.log()).append(read_file(log));
+    std::error_code ignored;
+    fs::remove(log, ignored);
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run does so that it can go on where another stopped.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crowdface/run/face_ledger.h"
+
+namespace crowdface {
+
+/// A folder with a report is complete: another plan's report must not outlive the plan.
+void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan);
+
+/// The crowd's faces as far as they are done, and which are not.
+struct FacesSoFar {
+  std::vector<FaceFiles> files;   ///< #crowd; of a face that is missing: nothing
+  std::vector<std::size_t> todo;  ///< of this shard, ascending
+};
+
+/// Asks the ledger, in parallel: every file is read once. \throws Interrupted.
+FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
+                           const Shard& shard);
+
+/// \throws MissingInput if there are faces to do, naming the first few.
+void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
+                          const std::vector<std::size_t>& todo);
+
+/// Writes the arrays beside all faces, if a format needs them and they are not there.
+void write_shared_arrays(const Job& job, const CrowdDirectory& directory, Ledger& ledger);
+
+/// What the shards said becomes part of the crowd's log.
+void gather_logs(const CrowdDirectory& directory);
+
+}  // namespace crowdface

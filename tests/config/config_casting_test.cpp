@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sections that say how a crowd is cast, and reviews.
+#include <gmock/gmock.h>
+
+#include "crowdface/config/config_reader.h"
+
+#include "config/config_test_folder.h"
+
+namespace crowdface {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST_F(ConfigTest, CastingIsRead) {
+  const auto config =
+      read(kBands +
+           "diversity: {mode: spread, min_distance: 1.5 mm, min_distance_to_faces: "
+           "1 mm, max_weight: 0.7, quotas: {ann: 0.25}, candidates: 4, pool: 20, "
+           "max_attempts: 50}\n"
+           "distance: {area: skin}\n"
+           "believability: {max_deviation: 2, max_stretch: 4, max_flipped: 0.01, "
+           "max_intersecting: 0.02, meshes: none}\n"
+           "families:\n"
+           "  - {name: smith, members: 2, target: bob, max_distance: 2 mm}\n"
+           "  - {name: jones, members: 3, parents: {mother: ann, father: smith_02}, "
+           "max_distance: 2 mm, min_distance: 0.5 mm}\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->diversity.mode, DiversityOptions::Mode::kSpread);
+  EXPECT_EQ(config->diversity.min_distance_mm, 1.5);
+  EXPECT_EQ(config->diversity.min_distance_to_faces_mm, 1);
+  EXPECT_EQ(config->diversity.max_weight, 0.7);
+  ASSERT_EQ(config->diversity.quotas.size(), 1U);
+  EXPECT_THAT(config->diversity.quotas[0].heads, ElementsAre(0));
+  EXPECT_EQ(config->diversity.candidates, 4);
+  EXPECT_EQ(config->diversity.pool, 20);
+  EXPECT_EQ(config->diversity.max_attempts, 50);
+  EXPECT_EQ(config->distance.area, FaceArea::kSkin);
+  EXPECT_EQ(config->believability.max_stretch, 4);
+  EXPECT_EQ(config->believability.meshes, BelievabilityOptions::Meshes::kNone);
+  ASSERT_EQ(config->families.size(), 2U);
+  EXPECT_EQ(config->families[0].target, 1);
+  EXPECT_EQ(config->families[1].parents[0].head, 0);
+  EXPECT_EQ(config->families[1].parents[1].id, "smith_02");
+  EXPECT_EQ(config->families[1].min_distance_mm, 0.5);
+}
+
+TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
+  const auto refused = [&](const std::string& more, const std::string& phrase) {
+    problems_ = Problems();
+    EXPECT_FALSE(read(kPlain + more)) << more;
+    EXPECT_THAT(told(), HasSubstr(phrase)) << more;
+  };
+  refused("diversity: {min_distance: 2}\n", "expected a length with its unit");
+  refused("diversity: {mode: best}\n", "first_fit or spread");
+  refused("diversity: {max_weight: 0}\n", "above 0");
+  refused("diversity: {quotas: {eve: 0.5}}\n", "\"eve\"");
+  refused("diversity: {quotas: {ann: 0.7, bob: 0.4}}\n", "at most 1");
+  refused("diversity: {quotas: {ann: 0.2, bob: 0.2, cyd: 0.2}}\n", "for whom is the rest");
+  refused("sampling: {targets: [ann]}\ndiversity: {quotas: {bob: 0.5}}\n", "sampling.targets");
+  refused("families: [{name: smith, members: 0, max_distance: 2 mm}]\n", "from 1 to 1000");
+  refused("families: [{name: smith, members: 2}]\n", "max_distance: missing");
+  refused("families: [{name: 7, members: 2, max_distance: 2 mm}]\n", "needs a letter");
+  refused("families: [{name: a, members: 2, max_distance: 1 mm, min_distance: 3 mm}]\n",
+          "twice that apart");
+  refused(
+      "families: [{name: a, members: 2, max_distance: 1 mm, parents: {mother: a_01, father: "
+      "bob}}]\n",
+      "expected a head, a recipe's id or a member");
+  refused("families: [{name: a, members: 2, max_distance: 1 mm, inherit: {all: mother}}]\n",
+          "only a family with parents");
+  refused("sampling: {age: 0.5}\n", "no head is tagged old");
+  refused("believability: {max_flipped: 2}\n", "from 0 to 1");
+  refused("review: nowhere.yaml\n", "missing");
+  touch("review.yaml");
+  refused("review: review.yaml\n", "review.yaml:1:1");
+}
+
+TEST_F(ConfigTest, ReviewsAreReadAtTheirPlaces) {
+  const auto file = folder_ / "review.yaml";
+  std::ofstream(file) << "schema: 1\nfaces:\n  mob_0001: reject\n"
+                         "  mob_0002: {lock: [top], note: 'a: b'}\n  mob_0003: keep\n";
+  const auto config = read(kBands + "review: review.yaml\n");
+  ASSERT_TRUE(config) << told();
+  ASSERT_EQ(config->review.reviews.size(), 1U);
+  const Review& review = config->review.reviews[0];
+  ASSERT_EQ(review.size(), 3U);
+  EXPECT_EQ(review[0].verdict, ReviewMark::Verdict::kReject);
+  EXPECT_EQ(review[1].verdict, ReviewMark::Verdict::kReject);
+  EXPECT_THAT(review[1].locked, ElementsAre(0U));
+  EXPECT_EQ(review[1].note, "a: b");
+  EXPECT_EQ(review[2].verdict, ReviewMark::Verdict::kKeep);
+  std::ofstream(file) << "schema: 1\nfaces: {mob_0001: rejct, mob_0044: keep, mob_0002: {lock: "
+                         "[tpo]}}\n";
+  EXPECT_FALSE(read(kBands + "review: review.yaml\n"));
+  EXPECT_THAT(told(), HasSubstr("review.yaml:2:"));
+  EXPECT_THAT(told(), HasSubstr("did you mean \"reject\""));
+  EXPECT_THAT(told(), HasSubstr("no face of this crowd is called \"mob_0044\""));
+  EXPECT_THAT(told(), HasSubstr("no region is called \"tpo\""));
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/config_reader.h"
+
+#include <gmock/gmock.h>
+
+#include "config/config_test_folder.h"
+
+namespace crowdface {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ReadConfig : public ConfigTest {};
+
+TEST_F(ReadConfig, DefaultsAreThoseOfTheReference) {
+  const auto config = read(kPlain);
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->crowd.name, "mob");
+  EXPECT_EQ(config->crowd.count, 3u);
+  EXPECT_EQ(config->crowd.seed, 1u);
+  EXPECT_THAT(config->faces.names, ElementsAre("ann", "bob", "cyd"));
+  EXPECT_EQ(config->faces.files[1], folder_ / "heads/bob.obj");
+  EXPECT_EQ(config->faces.units, LengthUnit::kCentimetre);
+  EXPECT_EQ(config->faces.up, (Axis{1, 1}));
+  EXPECT_EQ(config->faces.front, (Axis{2, 1}));
+  EXPECT_EQ(config->faces.tags.size(), 3u);
+  EXPECT_THAT(config->region_names(), ElementsAre("all"));
+  EXPECT_EQ(config->smoothing.max_size_mm, 240);
+  EXPECT_FALSE(config->smoothing.max_iterations);
+  EXPECT_EQ(config->smoothing.levels, Levels::kBasis);
+  EXPECT_EQ(config->smoothing.tolerance_mm, 0.05);
+  EXPECT_EQ(config->plane.layout, Layout::kCircle);
+  ASSERT_EQ(config->sampling.regions.size(), 1u);
+  EXPECT_EQ(config->sampling.regions[0].smoothness.range, (Range{0.2, 0.9}));
+  EXPECT_EQ(config->sampling.regions[0].extrapolation, (Range{1, 1}));
+  EXPECT_EQ(config->sampling.targets.size(), 3u);
+  EXPECT_THAT(config->sampling.sources, ElementsAre(0, 1, 2));
+  EXPECT_FALSE(config->sampling.max_sources);
+  EXPECT_EQ(config->output.directory, folder_ / "out/mob");
+  EXPECT_THAT(config->output.meshes, ElementsAre(MeshFormat::kObj));
+  ASSERT_TRUE(config->output.contact_sheet);
+  EXPECT_EQ(config->output.contact_sheet->columns, 6);
+}
+
+TEST_F(ReadConfig, HeadsAreSortedAndHiddenFilesAndFoldersLeftOut) {
+  touch("heads/Zoe.OBJ");
+  touch("heads/._ann.obj");
+  touch("heads/notes.txt");
+  touch("heads/old.obj/readme");
+  const auto config = read(kPlain);
+  ASSERT_TRUE(config) << told();
+  EXPECT_THAT(config->faces.names, ElementsAre("Zoe", "ann", "bob", "cyd"));
+}
+
+TEST_F(ReadConfig, FilesKeepTheirOrder) {
+  const auto config = read(
+      "schema: 1\ncrowd: {name: a, count: 0}\n"
+      "faces: {files: [heads/cyd.obj, heads/ann.obj], units: in, up: -z, front: X}\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_THAT(config->faces.names, ElementsAre("cyd", "ann"));
+  EXPECT_EQ(config->faces.units, LengthUnit::kInch);
+  EXPECT_EQ(config->faces.up, (Axis{2, -1}));
+  EXPECT_EQ(config->faces.front, (Axis{0, 1}));
+}
+
+TEST_F(ReadConfig, RegionsTakeTheirOwnValuesOrTheDefault) {
+  const auto config =
+      read(kBands +
+           "sampling:\n"
+           "  position: {distribution: around, face: bob, radius: 0.5,\n"
+           "             low: {distribution: fixed, position: [0.5, -1]}}\n"
+           "  smoothness: {default: 0.5, top: [4 mm, 1.5cm], low: {iterations: [2, 9]}}\n"
+           "  extrapolation: [0.9, 1.2]\n"
+           "  max_sources: 2\n");
+  ASSERT_TRUE(config) << told();
+  const auto& regions = config->sampling.regions;
+  ASSERT_EQ(regions.size(), 3u);
+  EXPECT_EQ(regions[0].position.kind, PositionDistribution::Kind::kAround);
+  EXPECT_EQ(regions[1].position.head, 1);
+  EXPECT_EQ(regions[1].position.radius, 0.5);
+  EXPECT_EQ(regions[2].position.at, PlanePoint(0.5, -1));
+  EXPECT_EQ(regions[0].smoothness.unit, SmoothnessDistribution::Unit::kSize);
+  EXPECT_EQ(regions[0].smoothness.range, (Range{4, 15}));
+  EXPECT_EQ(regions[1].smoothness.range, (Range{0.5, 0.5}));
+  EXPECT_EQ(regions[2].smoothness.unit, SmoothnessDistribution::Unit::kIterations);
+  EXPECT_EQ(regions[2].smoothness.range, (Range{2, 9}));
+  EXPECT_EQ(regions[2].extrapolation, (Range{0.9, 1.2}));
+  EXPECT_EQ(config->sampling.max_sources, 2);
+}
+
+// The word `face` is a key of a position; a region may bear it, its values being mappings.
+TEST_F(ReadConfig, ARegionMayBeCalledFace) {
+  const auto config =
+      read(kPlain +
+           "regions: {names: [face, neck], mask: mask.png}\n"
+           "sampling:\n"
+           "  position: {distribution: around, radius: 1, face: {distribution: uniform}}\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->sampling.regions[0].position.kind, PositionDistribution::Kind::kUniform);
+  EXPECT_EQ(config->sampling.regions[1].position.kind, PositionDistribution::Kind::kAround);
+}
+
+TEST_F(ReadConfig, TargetsAndSourcesByNameTagAndWeight) {
+  const std::string faces =
+      "schema: 1\ncrowd: {name: a, count: 1}\n"
+      "faces: {directory: heads, units: m, tags: {ann: [old, thin], cyd: [old]}}\n";
+  auto config = read(faces + "sampling: {targets: [old], sources: [bob, thin]}\n");
+  ASSERT_TRUE(config) << told();
+  ASSERT_EQ(config->sampling.targets.size(), 2u);
+  EXPECT_EQ(config->sampling.targets[1].head, 2);
+  EXPECT_THAT(config->sampling.sources, ElementsAre(0, 1));
+  config = read(faces + "sampling: {targets: {old: 2, thin: 1, cyd: 0.5}}\n");
+  ASSERT_TRUE(config) << told();
+  ASSERT_EQ(config->sampling.targets.size(), 2u);
+  EXPECT_EQ(config->sampling.targets[0].weight, 3) << "tags add up";
+  EXPECT_EQ(config->sampling.targets[1].weight, 0.5) << "a head's own weight counts alone";
+}
+
+TEST_F(ReadConfig, RecipesByRegionAndForAll) {
+  const auto config =
+      read(kBands +
+           "recipes:\n"
+           "  - {id: aged, target: cyd, regions: {all: {weights: {bob: 1, ann: 0},\n"
+           "     smoothness: 8 mm}, low: {position: [0, 1], iterations: 5,\n"
+           "     extrapolation: [-1, 2]}}}\n"
+           "  - id: free\n");
+  ASSERT_TRUE(config) << told();
+  ASSERT_EQ(config->recipes.size(), 2u);
+  const HandRecipe& aged = config->recipes[0];
+  EXPECT_EQ(aged.target, 2);
+  ASSERT_EQ(aged.regions.size(), 3u);
+  ASSERT_EQ(aged.regions[1].weights.size(), 2u);
+  EXPECT_EQ(aged.regions[1].weights[1].head, 1);
+  EXPECT_EQ(aged.regions[1].smoothness->range.low, 8);
+  EXPECT_TRUE(aged.regions[2].weights.empty()) << "a region's own entry stands alone";
+  EXPECT_EQ(*aged.regions[2].position, PlanePoint(0, 1));
+  EXPECT_EQ(aged.regions[2].smoothness->unit, SmoothnessDistribution::Unit::kIterations);
+  EXPECT_EQ(*aged.regions[2].extrapolation, (Range{-1, 2}));
+  EXPECT_FALSE(config->recipes[1].target);
+  EXPECT_EQ(config->recipes[1].regions.size(), 3u);
+}
+
+TEST_F(ReadConfig, OutputAndPlane) {
+  const auto config =
+      read(kPlain +
+           "plane: {layout: manual, anchors: {cyd: [1, 0], ann: [-.5, 2e0], bob: [0, 0]}}\n"
+           "output: {directory: a/../b/, meshes: [], contact_sheet: none}\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->plane.anchors.at(0), PlanePoint(-0.5, 2));
+  EXPECT_EQ(config->output.directory, folder_ / "b");
+  EXPECT_TRUE(config->output.meshes.empty());
+  EXPECT_FALSE(config->output.contact_sheet);
+}
+
+TEST_F(ReadConfig, MasksMayBeTiles) {
+  const auto config =
+      read(kPlain + "regions: {names: [a, b, c, d], mask: [tiles.<UDIM>.png, mask.png]}\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_THAT(config->regions.mask, ElementsAre((folder_ / "tiles.<UDIM>.png").string(),
+                                                (folder_ / "mask.png").string()));
+}
+
+TEST_F(ReadConfig, EveryProblemOfAFileIsToldInItsOrder) {
+  EXPECT_FALSE(
+      read("schema: 2\n"
+           "crowd: {name: ../x, count: -1, sede: 3}\n"
+           "faces: {directory: heads, unit: cm}\n"
+           "smoothing: {operator: lasy, levels: base}\n"
+           "sampling:\n"
+           "  smoothness: 1.5\n"
+           "  smoothness: 0.5\n"
+           "outptu: {}\n"));
+  EXPECT_EQ(
+      told(),
+      "c.yaml:1:9: schema: this crowdface reads schema 1, found \"2\"\n"
+      "c.yaml:2:15: crowd.name: expected a name of 1 to 64 letters (a-z), digits, '_', '-' or '.', "
+      "not starting with '.', found \"../x\"\n"
+      "c.yaml:2:28: crowd.count: expected a whole number from 0 to 1000000, found \"-1\"\n"
+      "c.yaml:2:32: unknown key \"sede\" in crowd; did you mean \"seed\"?\n"
+      "c.yaml:3:8: faces.units: missing; what is one unit of the OBJ files: mm, cm, m or in?\n"
+      "c.yaml:3:27: unknown key \"unit\" in faces; did you mean \"units\"?\n"
+      "c.yaml:4:23: smoothing.operator: expected umbrella or lazy, found \"lasy\"; did you mean "
+      "\"lazy\"?\n"
+      "c.yaml:4:37: smoothing.levels: expected basis or exact or cubic, found \"base\"; did you "
+      "mean "
+      "\"basis\"?\n"
+      "c.yaml:6:15: sampling.smoothness: expected a number from 0 to 1, found \"1.5\"\n"
+      "c.yaml:7:3: the key \"smoothness\" stands here a second time; first in line 6\n"
+      "c.yaml:8:1: unknown key \"outptu\"; did you mean \"output\"?");
+  EXPECT_EQ(problems_.code(), ExitCode::kUsage);
+}
+
+TEST_F(ReadConfig, MissingFilesAreMissingInput) {
+  EXPECT_FALSE(
+      read("schema: 1\ncrowd: {name: a, count: 1}\nfaces: {directory: nowhere, units: cm}\n"
+           "regions: {names: [a], mask: no.png}\n"));
+  EXPECT_THAT(told(), HasSubstr("c.yaml:3:20: faces.directory: the folder \"nowhere\""));
+  EXPECT_THAT(told(), HasSubstr("c.yaml:4:29: regions.mask: the mask \"no.png\" is missing"));
+  EXPECT_EQ(problems_.code(), ExitCode::kMissingInput);
+  EXPECT_FALSE(
+      read("schema: 1\ncrowd: {name: a, count: 1}\n"
+           "faces: {files: [heads/ann.obj, heads/dan.obj], units: cm}\n"));
+  EXPECT_EQ(told(), "c.yaml:3:32: faces.files #2: the file \"heads/dan.obj\" is missing");
+  EXPECT_EQ(problems_.code(), ExitCode::kMissingInput);
+  EXPECT_FALSE(read_config(folder_ / "none.yaml", {}, problems_));
+  std::filesystem::create_symlink("gone.obj", folder_ / "heads/link.obj");
+  EXPECT_FALSE(read(kPlain));
+  EXPECT_THAT(told(), HasSubstr("link.obj\" is missing"));
+}
+
+TEST_F(ReadConfig, TooFewAndTooManyHeads) {
+  touch("one/ann.obj");
+  EXPECT_FALSE(read("schema: 1\ncrowd: {name: a, count: 1}\nfaces: {directory: one, units: cm}\n"));
+  EXPECT_EQ(told(),
+            "c.yaml:3:20: faces.directory: expected 2 to 50 heads, found 1 OBJ files in \"one\"");
+  for (int i = 0; i < 51; ++i) touch(concat("many/h", i, ".obj"));
+  EXPECT_FALSE(
+      read("schema: 1\ncrowd: {name: a, count: 1}\nfaces: {directory: many, units: cm}\n"));
+  EXPECT_THAT(told(), HasSubstr("found 51"));
+}
+
+TEST_F(ReadConfig, HeadNamesMustBeUsable) {
+  touch("heads/a b.obj");
+  touch("heads/target.obj");
+  touch("heads/ann.OBJ");
+  EXPECT_FALSE(read(kPlain));
+  EXPECT_THAT(told(), HasSubstr("the head's name, \"a b\""));
+  EXPECT_THAT(told(), HasSubstr("no head can be called \"target\""));
+  EXPECT_THAT(told(), HasSubstr("two heads are called \"ann\""));
+}
+
+// Names that cannot be checked, because the heads were not found, are not held against the user.
+TEST_F(ReadConfig, AWrongFolderIsOneProblem) {
+  EXPECT_FALSE(read(
+      "schema: 1\ncrowd: {name: a, count: 1}\n"
+      "faces: {directory: nowhere, units: cm, tags: {ann: [old]}}\n"
+      "plane: {layout: manual, anchors: {ann: [0, 0]}}\n"
+      "sampling: {targets: [ann, old], position: {distribution: around, face: bob, radius: 1}}\n"
+      "recipes: [{id: x, target: ann, regions: {all: {weights: {bob: 1}}}}]\n"));
+  EXPECT_EQ(problems_.size(), 1u) << told();
+}
+
+TEST_F(ReadConfig, AWrongTagIsOneProblem) {
+  EXPECT_FALSE(
+      read("schema: 1\ncrowd: {name: a, count: 1}\n"
+           "faces: {directory: heads, units: cm, tags: {amn: [old]}}\n"
+           "sampling: {targets: [old], sources: {old: 1}}\n"
+           "plane: {anchors: {bop: [0, 0]}}\n"));
+  EXPECT_EQ(problems_.size(), 3u) << told();
+  EXPECT_THAT(told(), HasSubstr("c.yaml:3:45: faces.tags: no head is called \"amn\""));
+}
+
+TEST_F(ReadConfig, AFloodOfProblemsIsCut) {
+  std::string text = kPlain + "sampling:\n";
+  for (int i = 0; i < 5000; ++i) text += concat("  k", i, ": 1\n");
+  EXPECT_FALSE(read(text));
+  EXPECT_EQ(problems_.size(), 101u);
+  EXPECT_THAT(problems_.messages().back(), HasSubstr("4900 more problems"));
+}
+
+TEST_F(ReadConfig, SetAndOptionsOverrideTheFile) {
+  ConfigOverrides overrides;
+  overrides.set = {"crowd.count=5", "crowd.count=6", "sampling.max_sources=2",
+                   "output.contact_sheet={columns: 2}", "crowd.seed=8"};
+  overrides.seed = "18446744073709551615";
+  overrides.out = "elsewhere/";
+  const auto config = read(kPlain, overrides);
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->crowd.count, 6u);
+  EXPECT_EQ(config->crowd.seed, UINT64_MAX);
+  EXPECT_EQ(config->sampling.max_sources, 2);
+  EXPECT_EQ(config->output.contact_sheet->columns, 2);
+  EXPECT_EQ(config->output.directory, "elsewhere") << "relative to the working directory";
+}
+
+TEST_F(ReadConfig, OverridesPassTheSameChecks) {
+  ConfigOverrides overrides;
+  overrides.set = {"crowd.cuont=5", "sampling.smoothness=[0.5, 0.1]", "plane.layout=circel",
+                   "parts=automatic", "crowd.name="};
+  overrides.count = "1e3";
+  overrides.seed = "-1";
+  overrides.out = "";
+  EXPECT_FALSE(read(kPlain, overrides));
+  EXPECT_THAT(told(), HasSubstr("--set crowd.cuont=5: unknown key \"cuont\" in crowd; did you mean "
+                                "\"count\"?"));
+  EXPECT_THAT(told(), HasSubstr("--set sampling.smoothness=[0.5, 0.1]: sampling.smoothness: "
+                                "expected [low, high]"));
+  EXPECT_THAT(told(), HasSubstr("did you mean \"circle\"?"));
+  EXPECT_THAT(told(), HasSubstr("parts: expected auto or none, found \"automatic\""));
+  EXPECT_THAT(told(), HasSubstr("--set crowd.name=: crowd.name: no value"));
+  EXPECT_THAT(told(), HasSubstr("--count 1e3: crowd.count: expected a whole number"));
+  EXPECT_THAT(told(), HasSubstr("--seed -1: crowd.seed: expected a whole number"));
+  EXPECT_THAT(told(), HasSubstr("--out: expected a folder"));
+}
+
+TEST_F(ReadConfig, AnOverrideMendsABrokenValue) {
+  ConfigOverrides overrides;
+  overrides.count = "4";
+  const auto config =
+      read("schema: 1\ncrowd: {name: a, count: many}\nfaces: {directory: heads, units: cm}\n",
+           overrides);
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->crowd.count, 4u);
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/crowd_directory.h"
+
+#include <gtest/gtest.h>
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(CrowdDirectory, SheetsCountFromOneWithThreeDigits) {
+  const CrowdDirectory directory{"/crowd"};
+  EXPECT_EQ(directory.sheet(1), "/crowd/sheets/sheet_001.png");
+  EXPECT_EQ(directory.sheet(1234), "/crowd/sheets/sheet_1234.png");
+}
+
+TEST(CrowdDirectory, RefusalNamesTheFirstLineThatDiffers) {
+  const testing::TemporaryFolder folder;
+  const CrowdDirectory directory{folder / "crowd"};
+  open_crowd_directory(directory, "a\nb\nc\n", Replace::kRefuse);
+  open_crowd_directory(directory, "a\nb\nc\n", Replace::kRefuse);  // the same crowd: welcome
+  testing::expect_error(ExitCode::kUsage, {directory.root.string(), "line 2", "--force"},
+                        [&] { open_crowd_directory(directory, "a\nB\nc\n", Replace::kRefuse); });
+  EXPECT_EQ(testing::read_text(directory.config()), "a\nb\nc\n");
+}
+
+TEST(CrowdDirectory, ForceRemovesNothingOutsideTheFolder) {
+  const testing::TemporaryFolder folder;
+  const CrowdDirectory directory{folder / "crowd"};
+  open_crowd_directory(directory, "old\n", Replace::kRefuse);
+  folder.write("victim.obj", "mine");
+  folder.write("crowd/meshes/mob_0001.obj", "the crowd's");
+  folder.write("crowd/meshes/..obj", "mine");
+  folder.write("crowd/sheets/sheet_001.png", "the crowd's");
+  folder.write("crowd/sheets/other.png", "mine");
+  folder.write("crowd/plan.jsonl",
+               "{\"id\":\"../../victim\"}\n{\"id\":\"mob_0001\"}\nnonsense\n{\"id\":7}\n{}\n\n");
+  open_crowd_directory(directory, "new\n", Replace::kForce);
+  const auto files = testing::crowd_files(folder.path());
+  EXPECT_TRUE(files.contains("victim.obj"));
+  EXPECT_TRUE(files.contains("crowd/sheets/other.png"));
+  EXPECT_FALSE(files.contains("crowd/meshes/mob_0001.obj"));
+  EXPECT_FALSE(files.contains("crowd/sheets/sheet_001.png"));
+  EXPECT_FALSE(files.contains("crowd/plan.jsonl"));
+  EXPECT_EQ(files.at("crowd/config.yaml"), "new\n");
+}
+
+TEST(CrowdDirectory, FolderOfOtherThingsIsKept) {
+  const testing::TemporaryFolder folder;
+  folder.write("crowd/thesis.txt", "mine");
+  open_crowd_directory({folder / "crowd"}, "new\n", Replace::kRefuse);
+  EXPECT_EQ(testing::read_text(folder / "crowd/thesis.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/plan_file.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/text.h"
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface {
+namespace {
+
+const PlanNames kNames = {{"ann", "bob", "cyd"}, {"top", "low"}};
+const Digest kSettings = {0x0123456789abcdefU, 0xfedcba9876543210U};
+
+CastFace example() {
+  CastFace face;
+  face.id = "mob_0007";
+  face.index = 7;
+  face.recipe.target = 2;
+  face.recipe.regions = {
+      {PlanePoint(0.1, -1.0 / 3), {{0, 1.0 / 3}, {2, 2.0 / 3}}, 0.45, 9000, 1.1},
+      {std::nullopt, {{1, 1.0}}, 0, 0, -0.30000000000000004},
+  };
+  face.notes.nearest = Nearest{1, 2.41239, "mob_0003", 1.00004};
+  return face;
+}
+
+TEST(PlanFile, LineHasTheFieldsOfTheContractInOrder) {
+  EXPECT_EQ(format_recipe(example(), kNames, kSettings),
+            R"({"id":"mob_0007","index":7,"family":null,"target":"cyd","attempt":0,"regions":{)"
+            R"("top":{"position":[0.1,-0.3333333333333333],"weights":{"ann":0.3333333333333333,)"
+            R"("cyd":0.6666666666666666},"smoothness":0.45,"iterations":9000,"extrapolation":1.1},)"
+            R"("low":{"position":null,"weights":{"bob":1.0},"smoothness":0.0,"iterations":0,)"
+            R"("extrapolation":-0.30000000000000004}},"nearest":{"face":"bob","face_mm":2.4124,)"
+            R"("crowd":"mob_0003","crowd_mm":1.0},"settings":"0123456789abcdeffedcba9876543210"})");
+}
+
+TEST(PlanFile, ReadsBackToTheBit) {
+  const CastFace face = example();
+  const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
+  EXPECT_EQ(line.settings, kSettings.hex());
+  EXPECT_EQ(line.face.id, face.id);
+  EXPECT_EQ(line.face.index, face.index);
+  EXPECT_EQ(line.face.recipe.target, face.recipe.target);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(line.face.recipe.regions[k].position, face.recipe.regions[k].position);
+    EXPECT_EQ(line.face.recipe.regions[k].weights, face.recipe.regions[k].weights);
+    EXPECT_EQ(line.face.recipe.regions[k].smoothness, face.recipe.regions[k].smoothness);
+    EXPECT_EQ(line.face.recipe.regions[k].iterations, face.recipe.regions[k].iterations);
+    EXPECT_EQ(line.face.recipe.regions[k].extrapolation, face.recipe.regions[k].extrapolation);
+  }
+  // Distances to four decimals, so that pictures made from the plan tell what the plan tells.
+  ASSERT_TRUE(line.face.notes.nearest);
+  EXPECT_EQ(line.face.notes.nearest->head, 1);
+  EXPECT_EQ(line.face.notes.nearest->head_mm, 2.4124);
+  EXPECT_EQ(line.face.notes.nearest->crowd, "mob_0003");
+  EXPECT_EQ(line.face.notes.nearest->crowd_mm, 1);
+  EXPECT_EQ(format_recipe(line.face, kNames, kSettings), format_recipe(face, kNames, kSettings));
+}
+
+TEST(PlanFile, TheLongestIdsAreRead) {
+  CastFace face = example();
+  face.family = std::string(64, 'f');
+  face.id = concat(std::string(64, 'c'), '_', *face.family, "_1000");
+  const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
+  EXPECT_EQ(line.face.id, face.id);
+  EXPECT_EQ(line.face.family, face.family);
+  face.id = concat(std::string(64, 'c'), "_18446744073709551615");
+  EXPECT_NO_THROW(parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1"));
+}
+
+TEST(PlanFile, WhatIsWrongAboutNearestIsLeftOut) {
+  const std::string good = format_recipe(example(), kNames, kSettings);
+  for (const char* nearest :
+       {"7", "{}", "{\"face\":\"zed\",\"face_mm\":1}", "{\"face\":\"bob\"}"}) {
+    std::string line = good;
+    const std::size_t begin = line.find("\"nearest\":") + 10;
+    line.replace(begin, line.find('}', begin) + 1 - begin, nearest);
+    EXPECT_FALSE(parse_recipe(line, kNames, "plan:1").face.notes.nearest) << nearest;
+  }
+}
+
+TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
+  const std::string good = format_recipe(example(), kNames, kSettings);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string line = good;
+    return line.replace(line.find(from), from.size(), to);
+  };
+  constexpr std::size_t kDepth = 1'000'000;
+  const std::string deep = std::string(kDepth, '[') + std::string(kDepth, ']');
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"", "line"},
+      {"nonsense", "line"},
+      {"[1,2]", "line"},
+      {good.substr(0, good.size() - 3), "line"},
+      {with("\"cyd\",\"attempt\"", "\"zed\",\"attempt\""), "target"},
+      {with("\"bob\":1.0", "\"zed\":1.0"), "weights"},
+      {with("\"bob\":1.0", "\"bob\":\"1\""), "weights"},
+      {with("\"iterations\":9000", "\"iterations\":-1"), "iterations"},
+      {with("\"iterations\":9000", "\"iterations\":1.5"), "iterations"},
+      {with("\"iterations\":9000", "\"iterations\":18446744073709551616"), "iterations"},
+      {with("\"extrapolation\":1.1", "\"extrapolation\":null"), "extrapolation"},
+      {with("\"extrapolation\":1.1", "\"extrapolation\":1e999"), ""},
+      {with("\"extrapolation\":1.1", "\"extrapolation\":4.1"), "from -4 to 4"},
+      {with("\"extrapolation\":1.1", "\"extrapolation\":1e308"), "from -4 to 4"},
+      {with("\"smoothness\":0.45", "\"smoothness\":1.1"), "smoothness"},
+      {with("\"bob\":1.0", "\"bob\":-0.1"), "from 0 to 1"},
+      {with("\"bob\":1.0", "\"bob\":1e308"), "from 0 to 1"},
+      {with("\"bob\":1.0", "\"ann\":0.6,\"bob\":0.5"), "a sum of at most 1"},
+      {with("[0.1,", "[1e7,"), "position"},
+      {with("\"low\":", "\"high\":"), "low"},
+      {with("[0.1,", "["), "position"},
+      {with("\"index\":7", "\"index\":-7"), "index"},
+      {with("\"id\":\"mob_0007\",", ""), "id"},
+      {with("\"id\":\"mob_0007\"", "\"id\":\"../mob_0007\""), "id: expected a name"},
+      {with("\"id\":\"mob_0007\"", "\"id\":\"\""), "id: expected a name"},
+      {with("\"family\":null", "\"family\":\"a/b\""), "family: expected a name"},
+      {with("\"settings\"", "\"setting\""), "settings"},
+      {with("\"attempt\":0", "\"attempt\":4294967296"), "attempt"},
+      {with("\"attempt\":0", concat("\"attempt\":", deep)), "attempt"},
+      {with("\"regions\":{", concat("\"regions\":", deep, ",\"other\":{")), "regions"},
+  };
+  for (const auto& [line, field] : cases) {
+    SCOPED_TRACE(line.substr(0, 1000));
+    testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", field},
+                          [&, &text = line] { parse_recipe(text, kNames, "plan.jsonl:12"); });
+  }
+}
+
+TEST(PlanFile, FileErrorsNameTheLine) {
+  const testing::TemporaryFolder folder;
+  const std::string good = format_recipe(example(), kNames, kSettings);
+  EXPECT_EQ(read_plan(folder.write("good.jsonl", good + "\n\n" + good), kNames).size(), 2U);
+  testing::expect_error(ExitCode::kBadData, {"bad.jsonl:3"}, [&] {
+    read_plan(folder.write("bad.jsonl", good + "\n" + good + "\n{}\n"), kNames);
+  });
+  testing::expect_error(ExitCode::kMissingInput, {"none.jsonl"},
+                        [&] { read_plan(folder / "none.jsonl", kNames); });
+}
+
+TEST(PlanFile, TableSaysTheSame) {
+  CastFace by_hand = example();
+  by_hand.id = "mine";
+  by_hand.index.reset();
+  by_hand.notes.nearest.reset();
+  EXPECT_EQ(format_csv({example(), by_hand}, kNames),
+            "id,index,family,target,top_position_x,top_position_y,top_weights,top_smoothness,"
+            "top_iterations,top_extrapolation,low_position_x,low_position_y,low_weights,"
+            "low_smoothness,low_iterations,low_extrapolation,nearest_face,nearest_face_mm,"
+            "nearest_crowd,nearest_crowd_mm\r\n"
+            "mob_0007,7,,cyd,0.1,-0.3333333333333333,ann:0.3333333333333333;cyd:0.6666666666666666,"
+            "0.45,9000,1.1,,,bob:1,0,0,-0.30000000000000004,bob,2.4124,mob_0003,1\r\n"
+            "mine,,,cyd,0.1,-0.3333333333333333,ann:0.3333333333333333;cyd:0.6666666666666666,"
+            "0.45,9000,1.1,,,bob:1,0,0,-0.30000000000000004,,,,\r\n");
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inputs that do not fit together: refused with the right code, the file and the first difference.
+#include "crowdface/heads/inputs.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/run/generate.h"
+#include "crowdface/run/pipeline.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+using Lines = std::vector<std::string>;
+
+/// Changes the lines of one head's file.
+void edit(const SmallCrowdFolder& folder, const std::string& head,
+          const std::function<void(Lines&)>& change) {
+  Lines lines;
+  std::istringstream text(testing::read_text(folder.head(head)));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  change(lines);
+  folder.folder().write("heads/" + head + ".obj", join(lines, "\n") + "\n");
+}
+
+std::size_t first_line(const Lines& lines, const std::string& start, std::size_t nth = 0) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].starts_with(start) && nth-- == 0) return i;
+  }
+  throw std::out_of_range(start);
+}
+
+/// Expects the job to be refused and nothing to be written.
+void expect_refused(const SmallCrowdFolder& folder, ExitCode code,
+                    std::initializer_list<std::string> phrases) {
+  testing::expect_error(code, phrases, [&] {
+    generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  });
+  EXPECT_FALSE(fs::exists(folder.out()));
+  EXPECT_FALSE(fs::exists(folder.cache()));
+}
+
+TEST(Inputs, OtherVertexCountsAreRefused) {
+  const SmallCrowdFolder more{SmallCrowd{}};
+  edit(more, "cyd", [](Lines& lines) {
+    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(first_line(lines, "vt ")), "v 1 2 3");
+  });
+  expect_refused(more, ExitCode::kBadData, {"cyd.obj", "ann.obj", "119", "120"});
+
+  const SmallCrowdFolder fewer{SmallCrowd{}};
+  edit(fewer, "cyd", [](Lines& lines) {  // the last vertex, which is in no face
+    lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(first_line(lines, "vt ") - 1));
+  });
+  expect_refused(fewer, ExitCode::kBadData, {"cyd.obj", "119", "118"});
+}
+
+TEST(Inputs, PermutedFacesAreRefused) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  edit(folder, "bob", [](Lines& lines) {
+    const std::size_t f = first_line(lines, "f ", 4);
+    std::swap(lines[f], lines[f + 1]);
+  });
+  expect_refused(folder, ExitCode::kBadData, {"bob.obj", "face 5"});
+}
+
+TEST(Inputs, FlippedWindingIsRefused) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  edit(folder, "dan", [](Lines& lines) {
+    std::string& line = lines[first_line(lines, "f ")];
+    std::istringstream words(line.substr(2));
+    std::vector<std::string> corners{std::istream_iterator<std::string>(words), {}};
+    std::reverse(corners.begin(), corners.end());
+    line = "f " + join(corners, " ");
+  });
+  expect_refused(folder, ExitCode::kBadData, {"dan.obj", "face 1", "expected", "found"});
+}
+
+TEST(Inputs, EveryOddHeadIsNamedAtOnce) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  for (const char* head : {"bob", "dan"}) {
+    edit(folder, head, [](Lines& lines) {
+      const std::size_t f = first_line(lines, "f ", 4);
+      std::swap(lines[f], lines[f + 1]);
+    });
+  }
+  expect_refused(folder, ExitCode::kBadData, {"bob.obj", "dan.obj"});
+}
+
+TEST(Inputs, PathsThatNoConfigCanHoldAreToldWithTheRest) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  edit(folder, "dan", [](Lines& lines) { lines[first_line(lines, "v ", 3)] = "v nan 0 0"; });
+  const fs::path elsewhere = folder / "caf\xe9";  // Latin-1
+  fs::create_directory(elsewhere);
+  fs::rename(folder / "heads", elsewhere / "heads");
+  fs::rename(folder.config(), elsewhere / "config.yaml");
+  testing::expect_error(ExitCode::kUsage,
+                        {"caf\\xe9/config.yaml", "caf\\xe9/heads/ann.obj", "UTF-8", "dan.obj:"},
+                        [&] { load_job(elsewhere / "config.yaml", {}); });
+}
+
+TEST(Inputs, OtherTextureCoordinatesAreRefused) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  edit(folder, "bob", [](Lines& lines) { lines[first_line(lines, "vt ", 2)] = "vt 0.9 0.1"; });
+  expect_refused(folder, ExitCode::kBadData, {"bob.obj", "texture coordinate 3", "0.9"});
+}
+
+TEST(Inputs, NumbersThatAreNoneAreRefused) {
+  for (const char* bad : {"v nan 0 0", "v 1 inf 2", "v 1e400 0 0", "v 1 2", "v 1 2 abc", "v"}) {
+    const SmallCrowdFolder folder{SmallCrowd{}};
+    std::size_t line = 0;
+    edit(folder, "cyd", [&](Lines& lines) {
+      line = first_line(lines, "v ", 3);
+      lines[line] = bad;
+    });
+    expect_refused(folder, ExitCode::kBadData, {concat("cyd.obj:", line + 1)});
+  }
+}
+
+TEST(Inputs, HugeCoordinatesAreRefusedOrStayFinite) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  edit(folder, "cyd",
+       [](Lines& lines) { lines[first_line(lines, "v ", 3)] = "v 1e38 -1e38 1e300"; });
+  expect_refused(folder, ExitCode::kBadData, {"cyd.obj"});
+}
+
+TEST(Inputs, MasksNeedTextureCoordinates) {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  crowd.bowl.uvs = false;
+  expect_refused(SmallCrowdFolder(crowd), ExitCode::kBadData, {"texture coordinate"});
+}
+
+TEST(Inputs, MissingMasksAndTilesAreRefused) {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  const SmallCrowdFolder plain(crowd);
+  fs::remove(plain / "mask_0.png");
+  expect_refused(plain, ExitCode::kMissingInput, {"mask_0.png"});
+
+  crowd.udim = true;
+  crowd.bowl.tiles = 3;
+  const SmallCrowdFolder tiles(crowd);
+  fs::remove(tiles / "mask_0.1002.png");
+  expect_refused(tiles, ExitCode::kMissingInput, {"mask_0", "1002"});
+}
+
+TEST(Inputs, MasksThatCannotBeReadAreRefused) {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  const SmallCrowdFolder folder(crowd);
+  const std::string whole = testing::read_text(folder / "mask_0.png");
+  for (const std::string& bytes :
+       {std::string("not an image"), std::string(), whole.substr(0, whole.size() / 2)}) {
+    folder.folder().write("mask_0.png", bytes);
+    expect_refused(folder, ExitCode::kBadData, {"mask_0.png"});
+  }
+}
+
+TEST(Inputs, TooFewChannelsAreRefused) {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  SmallCrowdFolder folder(crowd);
+  crowd.regions = 5;  // one image for five regions
+  folder.configure(crowd);
+  expect_refused(folder, ExitCode::kBadData, {"mask_0.png", "5"});
+}
+
+TEST(Inputs, MissingHeadsAreRefused) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  fs::remove_all(folder / "heads");
+  expect_refused(folder, ExitCode::kMissingInput, {"heads"});
+}
+
+TEST(Inputs, HeadsThatCannotBeReadAreRefused) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  fs::remove(folder.head("bob"));
+  fs::create_directory(folder.head("bob"));
+  testing::expect_error(ExitCode::kMissingInput, {"bob.obj"}, [&] {
+    ConfigOverrides overrides;
+    overrides.set = {concat("faces={files: [heads/ann.obj, heads/bob.obj], units: cm}")};
+    generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+  });
+}
+
+TEST(Inputs, UncoveredVerticesAreCountedInAWarning) {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  const SmallCrowdFolder folder(crowd);
+  reference::Picture black{4, 4, 3, std::vector<double>(48, 0.0)};
+  testing::write_mask(folder / "mask_0.png", black);
+  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  const auto report = testing::read_json(folder.out() / "report.json");
+  EXPECT_EQ(report.at("masks").at("uncovered_vertices"), crowd.bowl.vertex_count() - 1);
+  EXPECT_THAT(report.at("warnings").dump(), ::testing::HasSubstr("region_3"));
+}
+
+TEST(Inputs, SettingsHashTellsWhatMeshesDependOn) {
+  SmallCrowd crowd;
+  crowd.regions = 3;
+  const SmallCrowdFolder folder(crowd);
+  const auto settings = [&](const std::vector<std::string>& set) {
+    ConfigOverrides overrides;
+    overrides.set = set;
+    return load_job(folder.config(), overrides).settings.hex();
+  };
+  const std::string plain = settings({});
+  EXPECT_EQ(settings({"crowd.count=7", "crowd.seed=5", "sampling.max_sources=1"}), plain);
+  for (const char* other :
+       {"smoothing.boundary=free", "smoothing.operator=lazy", "smoothing.levels=cubic",
+        "smoothing.levels=basis", "regions=none", "regions.names=[region_2, region_1, region_3]"}) {
+    EXPECT_NE(settings({other}), plain) << other;
+  }
+  const std::vector<std::string> basis = {"smoothing.levels=basis"};
+  EXPECT_NE(settings({"smoothing.levels=basis", "faces.units=mm"}), settings(basis))
+      << "the tolerance is a length";
+  edit(folder, "bob", [](Lines& lines) { lines[first_line(lines, "v ")] = "v -7 -8 1.5"; });
+  EXPECT_NE(settings({}), plain);
+}
+
+}  // namespace
+}  // namespace crowdface

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// One face in several formats.
+#include <gtest/gtest.h>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/run/crowd_sheets.h"
+#include "crowdface/run/generate.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/mesh_files.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+const char* const kAll = "output.meshes=[obj, ply, glb, points]";
+
+void run(const SmallCrowdFolder& folder, const std::string& out, std::vector<std::string> set,
+         Replace replace = Replace::kRefuse) {
+  ConfigOverrides overrides;
+  overrides.set = std::move(set);
+  overrides.out = (folder / out).string();
+  generate(folder.config(), overrides, {folder.cache(), replace, false});
+}
+
+testing::Singles to_singles(const reference::Points& points) {
+  testing::Singles singles;
+  for (const auto& [x, y, z] : points) {
+    singles.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+  }
+  return singles;
+}
+
+/// Expects the files of one face to hold the positions of its OBJ file, and the shape of it.
+void expect_same_face(const fs::path& meshes, const std::string& id) {
+  const reference::Obj obj = reference::read_obj(meshes / (id + ".obj"));
+  const testing::Singles points = to_singles(obj.vertices);
+  const testing::PlyFile ply = testing::read_ply(meshes / (id + ".ply"));
+  EXPECT_EQ(ply.points, points);
+  EXPECT_EQ(ply.faces, obj.faces);
+
+  std::string dictionary;
+  const auto numbers = testing::read_npy_numbers<float>(meshes / (id + ".npy"), dictionary);
+  EXPECT_TRUE(dictionary.starts_with(
+      concat("{'descr': '<f4', 'fortran_order': False, 'shape': (", points.size(), ", 3), }")));
+  ASSERT_EQ(numbers.size(), 3 * points.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], points[i / 3][i % 3]);
+
+  const testing::GlbFile glb = testing::read_glb(meshes / (id + ".glb"));
+  ASSERT_GE(glb.points.size(), points.size());
+  ASSERT_EQ(glb.points.size(), glb.ids.size());
+  for (std::size_t i = 0; i < glb.points.size(); ++i) {
+    if (i < points.size()) {
+      EXPECT_EQ(glb.ids[i], static_cast<float>(i));
+    }
+    EXPECT_EQ(glb.points[i], points.at(static_cast<std::size_t>(glb.ids[i]))) << i;
+  }
+  EXPECT_EQ(glb.scene.at("nodes").at(0).at("name"), id);
+  std::size_t triangles = 0;
+  for (const auto& face : obj.faces) triangles += face.size() - 2;
+  EXPECT_EQ(glb.corners.size(), 3 * triangles);
+}
+
+TEST(MeshFormats, HoldTheSameFace) {
+  for (const bool normals : {false, true}) {
+    SmallCrowd crowd;
+    crowd.bowl.normals = normals;
+    crowd.bowl.materials = true;
+    crowd.count = 2;
+    const SmallCrowdFolder folder(crowd);
+    run(folder, "out", {kAll});
+    const auto report = testing::read_json(folder.out() / "report.json");
+    for (const auto& face : report.at("faces")) {
+      const auto id = face.at("id").get<std::string>();
+      SCOPED_TRACE(id);
+      expect_same_face(folder.out() / "meshes", id);
+      const fs::path stem = folder.out() / "meshes" / id;
+      const auto digest = [&](const char* extension) {
+        return hash_bytes(testing::read_text(stem.string() + extension)).hex();
+      };
+      EXPECT_EQ(face.at("mesh"), digest(".obj"));
+      EXPECT_EQ(face.at("ply"), digest(".ply"));
+      EXPECT_EQ(face.at("glb"), digest(".glb"));
+      EXPECT_EQ(face.at("points"), digest(".npy"));
+      const testing::PlyFile ply = testing::read_ply(stem.string() + ".ply");
+      EXPECT_EQ(ply.normals.empty(), !normals) << "only where the input has them";
+      const testing::GlbFile glb = testing::read_glb(stem.string() + ".glb");
+      EXPECT_EQ(glb.normals.size(), glb.points.size());
+      if (normals) {
+        for (std::size_t i = 0; i < ply.normals.size(); ++i) {
+          EXPECT_EQ(ply.normals[i], glb.normals[i]);
+        }
+      }
+    }
+  }
+}
+
+TEST(MeshFormats, GlbCornersHaveTheTextureCoordinatesOfTheObj) {
+  SmallCrowd crowd;
+  crowd.count = 1;
+  const SmallCrowdFolder folder(crowd);
+  run(folder, "out", {kAll});
+  const fs::path meshes = folder.out() / "meshes";
+  const reference::Obj obj = reference::read_obj(meshes / "mob_0001.obj");
+  const testing::GlbFile glb = testing::read_glb(meshes / "mob_0001.glb");
+  EXPECT_GT(glb.ids.size(), obj.vertices.size()) << "the bowl has a seam";
+  std::size_t at = 0;
+  for (std::size_t f = 0; f < obj.faces.size(); ++f) {
+    for (std::size_t k = 1; k + 1 < obj.faces[f].size(); ++k) {
+      for (const std::size_t corner : {std::size_t{0}, k, k + 1}) {
+        const std::uint32_t split = glb.corners.at(at++);
+        EXPECT_EQ(glb.ids[split], static_cast<float>(obj.faces[f][corner]));
+        const auto uv = obj.face_uvs[f][corner];
+        ASSERT_TRUE(uv);
+        EXPECT_EQ(glb.uvs[split][0], static_cast<float>(obj.uvs[*uv][0]));
+        EXPECT_EQ(glb.uvs[split][1], static_cast<float>(1 - obj.uvs[*uv][1]));
+      }
+    }
+  }
+}
+
+TEST(MeshFormats, PointsHaveTheirTopologyOnceBeside) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  run(folder, "out", {"output.meshes=[points]"});
+  const fs::path arrays = folder.out() / "meshes/topology";
+  std::string dictionary;
+  const auto corners = testing::read_npy_numbers<std::int32_t>(arrays / "corners.npy", dictionary);
+  const auto offsets = testing::read_npy_numbers<std::int32_t>(arrays / "offsets.npy", dictionary);
+  const reference::Obj head = reference::read_obj(folder.head("ann"));
+  ASSERT_EQ(offsets.size(), head.faces.size() + 1);
+  for (std::size_t f = 0; f < head.faces.size(); ++f) {
+    const std::vector<std::size_t> face(corners.begin() + offsets[f],
+                                        corners.begin() + offsets[f + 1]);
+    EXPECT_EQ(face, head.faces[f]);
+  }
+  EXPECT_TRUE(fs::exists(arrays / "uvs.npy"));
+  EXPECT_TRUE(fs::exists(arrays / "corner_uvs.npy"));
+  EXPECT_FALSE(fs::exists(folder.out() / "meshes/mob_0001.obj"));
+}
+
+// A head could name a face's own file as its texture, which was then copied over the face.
+TEST(MeshFormats, HaveNamesThatNoTextureMayHave) {
+  const testing::TemporaryFolder folder;
+  for (const MeshFormat format : all_mesh_formats()) {
+    const std::string name = concat("face_0001", extension_of(format));
+    folder.write(name, "x");
+    folder.write("a.mtl", concat("map_Kd ", name, "\n"));
+    EXPECT_EQ(find_material_files(folder / "head.obj", {"a.mtl"}).files.size(), 1U) << name;
+  }
+}
+
+TEST(MeshFormats, HaveTheSameBytesForAnyNumberOfThreads) {
+  SmallCrowd crowd;
+  crowd.bowl.normals = true;
+  crowd.bowl.columns = 110;  // several blocks of lines
+  crowd.bowl.rows = 100;
+  const SmallCrowdFolder folder(crowd);
+  {
+    const ThreadLimit limit(1);
+    run(folder, "out", {kAll});
+  }
+  const auto first = testing::crowd_files(folder.out());
+  fs::remove_all(folder.out());
+  const ThreadLimit limit(5);
+  run(folder, "out", {kAll});
+  EXPECT_THAT(testing::differing_files(first, testing::crowd_files(folder.out())),
+              ::testing::IsEmpty());
+}
+
+TEST(MeshFormats, OfAnOldCrowdAreAllRemoved) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  run(folder, "out", {kAll});
+  run(folder, "out", {"output.meshes=[]"}, Replace::kForce);
+  for (const auto& [name, bytes] : testing::crowd_files(folder.out())) {
+    EXPECT_FALSE(name.starts_with("meshes/")) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder.out() / "meshes"));
+}
+
+TEST(MeshFormats, GiveTheSameSheetsAgain) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, rows: 2, cell: 32}";
+  const SmallCrowdFolder folder(crowd);
+  std::string expected;
+  for (const char* format : {"obj", "ply", "glb", "points"}) {
+    run(folder, format, {concat("output.meshes=[", format, "]")});
+    remake_sheets(folder / format, {});
+    const std::string sheet = testing::read_text(folder / concat(format, "/sheets/sheet_001.png"));
+    if (expected.empty()) expected = sheet;
+    EXPECT_TRUE(sheet == expected) << format;
+  }
+  run(folder, "none", {"output.meshes=[]"});
+  testing::expect_error(ExitCode::kMissingInput, {"no meshes"},
+                        [&] { remake_sheets(folder / "none", {}); });
+}
+
+TEST(MeshFormats, RefuseFilesThatAreNotTheCrowds) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, rows: 2, cell: 32}";
+  const SmallCrowdFolder folder(crowd);
+  run(folder, "out", {kAll});
+  for (const std::string format : {"ply", "glb", "points"}) {
+    const std::string config = testing::read_text(folder.out() / "config.yaml");
+    run(folder, format, {concat("output.meshes=[", format, "]")});
+    const std::string name =
+        concat(format, "/meshes/mob_0002.", format == "points" ? "npy" : format);
+    const std::string good = testing::read_text(folder / name);
+    for (const std::string& bad :
+         {std::string(), good.substr(0, 20), good.substr(0, good.size() / 8), "x" + good}) {
+      folder.folder().write(name, bad);
+      testing::expect_error(ExitCode::kBadData, {"mob_0002", "expected"},
+                            [&] { remake_sheets(folder / format, {}); });
+    }
+  }
+}
+
+TEST(MeshFormats, NameTheFileThatCannotBeWritten) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  for (const std::string format : {"obj", "ply", "glb", "points"}) {
+    const std::string name =
+        concat(format, "/meshes/mob_0002.", format == "points" ? "npy" : format);
+    const std::vector<std::string> set = {concat("output.meshes=[", format, "]")};
+    run(folder, format, set);
+    fs::remove(folder / name);
+    folder.folder().write(name + "/in_the_way", "a folder has the name");
+    testing::expect_error(ExitCode::kCannotCreate, {name}, [&] { run(folder, format, set); });
+  }
+}
+
+TEST(MeshFormats, HoldRealHeads) {
+  const fs::path heads = fs::path(CROWDFACE_SOURCE_DIR) / "../shared/faces/ict16";
+  if (!fs::exists(heads / "ict_00.obj")) {
+    GTEST_SKIP() << "no real heads at " << heads << ": put OBJ files ict_00.obj … there";
+  }
+  const testing::TemporaryFolder folder;
+  const fs::path config = folder.write(
+      "config.yaml", concat("schema: 1\ncrowd: {name: real, count: 2, seed: 5}\nfaces: {files: [",
+                            (heads / "ict_03.obj").string(), ", ", (heads / "ict_07.obj").string(),
+                            "], units: cm}\noutput: {directory: out, contact_sheet: none,\n"
+                            "         meshes: [obj, ply, glb, points]}\n"));
+  generate(config, {}, {folder / "cache", Replace::kRefuse, false});
+  for (const char* id : {"real_0001", "real_0002"}) expect_same_face(folder / "out/meshes", id);
+}
+
+}  // namespace
+}  // namespace crowdface
