@@ -21,9 +21,12 @@ sources() {
   done
 }
 
+cpp=('src/*.cpp' 'tests/*.cpp' 'examples/*.cpp')
+all=("${cpp[@]}" 'src/*.h' 'tests/*.h')
+
 check_format() {
   local files
-  mapfile -t files < <(sources 'src/*.h' 'src/*.cpp' 'tests/*.h' 'tests/*.cpp')
+  mapfile -t files < <(sources "${all[@]}")
   clang-format --dry-run -Werror "${files[@]}"
   echo "clang-format: ${#files[@]} files in form"
 }
@@ -33,8 +36,8 @@ check_format() {
 changed_since() {
   local file
   {
-    git diff --name-only "$1" -- src tests
-    git ls-files --others --exclude-standard -- src tests
+    git diff --name-only "$1" -- src tests examples
+    git ls-files --others --exclude-standard -- src tests examples
   } | while read -r file; do
     [ -f "$file" ] || continue
     case "$file" in
@@ -43,7 +46,7 @@ changed_since() {
         if [ -f "${file%.h}.cpp" ]; then
           echo "${file%.h}.cpp"
         else
-          sources 'src/*.cpp' 'tests/*.cpp' | xargs grep -lF "\"${file#*/}\"" | sed -n 1p || true
+          sources "${cpp[@]}" | xargs grep -lF "\"${file#*/}\"" | sed -n 1p || true
         fi
         ;;
     esac
@@ -55,7 +58,7 @@ changed_since() {
 by_turns() {
   local others
   changed_since "$1"
-  mapfile -t others < <(sources 'src/*.cpp' 'tests/*.cpp' | grep -vxF -f <(changed_since "$1") || true)
+  mapfile -t others < <(sources "${cpp[@]}" | grep -vxF -f <(changed_since "$1") || true)
   local start=$((40 * $(git rev-list --count HEAD) % (${#others[@]} + 1)))
   printf '%s\n' "${others[@]:start}" "${others[@]:0:start}"
 }
@@ -66,8 +69,8 @@ with_keys() {
   local settings
   settings=$(clang-tidy --version | cat - .clang-tidy CMakeLists.txt cmake/* | sha256sum)
   {
-    sources 'src/*.h' 'src/*.cpp' 'tests/*.h' 'tests/*.cpp' | xargs sha256sum
-    sources 'src/*.h' 'src/*.cpp' 'tests/*.h' 'tests/*.cpp' | xargs grep -HE '^ *# *include *"'
+    sources "${all[@]}" | xargs sha256sum
+    sources "${all[@]}" | xargs grep -HE '^ *# *include *"'
     printf '%s\n' "$@"
   } | awk '
     NF == 2 && length($1) == 64 { sum[$2] = $1; next }
@@ -115,7 +118,7 @@ check_tidy() {
   elif [ $# -gt 0 ]; then
     files=("$@")
   else
-    mapfile -t files < <(sources 'src/*.cpp' 'tests/*.cpp')
+    mapfile -t files < <(sources "${cpp[@]}")
   fi
   # tests/structure/consumer is a project of its own.
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -v -e '^$' -e '^tests/structure/')

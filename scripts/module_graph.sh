@@ -41,16 +41,18 @@ crowd 6
 heads 7
 pictures 8
 run 9
-cli 10'
+cli 10
+crowdface 10'
 
-# "file:line includer included" for every include of ours.
+# "file:line includer included" for every include of ours. The umbrella header, crowdface/crowdface.h, counts
+# as a module `crowdface`.
 includes() {
   find src -name '*.h' -o -name '*.cpp' -o -name '*.in' | sort |
-    xargs grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](crowdface/[a-z_]+|cli)/[^">]*' |
+    xargs grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](crowdface/[a-z_]+|cli)[/.][^">]*' |
     awk '{
       split($0, at, ":")
-      from = at[1]; sub(/^src\//, "", from); sub(/^crowdface\//, "", from); sub(/\/.*/, "", from)
-      to = $0; sub(/.*["<]/, "", to); sub(/^crowdface\//, "", to); sub(/\/.*/, "", to)
+      from = at[1]; sub(/^src\//, "", from); sub(/^crowdface\//, "", from); sub(/[\/.].*/, "", from)
+      to = $0; sub(/.*["<]/, "", to); sub(/^crowdface\//, "", to); sub(/[\/.].*/, "", to)
       print at[1] ":" at[2], from, to
     }'
 }

@@ -12,7 +12,7 @@ cmake --install "$build" --prefix "$place/prefix" >"$place/install.log" || {
   cat "$place/install.log"
   exit 1
 }
-for file in bin/crowdface include/crowdface/core/version.h include/crowdface/run/generate.h \
+for file in bin/crowdface include/crowdface/crowdface.h include/crowdface/core/version.h \
   share/crowdface/configs/demo.yaml share/doc/crowdface/LICENSE share/doc/crowdface/config.md; do
   [ -e "$place/prefix/$file" ] || { echo "not installed: $file"; exit 1; }
 done

@@ -22,4 +22,10 @@ std::vector<double> face_areas(const Topology& topology, const Components& compo
                                const Positions& mean, FaceArea area, Axis front,
                                const std::vector<double>& mask = {});
 
+/// The distance between two built faces of one topology: root mean square over all vertices, after
+/// the second was moved rigidly onto the first, in the positions' unit.
+/// \param areas  #V, how much each vertex counts; not all zero.
+/// \throws BrokenPrecondition if the sizes differ; InvalidInput if there are fewer than 3 vertices.
+double face_distance(const Positions& a, const Positions& b, const std::vector<double>& areas);
+
 }  // namespace crowdface

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 
-#include <crowdface/config/config_reader.h>
-#include <crowdface/core/version.h>
-#include <crowdface/smooth/chebyshev_filter.h>
+#include <crowdface/crowdface.h>
 #include <crowdface/synth/synthetic_head.h>
 
 int main() {
