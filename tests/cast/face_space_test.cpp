@@ -128,10 +128,10 @@ class FaceSpaceTest : public ::testing::Test {
 
 TEST_F(FaceSpaceTest, DistancesAreThoseOfWholeMeshes) {
   std::vector<Recipe> faces = crowd(6);
-  std::vector<FaceSpace::Place> places;
+  std::vector<FaceSpace::Point> points;
   std::vector<Positions> as_built, unit;
   for (Recipe recipe : faces) {
-    places.push_back(space_->place(recipe));
+    points.push_back(space_->point(recipe));
     as_built.push_back(blend_exact(faces_, *filter_, regions_, recipe));
     recipe.regions[0].extrapolation = 1;
     unit.push_back(blend_exact(faces_, *filter_, regions_, recipe));
@@ -140,7 +140,7 @@ TEST_F(FaceSpaceTest, DistancesAreThoseOfWholeMeshes) {
     for (std::size_t b = 0; b < a; ++b) {
       const double expected =
           std::min(mesh_distance(as_built[a], as_built[b]), mesh_distance(unit[a], unit[b]));
-      EXPECT_NEAR(FaceSpace::distance(places[a], places[b]), expected, 0.02 * expected);
+      EXPECT_NEAR(FaceSpace::distance(points[a], points[b]), expected, 0.02 * expected);
     }
   }
 }
@@ -164,18 +164,18 @@ TEST_F(FaceSpaceTest, TargetAloneLiesOnItsHead) {
   recipe.target = 2;
   recipe.regions[0].weights = {{2, 1}};
   recipe.regions[0].extrapolation = 1;
-  EXPECT_LT(FaceSpace::distance(space_->place(recipe), space_->place_head(2)), 1e-3);
-  EXPECT_GT(FaceSpace::distance(space_->place(recipe), space_->place_head(1)), 1);
+  EXPECT_LT(FaceSpace::distance(space_->point(recipe), space_->head_point(2)), 1e-3);
+  EXPECT_GT(FaceSpace::distance(space_->point(recipe), space_->head_point(1)), 1);
 }
 
 TEST_F(FaceSpaceTest, ExtrapolationAloneIsTheSamePerson) {
   Recipe recipe = crowd(1)[0];
-  const auto place = [&](double e) {
+  const auto point = [&](double e) {
     recipe.regions[0].extrapolation = e;
-    return space_->place(recipe);
+    return space_->point(recipe);
   };
-  EXPECT_LT(FaceSpace::distance(place(0.8), place(1.3)), 1e-3);
-  EXPECT_GT((place(0.8).as_built - place(1.3).as_built).norm(), 0.5) << "though the meshes differ";
+  EXPECT_LT(FaceSpace::distance(point(0.8), point(1.3)), 1e-3);
+  EXPECT_GT((point(0.8).as_built - point(1.3).as_built).norm(), 0.5) << "though the meshes differ";
 }
 
 TEST_F(FaceSpaceTest, RigidMotionOfAHeadChangesNoDistance) {
@@ -195,22 +195,22 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
   recipes[20] = recipes[7];  // a twin
   for (const Recipe& recipe : recipes) {
     cast.crowd.emplace_back().id = concat("mob_", cast.crowd.size());
-    cast.places.push_back(space_->place(recipe));
+    cast.points.push_back(space_->point(recipe));
   }
   find_nearest(FaceJudge(*space_, {}, {}), cast);
   const auto& faces = cast.crowd;
-  const auto& places = cast.places;
+  const auto& points = cast.points;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     ASSERT_TRUE(faces[i].notes.nearest);
     double head_mm = HUGE_VAL, crowd_mm = HUGE_VAL;
     Index head = -1;
     std::size_t nearest = i;
     for (Index h = 0; h < 4; ++h) {
-      const double d = FaceSpace::distance(places[i], space_->place_head(h));
+      const double d = FaceSpace::distance(points[i], space_->head_point(h));
       if (d < head_mm) head = h, head_mm = d;
     }
     for (std::size_t j = 0; j < i; ++j) {
-      const double d = FaceSpace::distance(places[i], places[j]);
+      const double d = FaceSpace::distance(points[i], points[j]);
       if (d < crowd_mm) nearest = j, crowd_mm = d;
     }
     EXPECT_EQ(faces[i].notes.nearest->head, head);

@@ -10,18 +10,18 @@
 namespace crowdface {
 namespace {
 
-FaceSpace::Place place_at(float x, float y) {
+FaceSpace::Point place_at(float x, float y) {
   const Eigen::VectorXf point = Eigen::Vector2f(x, y);
   return {point, point};
 }
 
-std::vector<FaceSpace::Place> random_places(std::uint64_t count) {
-  std::vector<FaceSpace::Place> places;
+std::vector<FaceSpace::Point> random_points(std::uint64_t count) {
+  std::vector<FaceSpace::Point> points;
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto [x, y] = random_pair({3, i, "place", 0});
-    places.push_back(place_at(static_cast<float>(x), static_cast<float>(y)));
+    points.push_back(place_at(static_cast<float>(x), static_cast<float>(y)));
   }
-  return places;
+  return points;
 }
 
 TEST(Likeness, OfNobodyIsEmpty) {
@@ -35,12 +35,12 @@ TEST(Likeness, OfOneFaceIsThatFace) {
 }
 
 TEST(Likeness, NeighboursAreThoseOfASearchThroughAll) {
-  const auto places = random_places(150);
-  const Likeness likeness = find_likeness(places, 5);
-  for (std::size_t face = 0; face < places.size(); ++face) {
+  const auto points = random_points(150);
+  const Likeness likeness = find_likeness(points, 5);
+  for (std::size_t face = 0; face < points.size(); ++face) {
     std::vector<double> mm;
-    for (std::size_t other = 0; other < places.size(); ++other) {
-      if (other != face) mm.push_back(FaceSpace::distance(places[face], places[other]));
+    for (std::size_t other = 0; other < points.size(); ++other) {
+      if (other != face) mm.push_back(FaceSpace::distance(points[face], points[other]));
     }
     std::sort(mm.begin(), mm.end());
     ASSERT_EQ(likeness.near[face].size(), 5U);
@@ -49,22 +49,22 @@ TEST(Likeness, NeighboursAreThoseOfASearchThroughAll) {
 }
 
 TEST(Likeness, OrderNamesEveryFaceOnce) {
-  Likeness likeness = find_likeness(random_places(211), 1);
+  Likeness likeness = find_likeness(random_points(211), 1);
   std::sort(likeness.order.begin(), likeness.order.end());
   for (std::size_t i = 0; i < likeness.order.size(); ++i) EXPECT_EQ(likeness.order[i], i);
   EXPECT_EQ(likeness.order.size(), 211U);
 }
 
 TEST(Likeness, FacesThatAreEachOthersNearestStandSideBySide) {
-  const Likeness likeness = find_likeness(random_places(300), 1);
-  std::vector<std::size_t> place(300);
-  for (std::size_t i = 0; i < 300; ++i) place[likeness.order[i]] = i;
+  const Likeness likeness = find_likeness(random_points(300), 1);
+  std::vector<std::size_t> point(300);
+  for (std::size_t i = 0; i < 300; ++i) point[likeness.order[i]] = i;
   int pairs = 0;
   for (std::size_t face = 0; face < 300; ++face) {
     const std::size_t other = likeness.near[face][0].face;
     if (likeness.near[other][0].face != face) continue;
     ++pairs;
-    EXPECT_EQ(std::max(place[face], place[other]) - std::min(place[face], place[other]), 1U);
+    EXPECT_EQ(std::max(point[face], point[other]) - std::min(point[face], point[other]), 1U);
   }
   EXPECT_GT(pairs, 100);
 }

@@ -11,26 +11,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A crowd of this text and no other.
+CrowdConfig config_of(const std::string& text) {
+  return {text, [text](const std::string& other) {
+            return other == text ? std::nullopt : std::optional<std::string>("crowd.seed");
+          }};
+}
+
 TEST(CrowdDirectory, SheetsCountFromOneWithThreeDigits) {
   const CrowdDirectory directory{"/crowd"};
   EXPECT_EQ(directory.sheet(1), "/crowd/sheets/sheet_001.png");
   EXPECT_EQ(directory.sheet(1234), "/crowd/sheets/sheet_1234.png");
 }
 
-TEST(CrowdDirectory, RefusalNamesTheFirstLineThatDiffers) {
+TEST(CrowdDirectory, RefusalNamesTheKeyThatDiffers) {
   const testing::TemporaryFolder folder;
   const CrowdDirectory directory{folder / "crowd"};
-  open_crowd_directory(directory, "a\nb\nc\n", Replace::kRefuse);
-  open_crowd_directory(directory, "a\nb\nc\n", Replace::kRefuse);  // the same crowd: welcome
-  testing::expect_error(ExitCode::kUsage, {directory.root.string(), "line 2", "--force"},
-                        [&] { open_crowd_directory(directory, "a\nB\nc\n", Replace::kRefuse); });
+  open_crowd_directory(directory, config_of("a\nb\nc\n"), Replace::kRefuse);
+  open_crowd_directory(directory, config_of("a\nb\nc\n"),
+                       Replace::kRefuse);  // the same crowd: welcome
+  testing::expect_error(
+      ExitCode::kUsage, {directory.root.string(), "in crowd.seed", "--force"},
+      [&] { open_crowd_directory(directory, config_of("a\nB\nc\n"), Replace::kRefuse); });
   EXPECT_EQ(testing::read_text(directory.config()), "a\nb\nc\n");
 }
 
 TEST(CrowdDirectory, ForceRemovesNothingOutsideTheFolder) {
   const testing::TemporaryFolder folder;
   const CrowdDirectory directory{folder / "crowd"};
-  open_crowd_directory(directory, "old\n", Replace::kRefuse);
+  open_crowd_directory(directory, config_of("old\n"), Replace::kRefuse);
   folder.write("victim.obj", "mine");
   folder.write("crowd/meshes/mob_0001.obj", "the crowd's");
   folder.write("crowd/meshes/..obj", "mine");
@@ -38,7 +47,7 @@ TEST(CrowdDirectory, ForceRemovesNothingOutsideTheFolder) {
   folder.write("crowd/sheets/other.png", "mine");
   folder.write("crowd/plan.jsonl",
                "{\"id\":\"../../victim\"}\n{\"id\":\"mob_0001\"}\nnonsense\n{\"id\":7}\n{}\n\n");
-  open_crowd_directory(directory, "new\n", Replace::kForce);
+  open_crowd_directory(directory, config_of("new\n"), Replace::kForce);
   const auto files = testing::crowd_files(folder.path());
   EXPECT_TRUE(files.contains("victim.obj"));
   EXPECT_TRUE(files.contains("crowd/sheets/other.png"));
@@ -51,7 +60,7 @@ TEST(CrowdDirectory, ForceRemovesNothingOutsideTheFolder) {
 TEST(CrowdDirectory, FolderOfOtherThingsIsKept) {
   const testing::TemporaryFolder folder;
   folder.write("crowd/thesis.txt", "mine");
-  open_crowd_directory({folder / "crowd"}, "new\n", Replace::kRefuse);
+  open_crowd_directory({folder / "crowd"}, config_of("new\n"), Replace::kRefuse);
   EXPECT_EQ(testing::read_text(folder / "crowd/thesis.txt"), "mine");
 }
 

@@ -60,14 +60,14 @@ class Redrawing {
     const FamilyCast* family = family_of(cast_, redraw.face);
     // Relatives are measured apart: a family's own distances hold among them.
     CrowdSoFar others(judge_.space().dimensions());
-    std::vector<FaceSpace::Place> own;
+    std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
       if (!settled[i]) continue;
       const bool relative = family != nullptr && family_of(cast_, static_cast<Index>(i)) == family;
       if (relative) {
-        own.push_back(cast_.places[i]);
+        own.push_back(cast_.points[i]);
       } else {
-        others.add(cast_.crowd[i], cast_.places[i]);
+        others.add(cast_.crowd[i], cast_.points[i]);
       }
     }
     const Kinship kinship = kinship_without(family, settled);
@@ -81,12 +81,12 @@ class Redrawing {
       draw = [&, member](std::uint32_t attempt) {
         return family_draws->member(*family, member, attempt);
       };
-      refuses = [&](const FaceSpace::Place& place) {
-        return family_draws->refuses(*family, place, own, kinship);
+      refuses = [&](const FaceSpace::Point& point) {
+        return family_draws->refuses(*family, point, own, kinship);
       };
     } else {
       draw = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
-      refuses = [&](const FaceSpace::Place& place) { return kinship.intrudes(place); };
+      refuses = [&](const FaceSpace::Point& point) { return kinship.intrudes(point); };
     }
     const int candidates = old.index ? casting_.diversity.candidates_for(*old.index) : 1;
     FaceSearch search(
@@ -138,10 +138,10 @@ class Redrawing {
     Kinship kinship;
     for (const FamilyCast& family : cast_.families) {
       if (&family == own) continue;
-      std::vector<FaceSpace::Place> members;
+      std::vector<FaceSpace::Point> members;
       for (Index i = family.begin; i < family.end; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        if (settled[at]) members.push_back(cast_.places[at]);
+        if (settled[at]) members.push_back(cast_.points[at]);
       }
       kinship.add(family.name, members);
     }
@@ -151,13 +151,13 @@ class Redrawing {
   void settle(std::size_t at, FaceSearch::Found found, const CastFace& old,
               const std::vector<bool>& settled) {
     Nearest nearest;
-    const PlaceIndex::Nearest head = judge_.nearest_head(found.place);
+    const FacePointIndex::Nearest head = judge_.nearest_head(found.point);
     nearest.head = head.face;
     nearest.head_mm = head.mm;
     double mm = HUGE_VAL;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
       if (!settled[i]) continue;
-      const double distance = FaceSpace::distance(found.place, cast_.places[i]);
+      const double distance = FaceSpace::distance(found.point, cast_.points[i]);
       if (distance >= mm) continue;
       mm = distance;
       nearest.crowd = cast_.crowd[i].id;
@@ -166,7 +166,7 @@ class Redrawing {
     found.face.notes.nearest = nearest;
     found.face.notes.review = old.notes.review;
     cast_.crowd[at] = std::move(found.face);
-    cast_.places[at] = std::move(found.place);
+    cast_.points[at] = std::move(found.point);
   }
 
   const Casting& casting_;

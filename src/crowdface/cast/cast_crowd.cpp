@@ -38,13 +38,13 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
       auto found = search.settle(
-          crowd, [&](const FaceSpace::Place& place) { return kinship.intrudes(place); });
+          crowd, [&](const FaceSpace::Point& point) { return kinship.intrudes(point); });
       result.rejections.add(search.rejections());
       if (!found) {
         result.shortfall = Shortfall{index - 1, search.rejections(), result.quotas[index - 1]};
         return;
       }
-      crowd.add(std::move(found->face), std::move(found->place));
+      crowd.add(std::move(found->face), std::move(found->point));
       if (joined) joined();
     }
   }
@@ -58,8 +58,8 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
   CrowdSoFar crowd(judge.space().dimensions());
   for (const HandRecipe& hand : casting.recipes) {
     CastFace face = draw_hand_recipe(casting, hand);
-    FaceSpace::Place place = judge.space().place(face.recipe);
-    crowd.add(std::move(face), std::move(place));
+    FaceSpace::Point point = judge.space().point(face.recipe);
+    crowd.add(std::move(face), std::move(point));
   }
   Kinship kinship;
   for (const FamilyOptions& family : casting.families) {
@@ -82,7 +82,7 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
     cast_first_fit(casting, judge, targets_of, kinship, crowd, joined, result);
   }
   result.crowd = crowd.faces();
-  result.places = crowd.places();
+  result.points = crowd.points();
   if (result.shortfall) return result;
   find_nearest(judge, result);
   for (const Review& review : casting.reviews) {
@@ -92,16 +92,16 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
 }
 
 void find_nearest(const FaceJudge& judge, CrowdCast& cast) {
-  PlaceIndex index(judge.space().dimensions());
-  for (const FaceSpace::Place& place : cast.places) index.add(place);
+  FacePointIndex index(judge.space().dimensions());
+  for (const FaceSpace::Point& point : cast.points) index.add(point);
   parallel_for_each(index.size(), [&](Index i) {
-    const FaceSpace::Place& place = cast.places[static_cast<std::size_t>(i)];
+    const FaceSpace::Point& point = cast.points[static_cast<std::size_t>(i)];
     Nearest nearest;
-    const PlaceIndex::Nearest head = judge.nearest_head(place);
+    const FacePointIndex::Nearest head = judge.nearest_head(point);
     nearest.head = head.face;
     nearest.head_mm = head.mm;
     if (i > 0) {
-      const PlaceIndex::Nearest face = index.nearest(place, HUGE_VAL, 0, i);
+      const FacePointIndex::Nearest face = index.nearest(point, HUGE_VAL, 0, i);
       nearest.crowd = cast.crowd[static_cast<std::size_t>(face.face)].id;
       nearest.crowd_mm = face.mm;
     }

@@ -25,7 +25,7 @@ struct Shortfall {
 /// A crowd that was cast.
 struct CrowdCast {
   std::vector<CastFace> crowd;           ///< recipes, then families, then faces 1 … count
-  std::vector<FaceSpace::Place> places;  ///< of each
+  std::vector<FaceSpace::Point> points;  ///< of each
   std::vector<int> quotas;               ///< which quota each sampled face counts for, or −1
   std::vector<FamilyCast> families;
   Rejections rejections;

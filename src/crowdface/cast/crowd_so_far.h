@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "crowdface/cast/cast_face.h"
-#include "crowdface/cast/place_index.h"
+#include "crowdface/cast/face_point_index.h"
 
 namespace crowdface {
 
@@ -13,10 +13,10 @@ class CrowdSoFar {
  public:
   explicit CrowdSoFar(Index dimensions) : index_(dimensions) {}
 
-  void add(CastFace face, FaceSpace::Place place) {
-    index_.add(place);
+  void add(CastFace face, FaceSpace::Point point) {
+    index_.add(point);
     faces_.push_back(std::move(face));
-    places_.push_back(std::move(place));
+    points_.push_back(std::move(point));
   }
   Index size() const { return index_.size(); }
   /// What comes from now on is sampled.
@@ -25,13 +25,13 @@ class CrowdSoFar {
   /// more does not change which of them wins (though all faces must be far enough from all).
   Index first_sampled() const { return first_sampled_; }
   const std::vector<CastFace>& faces() const { return faces_; }
-  const std::vector<FaceSpace::Place>& places() const { return places_; }
-  const PlaceIndex& index() const { return index_; }
+  const std::vector<FaceSpace::Point>& points() const { return points_; }
+  const FacePointIndex& index() const { return index_; }
 
  private:
   std::vector<CastFace> faces_;
-  std::vector<FaceSpace::Place> places_;
-  PlaceIndex index_;
+  std::vector<FaceSpace::Point> points_;
+  FacePointIndex index_;
   Index first_sampled_ = 0;
 };
 

@@ -8,12 +8,12 @@
 namespace crowdface {
 namespace {
 
-/// Up to `most` of `places`, evenly spread.
-std::vector<const FaceSpace::Place*> some_of(const std::vector<FaceSpace::Place>& places,
+/// Up to `most` of `points`, evenly spread.
+std::vector<const FaceSpace::Point*> some_of(const std::vector<FaceSpace::Point>& points,
                                              std::size_t most) {
-  std::vector<const FaceSpace::Place*> chosen;
-  const std::size_t count = std::min(places.size(), most);
-  for (std::size_t i = 0; i < count; ++i) chosen.push_back(&places[i * places.size() / count]);
+  std::vector<const FaceSpace::Point*> chosen;
+  const std::size_t count = std::min(points.size(), most);
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(&points[i * points.size() / count]);
   return chosen;
 }
 
@@ -39,17 +39,17 @@ Quartiles quartiles(std::vector<double> values) {
   return {values.size(), values.front(), at(1), at(2), at(3), values.back()};
 }
 
-std::vector<double> pair_distances(const std::vector<FaceSpace::Place>& places, std::size_t most) {
-  const auto chosen = some_of(places, most);
+std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points, std::size_t most) {
+  const auto chosen = some_of(points, most);
   return pairwise(chosen.size(), [&](std::size_t i, std::size_t j) {
     return FaceSpace::distance(*chosen[i], *chosen[j]);
   });
 }
 
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
-                                   const std::vector<FaceSpace::Place>& places, std::size_t most) {
-  const auto chosen = some_of(places, most);
-  std::vector<FaceSpace::RegionPlace> in_region(chosen.size());
+                                   const std::vector<FaceSpace::Point>& points, std::size_t most) {
+  const auto chosen = some_of(points, most);
+  std::vector<FaceSpace::RegionPoint> in_region(chosen.size());
   parallel_for_each(static_cast<Index>(chosen.size()), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
     in_region[at] = space.in_region(*chosen[at], region);

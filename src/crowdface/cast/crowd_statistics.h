@@ -16,12 +16,12 @@ struct Quartiles {
 Quartiles quartiles(std::vector<double> values);
 
 /// The distances between all pairs of faces; of more faces than `most` those of every so-many-th.
-std::vector<double> pair_distances(const std::vector<FaceSpace::Place>& places,
+std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points,
                                    std::size_t most = 1500);
 
 /// The same over one region.
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
-                                   const std::vector<FaceSpace::Place>& places,
+                                   const std::vector<FaceSpace::Point>& points,
                                    std::size_t most = 300);
 
 }  // namespace crowdface

@@ -72,7 +72,7 @@ struct Rejections {
     return sum;
   }
   /// The reason with most rejections, of equals the first.
-  Reason main() const {
+  Reason most_frequent() const {
     std::size_t most = 0;
     for (std::size_t r = 1; r < kReasonCount; ++r) {
       if (count[r] > count[most]) most = r;

@@ -28,19 +28,19 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
       plausibility_(space),
       skin_(skin),
       meshes_(std::move(meshes)) {
-  for (Index h = 0; h < space.head_count(); ++h) heads_.add(space.place_head(h));
+  for (Index h = 0; h < space.head_count(); ++h) heads_.add(space.head_point(h));
 }
 
 std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
-                                             const FaceSpace::Place& place) const {
+                                             const FaceSpace::Point& point) const {
   for (const RegionRecipe& region : recipe.regions) {
     for (const SourceWeight& source : region.weights) {
       if (source.weight > diversity_.max_weight) return Reason::kMaxWeight;
     }
   }
   const double limit = diversity_.min_distance_to_faces_mm;
-  if (limit > 0 && heads_.nearest(place, limit).face >= 0) return Reason::kMinDistanceToFaces;
-  if (believability_.check && plausibility_.score(place) > believability_.max_deviation) {
+  if (limit > 0 && heads_.nearest(point, limit).face >= 0) return Reason::kMinDistanceToFaces;
+  if (believability_.check && plausibility_.score(point) > believability_.max_deviation) {
     return Reason::kImplausible;
   }
   return std::nullopt;

@@ -6,7 +6,7 @@
 
 #include "crowdface/cast/believability.h"
 #include "crowdface/cast/diversity.h"
-#include "crowdface/cast/place_index.h"
+#include "crowdface/cast/face_point_index.h"
 #include "crowdface/cast/plausibility.h"
 #include "crowdface/cast/proxy_skin.h"
 #include "crowdface/validity/skin_check.h"
@@ -30,14 +30,14 @@ class FaceJudge {
 
   /// What can be told from the recipe and its place, in microseconds: weights, the distance from the
   /// input heads, plausibility. \return why it will not do; nothing if it will.
-  std::optional<Reason> at_a_glance(const Recipe& recipe, const FaceSpace::Place& place) const;
+  std::optional<Reason> at_a_glance(const Recipe& recipe, const FaceSpace::Point& point) const;
 
   /// What only the shape of the skin tells: flips, stretch, intersections. A millisecond by the
   /// samples, a tenth of a second by a mesh of 28,000 triangles.
   std::optional<Reason> closely(const Recipe& recipe) const;
 
-  PlaceIndex::Nearest nearest_head(const FaceSpace::Place& place) const {
-    return heads_.nearest(place);
+  FacePointIndex::Nearest nearest_head(const FaceSpace::Point& point) const {
+    return heads_.nearest(point);
   }
   const FaceSpace& space() const { return space_; }
   const Plausibility& plausibility() const { return plausibility_; }
@@ -46,7 +46,7 @@ class FaceJudge {
   const FaceSpace& space_;
   DiversityOptions diversity_;
   BelievabilityOptions believability_;
-  PlaceIndex heads_;
+  FacePointIndex heads_;
   Plausibility plausibility_;
   const ProxySkin* skin_;
   MeshDefects meshes_;

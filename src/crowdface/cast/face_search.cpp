@@ -19,8 +19,8 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   while (candidates_.size() < wanted_ && next_attempt_ < last_attempt_) {
     Candidate candidate;
     candidate.face = draw_(next_attempt_++);
-    candidate.place = judge_.space().place(candidate.face.recipe);
-    if (const auto reason = judge_.at_a_glance(candidate.face.recipe, candidate.place)) {
+    candidate.point = judge_.space().point(candidate.face.recipe);
+    if (const auto reason = judge_.at_a_glance(candidate.face.recipe, candidate.point)) {
       rejections_.add(*reason);
       continue;
     }
@@ -28,9 +28,9 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
     const double limit = wanted_ == 1 ? diversity_.min_distance_mm : HUGE_VAL;
     const double least = diversity_.min_distance_mm;
     candidate.nearest_mm =
-        crowd.index().nearest(candidate.place, limit, crowd.first_sampled(), crowd.size()).mm;
+        crowd.index().nearest(candidate.point, limit, crowd.first_sampled(), crowd.size()).mm;
     if (candidate.nearest_mm < least ||
-        crowd.index().nearest(candidate.place, least, 0, crowd.first_sampled()).face >= 0) {
+        crowd.index().nearest(candidate.point, least, 0, crowd.first_sampled()).face >= 0) {
       rejections_.add(Reason::kMinDistance);
       continue;
     }
@@ -44,7 +44,7 @@ void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
   if (compared_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
     const auto nearest =
-        crowd.index().nearest(candidate.place, candidate.nearest_mm, compared_, crowd.size());
+        crowd.index().nearest(candidate.point, candidate.nearest_mm, compared_, crowd.size());
     candidate.nearest_mm = std::min(candidate.nearest_mm, nearest.mm);
   }
   const auto gone = std::erase_if(candidates_, [&](const Candidate& candidate) {
@@ -82,7 +82,7 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
     if (candidates_.empty()) return std::nullopt;
     farthest_first();
     for (Candidate& candidate : candidates_) {
-      if (refuses && refuses(candidate.place)) {
+      if (refuses && refuses(candidate.point)) {
         rejections_.add(Reason::kFamily);
         continue;
       }
@@ -91,7 +91,7 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
         rejections_.add(*candidate.broken);
         continue;
       }
-      return Found{std::move(candidate.face), std::move(candidate.place)};
+      return Found{std::move(candidate.face), std::move(candidate.point)};
     }
     candidates_.clear();
   }

@@ -20,7 +20,7 @@ class FaceSearch {
   /// Draws attempt number n. Must be a pure function.
   using Draw = std::function<CastFace(std::uint32_t attempt)>;
   /// One more reason to refuse a place, given the crowd.
-  using Refuses = std::function<bool(const FaceSpace::Place&)>;
+  using Refuses = std::function<bool(const FaceSpace::Point&)>;
 
   FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
              std::uint32_t first_attempt = 0);
@@ -30,7 +30,7 @@ class FaceSearch {
 
   struct Found {
     CastFace face;
-    FaceSpace::Place place;
+    FaceSpace::Point point;
   };
   /// The face, against the crowd as it is now; nothing once all attempts are used up.
   std::optional<Found> settle(const CrowdSoFar& crowd, const Refuses& refuses = {});
@@ -40,7 +40,7 @@ class FaceSearch {
  private:
   struct Candidate {
     CastFace face;
-    FaceSpace::Place place;
+    FaceSpace::Point point;
     double nearest_mm = 0;
     bool judged = false;  ///< closely
     std::optional<Reason> broken = std::nullopt;

@@ -260,21 +260,21 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   return result;
 }
 
-FaceSpace::Place FaceSpace::place(const Recipe& recipe) const {
-  Place place;
-  place.as_built = coordinates(shape_of(recipe, Variant::kAsBuilt));
+FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
+  Point point;
+  point.as_built = coordinates(shape_of(recipe, Variant::kAsBuilt));
   const bool unit = std::all_of(recipe.regions.begin(), recipe.regions.end(),
                                 [](const RegionRecipe& r) { return r.extrapolation == 1; });
-  place.unit = unit ? place.as_built : coordinates(shape_of(recipe, Variant::kUnit));
-  return place;
+  point.unit = unit ? point.as_built : coordinates(shape_of(recipe, Variant::kUnit));
+  return point;
 }
 
-FaceSpace::Place FaceSpace::place_head(Index head) const {
+FaceSpace::Point FaceSpace::head_point(Index head) const {
   const Eigen::VectorXf at = coordinates(shapes_[static_cast<std::size_t>(head)]);
   return {at, at};
 }
 
-double FaceSpace::distance(const Place& a, const Place& b) {
+double FaceSpace::distance(const Point& a, const Point& b) {
   return std::sqrt(
       std::min(squared_distance(a.as_built, b.as_built), squared_distance(a.unit, b.unit)));
 }
@@ -320,8 +320,8 @@ void FaceSpace::build_region_metrics() {
   }
 }
 
-FaceSpace::RegionPlace FaceSpace::in_region(const Place& place, Index region) const {
-  RegionPlace result{&place, {}, {}};
+FaceSpace::RegionPoint FaceSpace::in_region(const Point& point, Index region) const {
+  RegionPoint result{&point, {}, {}};
   if (region_metrics_.empty()) return result;
   const FloatRows& metric = region_metrics_[static_cast<std::size_t>(region)];
   const auto times = [&](const Eigen::VectorXf& at) {
@@ -331,13 +331,13 @@ FaceSpace::RegionPlace FaceSpace::in_region(const Place& place, Index region) co
     }
     return product;
   };
-  result.as_built = times(place.as_built);
-  result.unit = times(place.unit);
+  result.as_built = times(point.as_built);
+  result.unit = times(point.unit);
   return result;
 }
 
-double FaceSpace::region_distance(const RegionPlace& a, const RegionPlace& b, Index region) const {
-  if (region_metrics_.empty()) return distance(*a.place, *b.place);
+double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const {
+  if (region_metrics_.empty()) return distance(*a.point, *b.point);
   const double share = region_shares_[static_cast<std::size_t>(region)];
   if (!(share > 0)) return 0;
   // (x − y)ᵀ M (x − y) with M x and M y known.
@@ -350,20 +350,20 @@ double FaceSpace::region_distance(const RegionPlace& a, const RegionPlace& b, In
     }
     return std::max(sum, 0.0);
   };
-  return std::sqrt(std::min(squared(a.place->as_built, b.place->as_built, a.as_built, b.as_built),
-                            squared(a.place->unit, b.place->unit, a.unit, b.unit)) /
+  return std::sqrt(std::min(squared(a.point->as_built, b.point->as_built, a.as_built, b.as_built),
+                            squared(a.point->unit, b.point->unit, a.unit, b.unit)) /
                    share);
 }
 
 Eigen::MatrixXd FaceSpace::head_distances() const {
   const Index count = head_count();
-  std::vector<Place> places;
-  for (Index h = 0; h < count; ++h) places.push_back(place_head(h));
+  std::vector<Point> points;
+  for (Index h = 0; h < count; ++h) points.push_back(head_point(h));
   Eigen::MatrixXd distances(count, count);
   for (Index a = 0; a < count; ++a) {
     for (Index b = 0; b < count; ++b) {
       distances(a, b) =
-          distance(places[static_cast<std::size_t>(a)], places[static_cast<std::size_t>(b)]);
+          distance(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]);
     }
   }
   return distances;

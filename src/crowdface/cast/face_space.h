@@ -16,7 +16,7 @@ class FaceSpace {
  public:
   /// One face. Extrapolation alone makes no other person, so there are two: as built, and with
   /// every factor set to 1.
-  struct Place {
+  struct Point {
     Eigen::VectorXf as_built;  ///< #dimensions
     Eigen::VectorXf unit;      ///< the same if every factor is 1
   };
@@ -24,9 +24,9 @@ class FaceSpace {
   /// \param weights  #S, what each sample counts, see sample_weights; those of zero do not count.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights);
 
-  Place place(const Recipe& recipe) const;
-  /// An input head, whose two places are one.
-  Place place_head(Index head) const;
+  Point point(const Recipe& recipe) const;
+  /// An input head, whose two coordinates are one.
+  Point head_point(Index head) const;
 
   Index dimensions() const { return directions_.rows() + 1; }
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
@@ -34,15 +34,15 @@ class FaceSpace {
 
   /// Root mean square over the face in mm: the smaller of the distances between the faces as built
   /// and with factors of 1.
-  static double distance(const Place& a, const Place& b);
-  /// A place and what one region's metric makes of it.
-  struct RegionPlace {
-    const Place* place = nullptr;
-    Eigen::VectorXf as_built, unit;  ///< the metric times the place's
+  static double distance(const Point& a, const Point& b);
+  /// A point and what one region's metric makes of it.
+  struct RegionPoint {
+    const Point* point = nullptr;
+    Eigen::VectorXf as_built, unit;  ///< the metric times the point's
   };
-  RegionPlace in_region(const Place& place, Index region) const;
+  RegionPoint in_region(const Point& point, Index region) const;
   /// The same over one region alone, the faces aligned as wholes.
-  double region_distance(const RegionPlace& a, const RegionPlace& b, Index region) const;
+  double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
 
   /// Distances between all heads, #heads by #heads, in mm.
   Eigen::MatrixXd head_distances() const;

@@ -19,10 +19,10 @@ constexpr double kNearestShare = 0.4;  ///< of max_distance that members go at l
 constexpr double kParentShare = 0.75;  ///< of a parent in what a member tends to
 constexpr int kHalvings = 10;
 
-double largest(const FaceSpace::Place& place, const std::vector<FaceSpace::Place>& others) {
+double largest(const FaceSpace::Point& point, const std::vector<FaceSpace::Point>& others) {
   double mm = 0;
-  for (const FaceSpace::Place& other : others) {
-    mm = std::max(mm, FaceSpace::distance(place, other));
+  for (const FaceSpace::Point& other : others) {
+    mm = std::max(mm, FaceSpace::distance(point, other));
   }
   return mm;
 }
@@ -40,17 +40,17 @@ RegionRecipe mixed(const RegionRecipe& a, const RegionRecipe& b, double t,
 
 }  // namespace
 
-bool Kinship::intrudes(const FaceSpace::Place& place,
+bool Kinship::intrudes(const FaceSpace::Point& point,
                        const std::vector<std::string>& relatives) const {
   return std::any_of(members_.begin(), members_.end(), [&](const Member& member) {
     return std::find(relatives.begin(), relatives.end(), member.family) == relatives.end() &&
-           FaceSpace::distance(place, member.place) <= member.radius_mm;
+           FaceSpace::distance(point, member.point) <= member.radius_mm;
   });
 }
 
-void Kinship::add(const std::string& family, const std::vector<FaceSpace::Place>& members) {
-  for (const FaceSpace::Place& place : members) {
-    members_.push_back({family, place, largest(place, members)});
+void Kinship::add(const std::string& family, const std::vector<FaceSpace::Point>& members) {
+  for (const FaceSpace::Point& point : members) {
+    members_.push_back({family, point, largest(point, members)});
   }
 }
 
@@ -85,7 +85,7 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
     const bool parent = std::any_of(parents_.begin(), parents_.end(), [&](const CastFace& one) {
       return !one.id.empty() && one.id == face.id;
     });
-    (relative || parent ? kin_ : strangers_).add(crowd.places()[i]);
+    (relative || parent ? kin_ : strangers_).add(crowd.points()[i]);
   }
 }
 
@@ -156,35 +156,35 @@ CastFace FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t a
   const double reach = (kNearestShare + (1 - kNearestShare) * how_far) * family_.max_distance_mm;
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
-    const FaceSpace::Place place =
-        judge_.space().place(towards(cast.founder.recipe, to, t, age).recipe);
-    const bool beyond = FaceSpace::distance(place, cast.founder_place) > reach;
+    const FaceSpace::Point point =
+        judge_.space().point(towards(cast.founder.recipe, to, t, age).recipe);
+    const bool beyond = FaceSpace::distance(point, cast.founder_point) > reach;
     if (t == 1 && !beyond) break;
     t += beyond ? -step : step;
   }
   // The last step may have gone too far; the one before it not.
   CastFace face = towards(cast.founder.recipe, to, t, age);
-  if (FaceSpace::distance(judge_.space().place(face.recipe), cast.founder_place) > reach &&
+  if (FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) > reach &&
       t > step) {
     face = towards(cast.founder.recipe, to, std::max(t - 2 * step, 0.0), age);
   }
   return face;
 }
 
-bool FamilyDraws::refuses(const FamilyCast& cast, const FaceSpace::Place& place,
-                          const std::vector<FaceSpace::Place>& own, const Kinship& kinship) const {
-  if (FaceSpace::distance(place, cast.founder_place) > family_.max_distance_mm) return true;
-  if (kinship.intrudes(place, relatives_)) return true;
-  if (kin_.nearest(place, family_.min_distance_mm).face >= 0) return true;
+bool FamilyDraws::refuses(const FamilyCast& cast, const FaceSpace::Point& point,
+                          const std::vector<FaceSpace::Point>& own, const Kinship& kinship) const {
+  if (FaceSpace::distance(point, cast.founder_point) > family_.max_distance_mm) return true;
+  if (kinship.intrudes(point, relatives_)) return true;
+  if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return true;
   double farthest = 0;
-  for (const FaceSpace::Place& relative : own) {
-    const double mm = FaceSpace::distance(place, relative);
+  for (const FaceSpace::Point& relative : own) {
+    const double mm = FaceSpace::distance(point, relative);
     if (mm < family_.min_distance_mm) return true;
     farthest = std::max(farthest, mm);
     // The relative, too, must stay nearer to this one than to any stranger.
     if (strangers_.nearest(relative).mm <= mm) return true;
   }
-  return strangers_.nearest(place).mm <= farthest;
+  return strangers_.nearest(point).mm <= farthest;
 }
 
 std::string member_id(const std::string& crowd, const std::string& family, int member) {
@@ -207,25 +207,25 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
     auto found = founder.settle(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    FamilyCast cast{family.name, std::move(found->face), std::move(found->place), crowd.size(),
+    FamilyCast cast{family.name, std::move(found->face), std::move(found->point), crowd.size(),
                     crowd.size() + family.members};
     std::vector<CastFace> members;
-    std::vector<FaceSpace::Place> places;
+    std::vector<FaceSpace::Point> points;
     for (int m = 1; m <= family.members; ++m) {
       FaceSearch search([&](std::uint32_t attempt) { return draws.member(cast, m, attempt); },
                         judge, casting.diversity, 1);
-      auto member = search.settle(crowd, [&](const FaceSpace::Place& place) {
-        return draws.refuses(cast, place, places, kinship);
+      auto member = search.settle(crowd, [&](const FaceSpace::Point& point) {
+        return draws.refuses(cast, point, points, kinship);
       });
       rejections.add(search.rejections());
       if (!member) break;
       members.push_back(std::move(member->face));
-      places.push_back(std::move(member->place));
+      points.push_back(std::move(member->point));
     }
     if (static_cast<int>(members.size()) < family.members) continue;
-    kinship.add(family.name, places);
+    kinship.add(family.name, points);
     for (std::size_t m = 0; m < members.size(); ++m) {
-      crowd.add(std::move(members[m]), std::move(places[m]));
+      crowd.add(std::move(members[m]), std::move(points[m]));
     }
     return cast;
   }
@@ -233,13 +233,13 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
 }
 
 double silhouette(const std::vector<FamilyCast>& families, std::size_t family,
-                  const std::vector<FaceSpace::Place>& places) {
+                  const std::vector<FaceSpace::Point>& points) {
   const FamilyCast& own = families[family];
   const auto mean_distance = [&](Index from, const std::vector<Index>& to) {
     double sum = 0;
     for (const Index other : to) {
-      sum += FaceSpace::distance(places[static_cast<std::size_t>(from)],
-                                 places[static_cast<std::size_t>(other)]);
+      sum += FaceSpace::distance(points[static_cast<std::size_t>(from)],
+                                 points[static_cast<std::size_t>(other)]);
     }
     return to.empty() ? 0.0 : sum / static_cast<double>(to.size());
   };
@@ -260,7 +260,7 @@ double silhouette(const std::vector<FamilyCast>& families, std::size_t family,
     }
     if (families.size() == 1) {
       std::vector<Index> others = range(0, own.begin, -1);
-      const auto after = range(own.end, static_cast<Index>(places.size()), -1);
+      const auto after = range(own.end, static_cast<Index>(points.size()), -1);
       others.insert(others.end(), after.begin(), after.end());
       if (!others.empty()) b = mean_distance(i, others);
     }

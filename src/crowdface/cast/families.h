@@ -15,7 +15,7 @@ namespace crowdface {
 struct FamilyCast {
   std::string name;
   CastFace founder;  ///< not in the crowd
-  FaceSpace::Place founder_place;
+  FaceSpace::Point founder_point;
   Index begin = 0, end = 0;  ///< its members in the crowd
 };
 
@@ -25,15 +25,15 @@ class Kinship {
  public:
   /// Whether a face would come as near to a member of a family as its own do.
   /// \param relatives  families that the face may come as near to.
-  bool intrudes(const FaceSpace::Place& place,
+  bool intrudes(const FaceSpace::Point& point,
                 const std::vector<std::string>& relatives = {}) const;
   /// Notes the members of a family by their places.
-  void add(const std::string& family, const std::vector<FaceSpace::Place>& members);
+  void add(const std::string& family, const std::vector<FaceSpace::Point>& members);
 
  private:
   struct Member {
     std::string family;
-    FaceSpace::Place place;
+    FaceSpace::Point point;
     double radius_mm;  ///< how far the farthest of its own is
   };
   std::vector<Member> members_;
@@ -53,8 +53,8 @@ class FamilyDraws {
   CastFace member(const FamilyCast& cast, int member, std::uint32_t attempt) const;
 
   /// Whether a place will not do for a member beside these others of its family.
-  bool refuses(const FamilyCast& cast, const FaceSpace::Place& place,
-               const std::vector<FaceSpace::Place>& own, const Kinship& kinship) const;
+  bool refuses(const FamilyCast& cast, const FaceSpace::Point& point,
+               const std::vector<FaceSpace::Point>& own, const Kinship& kinship) const;
 
  private:
   RegionRecipe of_parent(std::size_t parent, std::size_t region, const RegionRecipe& drawn) const;
@@ -65,7 +65,7 @@ class FamilyDraws {
   const FaceJudge& judge_;
   std::vector<CastFace> parents_;       ///< those of parents that are faces; for a head its target
   std::vector<std::string> relatives_;  ///< the families of parents
-  PlaceIndex kin_, strangers_;          ///< relatives, and everyone else
+  FacePointIndex kin_, strangers_;      ///< relatives, and everyone else
 };
 
 /// "NAME_FAMILY_01".
@@ -82,6 +82,6 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
 /// distance to one's own, b that to the nearest other family (to everyone else, if it is the only
 /// one). 1: far from all others; below 0: nearer to others.
 double silhouette(const std::vector<FamilyCast>& families, std::size_t family,
-                  const std::vector<FaceSpace::Place>& places);
+                  const std::vector<FaceSpace::Point>& points);
 
 }  // namespace crowdface

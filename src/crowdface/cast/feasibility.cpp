@@ -21,7 +21,7 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall) {
   Remedy remedy;
-  remedy.binding = shortfall.rejections.main();
+  remedy.binding = shortfall.rejections.most_frequent();
   Casting easier = casting;
   double* distance = nullptr;
   if (!shortfall.family.empty() || !shortfall.reviewed.empty()) return remedy;

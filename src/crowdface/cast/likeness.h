@@ -24,6 +24,6 @@ struct Likeness {
 /// from the first: two faces that are each other's nearest always stand side by side. Of equally near
 /// faces the first counts. Time grows with the square of the number of faces.
 /// \param neighbours  how many to keep for each face.
-Likeness find_likeness(const std::vector<FaceSpace::Place>& places, std::size_t neighbours);
+Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbours);
 
 }  // namespace crowdface

@@ -58,7 +58,7 @@ double Plausibility::squared(const Metric& metric, const Eigen::VectorXf& at) {
 
 Plausibility::Plausibility(const FaceSpace& space) {
   std::vector<Eigen::VectorXf> heads;
-  for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.place_head(h).as_built);
+  for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h).as_built);
   metric_ = metric_without(heads, -1);
   if (heads.size() < 3) {  // one alone has no spread: the heads themselves are the measure
     unit_ = std::sqrt(squared(metric_, heads[0]));
@@ -72,8 +72,8 @@ Plausibility::Plausibility(const FaceSpace& space) {
   if (!(unit_ > 0)) unit_ = 1;
 }
 
-double Plausibility::score(const FaceSpace::Place& place) const {
-  return std::sqrt(std::max(squared(metric_, place.as_built), 0.0)) / unit_;
+double Plausibility::score(const FaceSpace::Point& point) const {
+  return std::sqrt(std::max(squared(metric_, point.as_built), 0.0)) / unit_;
 }
 
 }  // namespace crowdface

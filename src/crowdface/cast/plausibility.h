@@ -15,7 +15,7 @@ namespace crowdface {
 class Plausibility {
  public:
   explicit Plausibility(const FaceSpace& space);
-  double score(const FaceSpace::Place& place) const;
+  double score(const FaceSpace::Point& point) const;
 
  private:
   /// The distance's square by all heads, or by all but one.

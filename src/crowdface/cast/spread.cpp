@@ -35,7 +35,7 @@ double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double 
   return sum;
 }
 
-double squared_up_to(const FaceSpace::Place& a, const FaceSpace::Place& b, double limit) {
+double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, double limit) {
   const double as_built = squared_up_to(a.as_built, b.as_built, limit);
   return std::min(as_built, squared_up_to(a.unit, b.unit, std::min(limit, as_built)));
 }
@@ -45,7 +45,7 @@ double squared_up_to(const FaceSpace::Place& a, const FaceSpace::Place& b, doubl
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
                         const TargetsOfQuota& targets_of, std::uint64_t size) {
   const std::vector<int> schedule = schedule_quotas(casting.diversity.quotas, size);
-  std::vector<std::optional<std::pair<CastFace, FaceSpace::Place>>> drawn(size);
+  std::vector<std::optional<std::pair<CastFace, FaceSpace::Point>>> drawn(size);
   std::vector<Rejections> rejections(size);
   parallel_for_each(static_cast<Index>(size), [&](Index p) {
     const auto at = static_cast<std::size_t>(p);
@@ -55,12 +55,12 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
     for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
       const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
       CastFace face = draw_recipe(casting, {}, key, targets);
-      FaceSpace::Place place = judge.space().place(face.recipe);
-      if (const auto reason = judge.at_a_glance(face.recipe, place)) {
+      FaceSpace::Point point = judge.space().point(face.recipe);
+      if (const auto reason = judge.at_a_glance(face.recipe, point)) {
         rejections[at].add(*reason);
         continue;
       }
-      drawn[at].emplace(std::move(face), std::move(place));
+      drawn[at].emplace(std::move(face), std::move(point));
       return;
     }
   });
@@ -69,17 +69,17 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
     pool.rejections.add(rejections[p]);
     if (!drawn[p]) continue;
     pool.faces.push_back(std::move(drawn[p]->first));
-    pool.places.push_back(std::move(drawn[p]->second));
+    pool.points.push_back(std::move(drawn[p]->second));
     pool.quotas.push_back(schedule[p]);
   }
   return pool;
 }
 
 FarthestPoints::FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd)
-    : pool_(pool), squared_(pool.places.size(), HUGE_VAL), gone_(pool.places.size(), false) {
+    : pool_(pool), squared_(pool.points.size(), HUGE_VAL), gone_(pool.points.size(), false) {
   parallel_for_each(static_cast<Index>(squared_.size()), [&](Index p) {
     const auto at = static_cast<std::size_t>(p);
-    const double mm = crowd.index().nearest(pool_.places[at]).mm;
+    const double mm = crowd.index().nearest(pool_.points[at]).mm;
     squared_[at] = mm * mm;
   });
 }
@@ -98,14 +98,14 @@ FarthestPoints::Pick FarthestPoints::farthest(int quota) const {
 
 void FarthestPoints::pick(Index candidate) {
   drop(candidate);
-  const FaceSpace::Place& picked = pool_.places[static_cast<std::size_t>(candidate)];
+  const FaceSpace::Point& picked = pool_.points[static_cast<std::size_t>(candidate)];
   parallel_blocks(
       static_cast<Index>(squared_.size()), kCandidatesAtATime, [&](Index begin, Index end) {
         for (Index p = begin; p < end; ++p) {
           const auto at = static_cast<std::size_t>(p);
           if (gone_[at]) continue;
           squared_[at] =
-              std::min(squared_[at], squared_up_to(picked, pool_.places[at], squared_[at]));
+              std::min(squared_[at], squared_up_to(picked, pool_.points[at], squared_[at]));
         }
       });
 }
@@ -124,7 +124,7 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOf
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
       std::optional<Reason> why = judge.closely(pool.faces[at].recipe);
-      if (!why && kinship.intrudes(pool.places[at])) why = Reason::kFamily;
+      if (!why && kinship.intrudes(pool.points[at])) why = Reason::kFamily;
       if (!why) break;
       result.rejections.add(*why);
       points.drop(pick.candidate);
@@ -141,7 +141,7 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOf
     CastFace face = pool.faces[at];
     face.id = face_id(casting.name, index);
     face.index = index;
-    crowd.add(std::move(face), pool.places[at]);
+    crowd.add(std::move(face), pool.points[at]);
     if (joined) joined();
   }
 }

@@ -17,7 +17,7 @@ namespace crowdface {
 /// Candidates of a pool, each of which will do by itself.
 struct CandidatePool {
   std::vector<CastFace> faces;
-  std::vector<FaceSpace::Place> places;
+  std::vector<FaceSpace::Point> points;
   std::vector<int> quotas;  ///< that each counts for, or −1
   Rejections rejections;
 };

@@ -86,7 +86,7 @@ void remove_crowd(const CrowdDirectory& directory) {
 }
 
 /// Those that a crowd may have, parents first.
-std::vector<fs::path> folders_of(const CrowdDirectory& directory) {
+std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
   const fs::path data = directory.gallery() / "data";
   return {directory.meshes(),
           directory.topology(),
@@ -100,15 +100,14 @@ std::vector<fs::path> folders_of(const CrowdDirectory& directory) {
           data / "heads"};
 }
 
-/// What says what a crowd is, and what it has become.
-std::vector<fs::path> papers_of(const CrowdDirectory& directory) {
+std::vector<fs::path> record_files(const CrowdDirectory& directory) {
   return {directory.plan(),   directory.founders(), directory.table(),    directory.casting(),
           directory.report(), directory.ledger(),   directory.likeness(), directory.timings()};
 }
 
 /// \throws CannotCreate if something stands in the way of a folder or file of the crowd.
 void refuse_obstacles(const CrowdDirectory& directory) {
-  for (const fs::path& folder : folders_of(directory)) {
+  for (const fs::path& folder : crowd_folders(directory)) {
     std::error_code ignored;
     if (!fs::exists(folder, ignored)) continue;
     if (!fs::is_directory(folder, ignored)) {
@@ -118,7 +117,7 @@ void refuse_obstacles(const CrowdDirectory& directory) {
       throw CannotCreate(concat(folder.string(), ": may not be written to"));
     }
   }
-  std::vector<fs::path> files = papers_of(directory);
+  std::vector<fs::path> files = record_files(directory);
   for (const fs::path& file :
        {directory.config(), directory.log(), directory.lock(), directory.sheet(1),
         directory.sheets() / "index.png", directory.gallery() / "index.html"}) {
@@ -131,9 +130,8 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether a folder that has no config has what else a crowd has: it is another's, or is no crowd at
-/// all but somebody's own. A crowd that only lost its config is known by its ledger.
-bool is_anothers(const CrowdDirectory& directory, const std::string& effective_config) {
+/// Whether a folder that has no config has files that a crowd of ours would replace. A crowd that only lost its config is known by its ledger.
+bool holds_other_files(const CrowdDirectory& directory, const std::string& effective_config) {
   std::error_code ignored;
   if (fs::exists(directory.config(), ignored)) return false;
   const std::string name = directory.relative(directory.config());
@@ -142,7 +140,7 @@ bool is_anothers(const CrowdDirectory& directory, const std::string& effective_c
       if (entry.item == name && entry.key == hash_bytes(effective_config)) return false;
     }
   }
-  const std::vector<fs::path> papers = papers_of(directory), folders = folders_of(directory);
+  const std::vector<fs::path> papers = record_files(directory), folders = crowd_folders(directory);
   const bool holds_any =
       std::any_of(papers.begin(), papers.end(),
                   [&](const fs::path& file) { return fs::exists(file, ignored); }) ||
@@ -151,34 +149,6 @@ bool is_anothers(const CrowdDirectory& directory, const std::string& effective_c
       });
   // Another shard may have begun meanwhile: the config is the first that it writes.
   return holds_any && !fs::exists(directory.config(), ignored);
-}
-
-/// The first line in which two texts differ, from 1.
-std::size_t first_different_line(const std::string& a, const std::string& b) {
-  std::size_t line = 1;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i) {
-    if (a[i] == '\n') ++line;
-  }
-  return line;
-}
-
-/// The line `review: [a, b]` taken out of a config, and what it lists.
-std::pair<std::string, std::string> apart_from_review(const std::string& config) {
-  const std::string start = "\nreview: [";
-  const std::size_t begin = config.find(start);
-  if (begin == config.npos) return {config, ""};
-  const std::size_t end = config.find('\n', begin + 1);
-  std::string list = config.substr(begin + start.size(), end - begin - start.size());
-  if (!list.empty()) list.pop_back();  // the bracket
-  return {config.substr(0, begin) + config.substr(end), list};
-}
-
-/// Whether it is the same crowd, at most reviewed further: old reviews first, in the same order.
-bool same_crowd(const std::string& old_config, const std::string& config) {
-  const auto [old_rest, old_list] = apart_from_review(old_config);
-  const auto [rest, list] = apart_from_review(config);
-  return rest == old_rest && list.starts_with(old_list) &&
-         (list.size() == old_list.size() || old_list.empty() || list[old_list.size()] == ',');
 }
 
 /// "ledger-2of7.jsonl" beside "ledger.jsonl".
@@ -210,7 +180,8 @@ std::vector<fs::path> of_all_shards(const fs::path& path) {
 /// Nothing that a run writes, appends to or removes is reached by a link that leads elsewhere.
 /// \throws CannotCreate if it would be.
 void refuse_links(const CrowdDirectory& directory) {
-  for (const fs::path& folder : folders_of(directory)) refuse_folder_elsewhere(directory, folder);
+  for (const fs::path& folder : crowd_folders(directory))
+    refuse_folder_elsewhere(directory, folder);
   std::vector<fs::path> files = {directory.log(), directory.ledger()};
   for (const fs::path& path : directory.shard_ledgers()) files.push_back(path);
   for (const fs::path& path : directory.shard_logs()) files.push_back(path);
@@ -290,16 +261,15 @@ fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
   return meshes() / concat(id, extension_of(format));
 }
 
-void check_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                            Replace replace) {
   std::error_code ignored;
   if (fs::exists(directory.config(), ignored) && replace == Replace::kRefuse) {
-    const std::string old = read_file(directory.config());
-    if (!same_crowd(old, effective_config)) {
+    if (const auto key = config.difference(read_file(directory.config()))) {
       throw UsageError(concat(directory.root.string(),
                               ": holds another config's crowd (its config.yaml differs from this "
-                              "run's at line ",
-                              first_different_line(old, effective_config),
+                              "run's in ",
+                              *key,
                               "); choose another folder with --out, or replace it with --force"));
     }
   }
@@ -313,7 +283,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
   }
   refuse_links(directory);
   refuse_obstacles(directory);
-  if (replace == Replace::kRefuse && is_anothers(directory, effective_config)) {
+  if (replace == Replace::kRefuse && holds_other_files(directory, config.text)) {
     throw UsageError(concat(directory.root.string(),
                             ": holds files that this crowd would replace, and no config.yaml that "
                             "says they are its own; choose another folder with --out, or replace "
@@ -325,16 +295,16 @@ void check_crowd_directory(const CrowdDirectory& directory, const std::string& e
   }
 }
 
-void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                           Replace replace) {
-  check_crowd_directory(directory, effective_config, replace);
+  check_crowd_directory(directory, config, replace);
   make_directories(directory.root);
   std::error_code ignored;
   const bool is_others = fs::exists(directory.config(), ignored)
-                             ? !same_crowd(read_file(directory.config()), effective_config)
-                             : is_anothers(directory, effective_config);
+                             ? config.difference(read_file(directory.config())).has_value()
+                             : holds_other_files(directory, config.text);
   if (is_others && replace == Replace::kForce) remove_crowd(directory);
-  write_file(directory.config(), effective_config);
+  write_file(directory.config(), config.text);
 }
 
 }  // namespace crowdface

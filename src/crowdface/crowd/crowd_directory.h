@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,16 +77,22 @@ bool is_sheet_file(const std::filesystem::path& path);
 
 enum class Replace { kRefuse, kForce };
 
+/// What tells one crowd's folder from another's.
+struct CrowdConfig {
+  std::string text;  ///< that will stand in config.yaml
+  /// The first key in which the text of another config.yaml differs; nothing if it is the same crowd's.
+  std::function<std::optional<std::string>(const std::string& other)> difference;
+};
+
 /// Refuses a folder that could not be opened, before any heavy work, and changes nothing.
 /// \throws UsageError if it holds another crowd; CannotCreate if it cannot be written to.
-void check_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                            Replace replace);
 
 /// Makes the folder ready for this config's crowd: creates it, refuses one that holds another
 /// config's crowd, or (kForce) removes that crowd's files first, and no others.
-/// \param effective_config  the text that will stand in config.yaml.
 /// \throws UsageError if the folder holds another crowd; CannotCreate, IoError.
-void open_crowd_directory(const CrowdDirectory& directory, const std::string& effective_config,
+void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                           Replace replace);
 
 }  // namespace crowdface

@@ -68,9 +68,9 @@ class LikenessReader {
 }  // namespace
 
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
-                             const std::vector<FaceSpace::Place>& places) {
+                             const std::vector<FaceSpace::Point>& points) {
   constexpr std::size_t kNeighbours = 6;  // of each face: two rows on its page of the gallery
-  CrowdLikeness likeness{anchors, find_likeness(places, kNeighbours)};
+  CrowdLikeness likeness{anchors, find_likeness(points, kNeighbours)};
   for (std::vector<Neighbour>& near : likeness.likeness.near) {
     for (Neighbour& other : near) other.mm = rounded(other.mm);
   }

@@ -18,9 +18,9 @@ struct CrowdLikeness {
 };
 
 /// Of a crowd that was just cast. Distances have four decimals, as in the file, so that pictures made
-/// from that are the same. \param places  #faces.
+/// from that are the same. \param points  #faces.
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
-                             const std::vector<FaceSpace::Place>& places);
+                             const std::vector<FaceSpace::Point>& points);
 
 /// likeness.json (docs/crowd-directory.md).
 std::string format_likeness(const CrowdLikeness& likeness, const PlanNames& names,

@@ -19,7 +19,7 @@
 #include "crowdface/crowd/face_mesh.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/alignment.h"
-#include "crowdface/pictures/sheet_pages.h"
+#include "crowdface/pictures/sheet_writer.h"
 #include "crowdface/render/heat_colours.h"
 
 namespace crowdface {
@@ -174,7 +174,7 @@ class CrowdSheets {
     const std::vector<std::size_t> order = sheet_order(sheet_.order, crowd_, likeness_);
     const std::size_t per_page =
         static_cast<std::size_t>(sheet_.columns) * static_cast<std::size_t>(sheet_.rows);
-    const std::size_t pages = sheet_pages(sheet_, order.size());
+    const std::size_t pages = sheet_page_count(sheet_, order.size());
     Progress progress("contact sheets", pages);
     for (std::size_t page = 0; page < pages; ++page) {
       throw_if_interrupted();
@@ -276,13 +276,13 @@ class CrowdSheets {
   const CrowdRenders& renders_;
   const std::vector<CastFace>& crowd_;
   const Likeness& likeness_;
-  SheetPages pages_;
+  SheetWriter pages_;
   Positions reference_;  ///< the one mesh that all are compared with, or empty
 };
 
 }  // namespace
 
-std::size_t sheet_pages(const Config::ContactSheet& sheet, std::size_t faces) {
+std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces) {
   const std::size_t per_page =
       static_cast<std::size_t>(sheet.columns) * static_cast<std::size_t>(sheet.rows);
   return (faces + per_page - 1) / per_page;

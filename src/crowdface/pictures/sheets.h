@@ -27,7 +27,7 @@ std::size_t write_sheets(const Config& config, const Config::ContactSheet& sheet
                          const Likeness& likeness);
 
 /// How many pages a crowd's contact sheets have.
-std::size_t sheet_pages(const Config::ContactSheet& sheet, std::size_t faces);
+std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces);
 
 /// How the faces follow each other: indices into the crowd.
 std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,

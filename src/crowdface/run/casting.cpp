@@ -50,13 +50,13 @@ CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_dista
                        const CrowdCast& cast) {
   CrowdDistances distances;
   distances.heads = quartiles(below_diagonal(head_distances));
-  distances.crowd = quartiles(pair_distances(cast.places));
+  distances.crowd = quartiles(pair_distances(cast.points));
   if (distances.heads.median > 0) {
     distances.ratio = distances.crowd.median / distances.heads.median;
   }
   const Index regions = space.sampled().alpha.cols();
   for (Index k = 0; regions > 1 && k < regions; ++k) {
-    distances.regions.push_back(quartiles(pair_distances(space, k, cast.places)));
+    distances.regions.push_back(quartiles(pair_distances(space, k, cast.points)));
   }
   std::vector<double> to_head, to_face;
   for (const CastFace& face : cast.crowd) {
@@ -70,26 +70,26 @@ CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_dista
 
 std::vector<FamilyReport> report_families(const CrowdCast& cast) {
   std::vector<FamilyReport> reports;
-  PlaceIndex index(cast.places.empty() ? 1 : cast.places[0].as_built.size());
-  for (const FaceSpace::Place& place : cast.places) index.add(place);
+  FacePointIndex index(cast.points.empty() ? 1 : cast.points[0].as_built.size());
+  for (const FaceSpace::Point& point : cast.points) index.add(point);
   for (std::size_t f = 0; f < cast.families.size(); ++f) {
     const FamilyCast& family = cast.families[f];
     FamilyReport report;
     report.name = family.name;
     report.members = static_cast<std::uint64_t>(family.end - family.begin);
-    const std::vector<FaceSpace::Place> members(cast.places.begin() + family.begin,
-                                                cast.places.begin() + family.end);
+    const std::vector<FaceSpace::Point> members(cast.points.begin() + family.begin,
+                                                cast.points.begin() + family.end);
     report.within = quartiles(pair_distances(members));
     std::vector<double> to_founder;
     double nearest = HUGE_VAL;
-    for (const FaceSpace::Place& member : members) {
-      to_founder.push_back(FaceSpace::distance(member, family.founder_place));
+    for (const FaceSpace::Point& member : members) {
+      to_founder.push_back(FaceSpace::distance(member, family.founder_point));
       nearest = std::min(nearest, index.nearest(member, nearest, 0, family.begin).mm);
       nearest = std::min(nearest, index.nearest(member, nearest, family.end, index.size()).mm);
     }
     report.to_founder = quartiles(std::move(to_founder));
     report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
-    report.silhouette = silhouette(cast.families, f, cast.places);
+    report.silhouette = silhouette(cast.families, f, cast.points);
     reports.push_back(std::move(report));
   }
   return reports;
@@ -185,7 +185,7 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
 
 }  // namespace
 
-CastingGround casting_ground(const Job& job, const Prepared& prepared) {
+CastingSpace casting_space(const Job& job, const Prepared& prepared) {
   const Inputs& inputs = job.inputs;
   const Config& config = job.config;
   const Positions mean = mean_head(inputs.faces);
@@ -209,12 +209,12 @@ Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances) {
 }
 
 Cast cast(const Job& job, const Prepared& prepared) {
-  const CastingGround ground = casting_ground(job, prepared);
-  const FaceSpace& space = ground.space;
+  const CastingSpace judged_in = casting_space(job, prepared);
+  const FaceSpace& space = judged_in.space;
   const Eigen::MatrixXd head_distances = space.head_distances();
   const Casting casting = casting_of(job, head_distances);
   const BelievabilityOptions& believability = job.config.believability;
-  const FaceJudge judge(space, casting.diversity, believability, &ground.skin,
+  const FaceJudge judge(space, casting.diversity, believability, &judged_in.skin,
                         mesh_defects(job, prepared));
   CrowdCast crowd;
   {
@@ -222,7 +222,8 @@ Cast cast(const Job& job, const Prepared& prepared) {
     crowd = cast_crowd(casting, judge, [&] { progress.step(); });
   }
   if (crowd.shortfall) {
-    tell_shortfall(job, find_remedy(casting, space, believability, &ground.skin, *crowd.shortfall),
+    tell_shortfall(job,
+                   find_remedy(casting, space, believability, &judged_in.skin, *crowd.shortfall),
                    *crowd.shortfall);
   }
   Cast result;
@@ -233,7 +234,7 @@ Cast cast(const Job& job, const Prepared& prepared) {
   for (FamilyCast& family : crowd.families) {
     result.founders.push_back({family.name, std::move(family.founder)});
   }
-  result.places = std::move(crowd.places);
+  result.points = std::move(crowd.points);
   result.quotas = std::move(crowd.quotas);
   result.rejections = crowd.rejections;
   return result;

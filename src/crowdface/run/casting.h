@@ -11,11 +11,11 @@
 namespace crowdface {
 
 /// Where this job's faces are compared and judged.
-struct CastingGround {
+struct CastingSpace {
   FaceSpace space;
   ProxySkin skin;
 };
-CastingGround casting_ground(const Job& job, const Prepared& prepared);
+CastingSpace casting_space(const Job& job, const Prepared& prepared);
 
 /// What casting is to do, from the config.
 Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances);
@@ -54,7 +54,7 @@ struct Cast {
   CrowdDistances distances;
   std::vector<FamilyReport> families;
   std::vector<FamilyFounder> founders;
-  std::vector<FaceSpace::Place> places;  ///< of each face of the crowd
+  std::vector<FaceSpace::Point> points;  ///< of each face of the crowd
 };
 
 /// Casts the crowd. \throws Unsatisfiable if the constraints cannot be met: which one binds, how far

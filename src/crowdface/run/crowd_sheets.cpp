@@ -67,7 +67,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
     hasher.add(files[i].picture->digest);
     for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
   }
-  hasher.add(format_likeness(crowd_likeness(cast.anchors, cast.places), job.names, ids));
+  hasher.add(format_likeness(crowd_likeness(cast.anchors, cast.points), job.names, ids));
   return hasher.digest();
 }
 
@@ -81,12 +81,12 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
   const Digest key = key_of_sheets(job, directory, cast, files);
   // What faces are compared with may have changed since.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
-  if (!may_change && ledger.proven(kItem, key)) return sheet_pages(sheet, crowd.size());
+  if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
   if (!cast.founders.empty()) {
     write_founders(cast.founders, FaceBuilder(job, prepared), pictures.get());
   }
-  const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast.anchors, cast.places));
+  const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast.anchors, cast.points));
   ledger.record(kItem, key, sheet_files(directory));
   return pages;
 }
@@ -108,7 +108,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             ": this crowd has no contact sheet; ask for one with --set "
                             "output.contact_sheet='{columns: 6}'"));
   }
-  check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
+  check_crowd_directory(directory, crowd_config(job, directory), Replace::kForce);
   std::vector<CastFace> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {

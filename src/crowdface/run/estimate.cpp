@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/config/config_writer.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
@@ -138,11 +137,12 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   const Job job = load_job(config_file, overrides);
   const CrowdDirectory directory{job.config.output.directory};
   // Beside whatever crowd is there: two files of its own.
-  check_crowd_directory(directory, effective_config(job.config, directory.root), Replace::kForce);
+  check_crowd_directory(directory, crowd_config(job, directory), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
-  const CastingGround ground = casting_ground(job, prepared);
-  const Casting casting = casting_of(job, ground.space.head_distances());
-  const FaceJudge judge(ground.space, casting.diversity, job.config.believability, &ground.skin);
+  const CastingSpace judged_in = casting_space(job, prepared);
+  const Casting casting = casting_of(job, judged_in.space.head_distances());
+  const FaceJudge judge(judged_in.space, casting.diversity, job.config.believability,
+                        &judged_in.skin);
   const std::uint64_t asked = job.config.crowd.count;
   const auto rows = estimate_capacity(casting, judge, counts_up_to(asked),
                                       std::clamp(5 * asked, kSmallestPool, kLargestPool));

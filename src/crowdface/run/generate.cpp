@@ -340,7 +340,7 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   if (is_new && !crowd.cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
   refuse_other_heads(job, directory, options.replace);  // another run may have come before this one
-  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+  open_crowd_directory(directory, crowd_config(job, directory), options.replace);
   const CrowdLog log(directory.log(options.shard));
   memory.replay();
   try {
@@ -395,7 +395,7 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
   const CastJob crowd = cast_job(job, options, stages);
   const CrowdLock lock(directory, {});
   refuse_other_heads(job, directory, options.replace);
-  open_crowd_directory(directory, effective_config(job.config, directory.root), options.replace);
+  open_crowd_directory(directory, crowd_config(job, directory), options.replace);
   write_plan(job, directory, crowd.cast,
              [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });
   log_info(concat(crowd.cast.crowd.size(), " recipes in ", directory.plan().string()));

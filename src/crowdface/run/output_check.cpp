@@ -70,7 +70,7 @@ void check_output(const Job& job, Replace replace) {
   const CrowdDirectory directory{job.config.output.directory};
   refuse_to_write_over_inputs(job, directory);
   refuse_to_write_over_config(job, directory);
-  check_crowd_directory(directory, effective_config(job.config, directory.root), replace);
+  check_crowd_directory(directory, crowd_config(job, directory), replace);
   refuse_other_heads(job, directory, replace);
 }
 

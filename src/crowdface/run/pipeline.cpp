@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/pipeline.h"
 
+#include "crowdface/config/config_difference.h"
+#include "crowdface/config/config_writer.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/load_inputs.h"
@@ -78,6 +80,11 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
   std::optional<Job> job = load_job(config_file, overrides, problems);
   problems.throw_if_any();
   return std::move(*job);
+}
+
+CrowdConfig crowd_config(const Job& job, const CrowdDirectory& directory) {
+  std::string text = effective_config(job.config, directory.root);
+  return {text, [text](const std::string& other) { return config_difference(other, text); }};
 }
 
 LevelScale level_scale(const Job& job) {

@@ -7,6 +7,7 @@
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/config/config.h"
 #include "crowdface/config/config_reader.h"
+#include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/plan_file.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/heads/prepare.h"
@@ -28,6 +29,9 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
                             const ConfigOverrides& overrides, Problems& problems);
 /// \throws Error with all problems.
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides);
+
+/// The job's config as it will stand in that folder.
+CrowdConfig crowd_config(const Job& job, const CrowdDirectory& directory);
 
 /// What turns a smoothness into iterations on these heads.
 LevelScale level_scale(const Job& job);

@@ -34,11 +34,11 @@ class PointBlocks {
 };
 
 /// Faces that can be asked which of them is nearest.
-class PlaceIndex {
+class FacePointIndex {
  public:
-  explicit PlaceIndex(Index dimensions) : as_built_(dimensions), unit_(dimensions) {}
+  explicit FacePointIndex(Index dimensions) : as_built_(dimensions), unit_(dimensions) {}
 
-  void add(const FaceSpace::Place& place);
+  void add(const FaceSpace::Point& point);
   Index size() const { return as_built_.size(); }
 
   struct Nearest {
@@ -46,7 +46,7 @@ class PlaceIndex {
     double mm = HUGE_VAL;
   };
   /// The nearest of the first `end` faces (of all, if less than 0), if it is nearer than `limit_mm`.
-  Nearest nearest(const FaceSpace::Place& place, double limit_mm = HUGE_VAL, Index begin = 0,
+  Nearest nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
                   Index end = -1) const;
 
  private:

@@ -12,12 +12,12 @@ namespace crowdface {
 
 /// Writes pages of contact sheets into one folder, in the formats asked for. Every 64 pages have an
 /// index and, if asked for, a PDF of their own, so that memory does not grow with the crowd.
-class SheetPages {
+class SheetWriter {
  public:
   /// \param folder  must be there; pages of an earlier run that are not written again are removed by
   ///                `finish`. \param title  of each index.
-  SheetPages(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
-             std::string title);
+  SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
+              std::string title);
 
   /// \param stem     the file's name without ending. \param caption  under its picture in the index.
   void add(const std::string& stem, const std::string& caption, const Rgb8Image& page);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/pictures/sheet_pages.h"
+#include "crowdface/pictures/sheet_writer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,20 +37,20 @@ std::string to_exr(const Rgb8Image& image) {
 
 }  // namespace
 
-SheetPages::SheetPages(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
-                       std::string title)
+SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
+                         std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {}
 
-bool SheetPages::has(SheetFormat format) const {
+bool SheetWriter::has(SheetFormat format) const {
   return std::find(formats_.begin(), formats_.end(), format) != formats_.end();
 }
 
-void SheetPages::write(const std::string& name, const std::string& bytes) {
+void SheetWriter::write(const std::string& name, const std::string& bytes) {
   write_file(folder_ / name, bytes);
   written_.push_back(name);
 }
 
-void SheetPages::add(const std::string& stem, const std::string& caption, const Rgb8Image& page) {
+void SheetWriter::add(const std::string& stem, const std::string& caption, const Rgb8Image& page) {
   if (index_.size() == kPagesAVolume) finish_volume(false);
   std::string png = to_png(page);
   write(stem + ".png", png);
@@ -61,7 +61,7 @@ void SheetPages::add(const std::string& stem, const std::string& caption, const 
                     concat(stem, "\n", caption)});
 }
 
-void SheetPages::write_index(const std::string& number) {
+void SheetWriter::write_index(const std::string& number) {
   int width = 0, height = 0;
   for (const SheetCell& cell : index_) {
     width = std::max(width, cell.image.width);
@@ -81,7 +81,7 @@ void SheetPages::write_index(const std::string& number) {
   if (has(SheetFormat::kPdf)) pngs_.insert(pngs_.begin(), png);
 }
 
-void SheetPages::finish_volume(bool is_last) {
+void SheetWriter::finish_volume(bool is_last) {
   const bool is_only = is_last && volumes_ == 0;
   const std::string number = is_only ? std::string() : concat('_', zero_padded(volumes_ + 1, 3));
   if (!is_only || index_.size() > 1) write_index(number);
@@ -91,7 +91,7 @@ void SheetPages::finish_volume(bool is_last) {
   ++volumes_;
 }
 
-void SheetPages::finish() {
+void SheetWriter::finish() {
   finish_volume(true);
   std::error_code ignored;
   std::vector<std::filesystem::path> old;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/place_index.h"
+#include "crowdface/cast/face_point_index.h"
 
 #include <algorithm>
 
@@ -50,18 +50,18 @@ PointBlocks::Hit PointBlocks::nearest(const Eigen::VectorXf& query, double limit
   return best;
 }
 
-void PlaceIndex::add(const FaceSpace::Place& place) {
-  as_built_.add(place.as_built);
-  unit_.add(place.unit);
-  extrapolated_ = extrapolated_ || place.as_built != place.unit;
+void FacePointIndex::add(const FaceSpace::Point& point) {
+  as_built_.add(point.as_built);
+  unit_.add(point.unit);
+  extrapolated_ = extrapolated_ || point.as_built != point.unit;
 }
 
-PlaceIndex::Nearest PlaceIndex::nearest(const FaceSpace::Place& place, double limit_mm, Index begin,
-                                        Index end) const {
+FacePointIndex::Nearest FacePointIndex::nearest(const FaceSpace::Point& point, double limit_mm,
+                                                Index begin, Index end) const {
   if (end < 0) end = size();
-  PointBlocks::Hit hit = as_built_.nearest(place.as_built, limit_mm * limit_mm, begin, end);
-  if (extrapolated_ || place.as_built != place.unit) {
-    const PointBlocks::Hit other = unit_.nearest(place.unit, hit.squared, begin, end);
+  PointBlocks::Hit hit = as_built_.nearest(point.as_built, limit_mm * limit_mm, begin, end);
+  if (extrapolated_ || point.as_built != point.unit) {
+    const PointBlocks::Hit other = unit_.nearest(point.unit, hit.squared, begin, end);
     if (other.point >= 0) hit = other;
   }
   if (hit.point < 0) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/place_index.h"
+#include "crowdface/cast/face_point_index.h"
 
 #include <gtest/gtest.h>
 
@@ -9,36 +9,36 @@ namespace crowdface {
 namespace {
 
 /// Places whose leading coordinates vary most, some of them extrapolated.
-std::vector<FaceSpace::Place> random_places(std::uint64_t count, Index dimensions,
+std::vector<FaceSpace::Point> random_points(std::uint64_t count, Index dimensions,
                                             bool extrapolated) {
-  std::vector<FaceSpace::Place> places;
+  std::vector<FaceSpace::Point> points;
   for (std::uint64_t i = 0; i < count; ++i) {
-    FaceSpace::Place place{Eigen::VectorXf(dimensions), Eigen::VectorXf(dimensions)};
+    FaceSpace::Point point{Eigen::VectorXf(dimensions), Eigen::VectorXf(dimensions)};
     for (Index d = 0; d < dimensions; ++d) {
       const auto [a, b] = random_pair({7, i, "place", 0}, static_cast<std::uint32_t>(d));
       const double scale = 5 / (1 + static_cast<double>(d));
-      place.as_built[d] = static_cast<float>(scale * (a - 0.5));
-      place.unit[d] =
-          extrapolated && i % 2 == 0 ? static_cast<float>(scale * (b - 0.5)) : place.as_built[d];
+      point.as_built[d] = static_cast<float>(scale * (a - 0.5));
+      point.unit[d] =
+          extrapolated && i % 2 == 0 ? static_cast<float>(scale * (b - 0.5)) : point.as_built[d];
     }
-    places.push_back(place);
+    points.push_back(point);
   }
-  return places;
+  return points;
 }
 
-TEST(PlaceIndex, FindsTheNearestAsASearchThroughAllDoes) {
+TEST(FacePointIndex, FindsTheNearestAsASearchThroughAllDoes) {
   for (const Index dimensions : {1, 16, 37, 100}) {
     for (const bool extrapolated : {false, true}) {
-      const auto places = random_places(203, dimensions, extrapolated);
-      PlaceIndex index(dimensions);
-      for (const FaceSpace::Place& place : places) index.add(place);
+      const auto points = random_points(203, dimensions, extrapolated);
+      FacePointIndex index(dimensions);
+      for (const FaceSpace::Point& point : points) index.add(point);
       ASSERT_EQ(index.size(), 203);
-      const auto queries = random_places(260, dimensions, true);
+      const auto queries = random_points(260, dimensions, true);
       for (std::size_t q = 203; q < queries.size(); ++q) {
         for (const auto& [begin, end] : {std::pair<Index, Index>{0, 203}, {5, 150}, {33, 34}}) {
-          PlaceIndex::Nearest expected;
+          FacePointIndex::Nearest expected;
           for (Index i = begin; i < end; ++i) {
-            const double mm = FaceSpace::distance(queries[q], places[static_cast<std::size_t>(i)]);
+            const double mm = FaceSpace::distance(queries[q], points[static_cast<std::size_t>(i)]);
             if (mm < expected.mm) expected = {i, mm};
           }
           const auto found = index.nearest(queries[q], HUGE_VAL, begin, end);
@@ -52,18 +52,18 @@ TEST(PlaceIndex, FindsTheNearestAsASearchThroughAllDoes) {
   }
 }
 
-TEST(PlaceIndex, BitsDoNotDependOnWhatElseIsStored) {
-  const auto places = random_places(50, 40, true);
-  PlaceIndex all(40), two(40);
-  for (const FaceSpace::Place& place : places) all.add(place);
-  two.add(places[49]);
-  const FaceSpace::Place& query = places[3];
+TEST(FacePointIndex, BitsDoNotDependOnWhatElseIsStored) {
+  const auto points = random_points(50, 40, true);
+  FacePointIndex all(40), two(40);
+  for (const FaceSpace::Point& point : points) all.add(point);
+  two.add(points[49]);
+  const FaceSpace::Point& query = points[3];
   EXPECT_EQ(all.nearest(query, HUGE_VAL, 49, 50).mm, two.nearest(query).mm);
 }
 
-TEST(PlaceIndex, EmptyOneHasNoNearest) {
-  const auto places = random_places(1, 8, false);
-  const auto nearest = PlaceIndex(8).nearest(places[0]);
+TEST(FacePointIndex, EmptyOneHasNoNearest) {
+  const auto points = random_points(1, 8, false);
+  const auto nearest = FacePointIndex(8).nearest(points[0]);
   EXPECT_EQ(nearest.face, -1);
   EXPECT_EQ(nearest.mm, HUGE_VAL);
 }

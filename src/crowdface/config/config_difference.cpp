@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/config_difference.h"
+
+#include <algorithm>
+
+#include "crowdface/config/yaml.h"
+
+namespace crowdface {
+namespace {
+
+bool same_item(const YamlNode& a, const YamlNode& b);
+
+/// The first node of `b`, or else of `a`, that the other lacks or has otherwise.
+const YamlNode* first_difference(const YamlNode& a, const YamlNode& b) {
+  if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size()) return &b;
+  for (std::size_t i = 0; i < a.items.size(); ++i) {
+    if (!same_item(a.items[i], b.items[i])) return &b;
+  }
+  for (const YamlEntry& entry : b.entries) {
+    const YamlEntry* old = a.find(entry.key);
+    if (old == nullptr) return &entry.value;
+    if (const YamlNode* found = first_difference(old->value, entry.value)) return found;
+  }
+  for (const YamlEntry& entry : a.entries) {
+    if (b.find(entry.key) == nullptr) return &entry.value;
+  }
+  return nullptr;
+}
+
+bool same_item(const YamlNode& a, const YamlNode& b) {
+  return first_difference(a, b) == nullptr;
+}
+
+/// Drops from the newer list of reviews those that come after all of the older ones.
+void forget_later_reviews(const YamlNode& old, YamlNode& root) {
+  const YamlEntry* before = old.find("review");
+  const auto now = std::find_if(root.entries.begin(), root.entries.end(),
+                                [](const YamlEntry& entry) { return entry.key == "review"; });
+  if (before == nullptr || now == root.entries.end()) return;
+  std::vector<YamlNode>& reviews = now->value.items;
+  if (reviews.size() > before->value.items.size()) {
+    reviews.erase(reviews.begin() + static_cast<std::ptrdiff_t>(before->value.items.size()),
+                  reviews.end());
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> config_difference(const std::string& old_text, const std::string& text) {
+  if (old_text == text) return std::nullopt;
+  Complaints complaints;
+  const auto old = parse_yaml(old_text, "", complaints);
+  auto root = parse_yaml(text, "", complaints);
+  if (!old || !root || !complaints.empty()) return "all of it, as it is no config that can be read";
+  forget_later_reviews(*old, *root);
+  const YamlNode* found = first_difference(*old, *root);
+  if (found == nullptr) return std::nullopt;
+  return found->path.empty() ? "its keys" : found->path;
+}
+
+}  // namespace crowdface
