@@ -93,19 +93,17 @@ class FaceSpaceTest : public ::testing::Test {
   /// first, in millimetres.
   double mesh_distance(const Positions& a, const Positions& b) const {
     // The face: what lies in front of the head's middle; each vertex stands for a share of area.
-    Eigen::VectorXd area = Eigen::VectorXd::Zero(a.rows());
+    std::vector<double> area(static_cast<std::size_t>(a.rows()), 0.0);
     for (Index f = 0; f < faces_.topology.face_count(); ++f) {
       for (const std::uint32_t v : faces_.topology.face(f)) {
-        area(v) += face_area(f);
+        area[v] += face_area(f);
       }
     }
     const double middle = (mean_.col(2).maxCoeff() + mean_.col(2).minCoeff()) / 2;
     for (Index i = 0; i < a.rows(); ++i) {
-      if (mean_(i, 2) < middle) area(i) = 0;
+      if (mean_(i, 2) < middle) area[static_cast<std::size_t>(i)] = 0;
     }
-    const Positions moved = fit_similarity(b, a, ScaleFit::kRigid, area).apply(b);
-    const double squared = ((a - moved).rowwise().squaredNorm().array() * area.array()).sum();
-    return kMmPerUnit * std::sqrt(squared / area.sum());
+    return kMmPerUnit * face_distance(a, b, area);
   }
   double face_area(Index f) const {
     const auto face = faces_.topology.face(f);

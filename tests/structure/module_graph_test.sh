@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # scripts/module_graph.sh accepts a downward include, and fails on an upward one, on one between
-# modules of the same floor, on an unknown module and on a stale page.
+# modules of the same floor, on the umbrella header in a module, on an unknown module and on a stale page.
 #   module_graph_test.sh ROOT
 set -euo pipefail
 script=$1/scripts/module_graph.sh
