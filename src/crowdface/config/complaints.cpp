@@ -22,6 +22,16 @@ void Complaints::expected(const YamlNode& node, const std::string& expected) {
   about(node, concat("expected ", expected, ", found ", describe(node)));
 }
 
+bool Complaints::expect_list(const YamlNode& node, const std::string& what) {
+  if (node.kind != YamlNode::Kind::kList) expected(node, what);
+  return node.kind == YamlNode::Kind::kList;
+}
+
+bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
+  if (node.kind != YamlNode::Kind::kMap) expected(node, what);
+  return node.kind == YamlNode::Kind::kMap;
+}
+
 void Complaints::tell(Problems& problems) const {
   constexpr std::size_t kMostTold = 100;  // more would only bury the first
   std::vector<Complaint> sorted = complaints_;

@@ -23,6 +23,9 @@ class Complaints {
   void about(const YamlNode& node, const std::string& what, ExitCode kind = ExitCode::kUsage);
   /// "PATH: expected EXPECTED, found …" at the node.
   void expected(const YamlNode& node, const std::string& expected);
+  /// Whether the node is a list, or a mapping; the same complaint if not.
+  bool expect_list(const YamlNode& node, const std::string& what);
+  bool expect_map(const YamlNode& node, const std::string& what);
 
   bool empty() const { return complaints_.empty(); }
   std::size_t size() const { return complaints_.size(); }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/config_reader.h"
 
-#include "crowdface/config/config_sections.h"
-#include "crowdface/core/text.h"
+#include "crowdface/config/config_keys.h"
 
 namespace crowdface {
 namespace {
@@ -39,16 +38,18 @@ void read_root(const YamlNode& node, const ConfigOverrides& overrides, ConfigDra
       draft.complaints);
   if (node.kind != YamlNode::Kind::kMap) return;
   read_schema(root, draft.complaints);
-  read_crowd(root.require("crowd", "such as \"crowd: {name: market, count: 24}\""), draft);
+  read_keys(root.require("crowd", "such as \"crowd: {name: market, count: 24}\""), crowd_keys(),
+            draft.config.crowd, draft);
   read_faces(root.require("faces", "such as \"faces: {directory: heads, units: cm}\""), draft);
   read_regions(root.find("regions"), draft);
-  read_smoothing(root.find("smoothing"), draft);
-  read_blending(root.find("blending"), draft);
+  draft.largest_size_mm = draft.config.smoothing.max_size_mm;
+  read_keys(root.find("smoothing"), smoothing_keys(), draft.config.smoothing, draft);
+  read_keys(root.find("blending"), blending_keys(), draft.config.blending, draft);
   read_parts(root.find("parts"), draft);
   read_plane(root.find("plane"), draft);
   read_sampling(root.find("sampling"), draft);
-  read_distance(root.find("distance"), draft);
-  read_diversity(root.find("diversity"), draft);
+  read_keys(root.find("distance"), distance_keys(), draft.config.distance, draft);
+  read_keys(root.find("diversity"), diversity_keys(), draft.config.diversity, draft);
   read_believability(root.find("believability"), draft);
   read_recipes(root.find("recipes"), draft);
   read_families(root.find("families"), draft);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sections with plain values: crowd, smoothing, blending, plane, output; and looking up names.
 #include <algorithm>
-#include <set>
 
 #include "crowdface/blend/recipe_bounds.h"
-#include "crowdface/config/config_sections.h"
-#include "crowdface/core/text.h"
+#include "crowdface/config/config_keys.h"
 
 namespace crowdface {
 namespace {
@@ -16,10 +14,7 @@ constexpr double kLeastToleranceMm = 0.005;
 
 void read_anchors(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kMap) {
-    draft.complaints.expected(*node, "a mapping from heads to points, {head: [x, y]}");
-    return;
-  }
+  if (!draft.complaints.expect_map(*node, "a mapping from heads to points, {head: [x, y]}")) return;
   for (const YamlEntry& entry : node->entries) {
     const auto head = find_head(entry.key, entry.key_place, node->path, draft);
     const auto point = read_point(entry.value, draft.complaints);
@@ -43,22 +38,18 @@ void check_manual_anchors(const YamlNode& node, const YamlNode* anchors, ConfigD
 
 void read_meshes(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kList) {
-    draft.complaints.expected(*node, "a list, such as [obj], or [] for no meshes");
-    return;
+  if (!draft.complaints.expect_list(*node, "a list, such as [obj], or [] for no meshes")) return;
+  draft.config.output.meshes =
+      read_choices(*node, words_by_name(all_mesh_formats()), draft.complaints);
+}
+
+std::optional<double> read_tolerance(const YamlNode& node, ConfigDraft& draft) {
+  const auto length = read_length_mm(node, kMaxSizeMm, draft.complaints);
+  if (length && *length < kLeastToleranceMm) {
+    draft.complaints.expected(node, concat("a length of at least ", kLeastToleranceMm,
+                                           " mm, what single precision can hold"));
   }
-  Choices<MeshFormat> choices;
-  for (const MeshFormat format : all_mesh_formats()) choices.emplace_back(name_of(format), format);
-  std::vector<MeshFormat>& meshes = draft.config.output.meshes;
-  meshes.clear();
-  for (const YamlNode& item : node->items) {
-    const auto format = read_choice(item, choices, draft.complaints);
-    if (!format) continue;
-    if (std::find(meshes.begin(), meshes.end(), *format) != meshes.end()) {
-      draft.complaints.about(item, concat(quoted(item.text), " is named twice"));
-    }
-    meshes.push_back(*format);
-  }
+  return length;
 }
 
 }  // namespace
@@ -103,71 +94,51 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
   return heads;
 }
 
-void read_crowd(const YamlNode* node, ConfigDraft& draft) {
-  Config::Crowd& crowd = draft.config.crowd;
-  const MapReader map(node, {"name", "count", "seed"}, draft.complaints);
-  if (const YamlNode* name = map.require("name", "what the faces' ids start with")) {
-    crowd.name = read_name(*name, draft.complaints).value_or("");
-  }
-  if (const YamlNode* count = map.require("count", "how many faces are sampled")) {
-    crowd.count = read_whole(*count, 0, kMaxCount, draft.complaints).value_or(0);
-  }
-  if (const YamlNode* seed = map.find("seed")) {
-    crowd.seed = read_whole(*seed, 0, UINT64_MAX, draft.complaints).value_or(1);
-  }
+const Keys<Config::Crowd>& crowd_keys() {
+  using Crowd = Config::Crowd;
+  static const Keys<Crowd> keys = {
+      key(
+          "name", &Crowd::name,
+          [](const YamlNode& node, ConfigDraft& draft) {
+            return read_name(node, draft.complaints);
+          },
+          write_scalar, "what the faces' ids start with"),
+      whole_key("count", &Crowd::count, 0, kMaxCount, "how many faces are sampled"),
+      whole_key("seed", &Crowd::seed, 0, UINT64_MAX)};
+  return keys;
 }
 
-void read_smoothing(const YamlNode* node, ConfigDraft& draft) {
-  Config::Smoothing& smoothing = draft.config.smoothing;
-  const MapReader map(node,
-                      {"max_size", "max_iterations", "boundary", "operator", "levels", "tolerance"},
-                      draft.complaints);
-  draft.largest_size_mm = smoothing.max_size_mm;
-  if (const YamlNode* size = map.find("max_size")) {
-    const auto length = read_length_mm(*size, kMaxSizeMm, draft.complaints);
-    if (length == 0.0) draft.complaints.expected(*size, "a length above 0 mm");
-    if (length) smoothing.max_size_mm = *length;
-    draft.largest_size_mm = length;
-  }
-  if (const YamlNode* iterations = map.find("max_iterations")) {
-    smoothing.max_iterations = read_whole(*iterations, 1, kMaxIterations, draft.complaints);
-    draft.most_iterations = smoothing.max_iterations;
-    draft.largest_size_mm.reset();  // how long a size it makes depends on the mesh
-  }
-  if (const YamlNode* boundary = map.find("boundary")) {
-    const Choices<Boundary> choices = {{"fixed", Boundary::kFixed}, {"free", Boundary::kFree}};
-    smoothing.boundary =
-        read_choice(*boundary, choices, draft.complaints).value_or(Boundary::kFixed);
-  }
-  if (const YamlNode* kind = map.find("operator")) {
-    const Choices<OperatorKind> choices = {{"umbrella", OperatorKind::kUmbrella},
-                                           {"lazy", OperatorKind::kLazy}};
-    smoothing.operator_kind =
-        read_choice(*kind, choices, draft.complaints).value_or(OperatorKind::kUmbrella);
-  }
-  if (const YamlNode* levels = map.find("levels")) {
-    const Choices<Levels> choices = {
-        {"basis", Levels::kBasis}, {"exact", Levels::kExact}, {"cubic", Levels::kCubic}};
-    smoothing.levels = read_choice(*levels, choices, draft.complaints).value_or(Levels::kBasis);
-  }
-  if (const YamlNode* tolerance = map.find("tolerance")) {
-    const auto length = read_length_mm(*tolerance, kMaxSizeMm, draft.complaints);
-    if (length && *length < kLeastToleranceMm) {
-      draft.complaints.expected(*tolerance, concat("a length of at least ", kLeastToleranceMm,
-                                                   " mm, what single precision can hold"));
-    }
-    if (length) smoothing.tolerance_mm = *length;
-  }
+const Keys<Config::Smoothing>& smoothing_keys() {
+  using Smoothing = Config::Smoothing;
+  static const Keys<Smoothing> keys = {
+      {"max_size",
+       [](const YamlNode& node, Smoothing& smoothing, ConfigDraft& draft) {
+         const std::size_t complaints_before = draft.complaints.size();
+         read_positive_mm(node, kMaxSizeMm, smoothing.max_size_mm, draft.complaints);
+         draft.largest_size_mm = smoothing.max_size_mm;
+         if (draft.complaints.size() != complaints_before) draft.largest_size_mm.reset();
+       },
+       [](const Smoothing& smoothing, const auto&) { return write_mm(smoothing.max_size_mm); }},
+      {"max_iterations",
+       [](const YamlNode& node, Smoothing& smoothing, ConfigDraft& draft) {
+         smoothing.max_iterations = read_whole(node, 1, kMaxIterations, draft.complaints);
+         draft.most_iterations = smoothing.max_iterations;
+         draft.largest_size_mm.reset();  // how long a size it makes depends on the mesh
+       },
+       [](const Smoothing& smoothing, const auto&) {
+         return smoothing.max_iterations ? concat(*smoothing.max_iterations) : "";
+       }},
+      word_key("boundary", &Smoothing::boundary),
+      word_key("operator", &Smoothing::operator_kind),
+      word_key("levels", &Smoothing::levels),
+      key("tolerance", &Smoothing::tolerance_mm, read_tolerance, write_mm)};
+  return keys;
 }
 
-void read_blending(const YamlNode* node, ConfigDraft& draft) {
-  const MapReader map(node, {"normalization"}, draft.complaints);
-  const YamlNode* normalization = map.find("normalization");
-  if (normalization == nullptr) return;
-  const Choices<Normalization> choices = {{"partition", Normalization::kPartition},
-                                          {"printed", Normalization::kPrinted}};
-  draft.config.blending.normalization =
-      read_choice(*normalization, choices, draft.complaints).value_or(Normalization::kPartition);
+const Keys<Config::Blending>& blending_keys() {
+  static const Keys<Config::Blending> keys = {
+      word_key("normalization", &Config::Blending::normalization)};
+  return keys;
 }
 
 void read_plane(const YamlNode* node, ConfigDraft& draft) {
@@ -176,12 +147,7 @@ void read_plane(const YamlNode* node, ConfigDraft& draft) {
   read_anchors(anchors, draft);
   const YamlNode* layout = map.find("layout");
   if (layout == nullptr) return;
-  const Choices<Layout> choices = {{"circle", Layout::kCircle},
-                                   {"grid", Layout::kGrid},
-                                   {"similarity", Layout::kSimilarity},
-                                   {"manual", Layout::kManual}};
-  draft.config.plane.layout =
-      read_choice(*layout, choices, draft.complaints).value_or(Layout::kCircle);
+  read_choice_into(layout, draft.config.plane.layout, draft.complaints);
   if (draft.config.plane.layout == Layout::kManual) check_manual_anchors(*layout, anchors, draft);
 }
 
@@ -196,11 +162,7 @@ void read_output(const YamlNode* node, ConfigDraft& draft) {
   read_meshes(map.find("meshes"), draft);
   read_contact_sheet(map.find("contact_sheet"), draft);
   read_surfaces(map.find("surfaces"), draft);
-  if (const YamlNode* gallery = map.find("gallery")) {
-    const Choices<Gallery> choices = {{"auto", Gallery::kAuto}, {"none", Gallery::kNone}};
-    draft.config.output.gallery =
-        read_choice(*gallery, choices, draft.complaints).value_or(Gallery::kAuto);
-  }
+  read_choice_into(map.find("gallery"), draft.config.output.gallery, draft.complaints);
 }
 
 }  // namespace crowdface

@@ -3,8 +3,7 @@
 // must keep.
 #include <algorithm>
 
-#include "crowdface/config/config_sections.h"
-#include "crowdface/core/text.h"
+#include "crowdface/config/config_keys.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -20,20 +19,8 @@ bool is_word(const YamlNode& node, std::string_view word) {
   return node.kind == YamlNode::Kind::kScalar && node.text == word;
 }
 
-void read_into(const YamlNode* node, std::uint64_t low, std::uint64_t high, int& value,
-               ConfigDraft& draft) {
-  if (node == nullptr) return;
-  const auto whole = read_whole(*node, low, high, draft.complaints);
-  if (whole) value = static_cast<int>(*whole);
-}
-
-void read_distance_into(const YamlNode* node, double& value, ConfigDraft& draft) {
-  if (node == nullptr) return;
-  value = read_length_mm(*node, kMaxDistance, draft.complaints).value_or(value);
-}
-
 /// One image, or a set of UDIM tiles.
-void read_mask_path(const YamlNode& node, ConfigDraft& draft) {
+void read_mask_path(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {
   const auto text = read_text(node, "an image file", draft.complaints);
   if (!text) return;
   const std::string path = resolve(draft.folder, *text).string();
@@ -41,7 +28,7 @@ void read_mask_path(const YamlNode& node, ConfigDraft& draft) {
     draft.complaints.about(node, concat("the file ", quoted(path), " is missing"),
                            ExitCode::kMissingInput);
   }
-  draft.config.distance.mask = path;
+  distance.mask = path;
 }
 
 /// No head may count for two quotas: the shares of both could not be kept apart.
@@ -64,12 +51,10 @@ bool is_target(Eigen::Index head, const ConfigDraft& draft) {
                      [&](const WeightedHead& target) { return target.head == head; });
 }
 
-void read_quotas(const YamlNode& node, ConfigDraft& draft) {
-  if (node.kind != YamlNode::Kind::kMap) {
-    draft.complaints.expected(node, "a mapping from heads or tags to shares, {old: 0.3}");
+void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft& draft) {
+  if (!draft.complaints.expect_map(node, "a mapping from heads or tags to shares, {old: 0.3}"))
     return;
-  }
-  auto& quotas = draft.config.diversity.quotas;
+  auto& quotas = diversity.quotas;
   double total = 0;
   for (const YamlEntry& entry : node.entries) {
     Quota quota;
@@ -106,72 +91,61 @@ void read_quotas(const YamlNode& node, ConfigDraft& draft) {
   }
 }
 
-}  // namespace
-
-void read_distance(const YamlNode* node, ConfigDraft& draft) {
-  const MapReader map(node, {"area", "mask"}, draft.complaints);
-  if (const YamlNode* area = map.find("area")) {
-    const Choices<FaceArea> choices = {{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}};
-    draft.config.distance.area =
-        read_choice(*area, choices, draft.complaints).value_or(FaceArea::kFront);
+std::string write_quotas(const DiversityOptions& diversity, const std::filesystem::path&) {
+  std::vector<std::string> quotas;
+  for (const Quota& quota : diversity.quotas) {
+    quotas.push_back(concat(write_scalar(quota.name), ": ", quota.share));
   }
-  if (const YamlNode* mask = map.find("mask")) read_mask_path(*mask, draft);
+  return flow_map(quotas);
 }
 
-void read_diversity(const YamlNode* node, ConfigDraft& draft) {
-  DiversityOptions& diversity = draft.config.diversity;
-  const MapReader map(node,
-                      {"mode", "min_distance", "min_distance_to_faces", "max_weight", "quotas",
-                       "candidates", "pool", "max_attempts"},
-                      draft.complaints);
-  using Mode = DiversityOptions::Mode;
-  if (const YamlNode* mode = map.find("mode")) {
-    const Choices<Mode> choices = {{"first_fit", Mode::kFirstFit}, {"spread", Mode::kSpread}};
-    diversity.mode = read_choice(*mode, choices, draft.complaints).value_or(Mode::kFirstFit);
-  }
-  read_distance_into(map.find("min_distance"), diversity.min_distance_mm, draft);
-  read_distance_into(map.find("min_distance_to_faces"), diversity.min_distance_to_faces_mm, draft);
-  if (const YamlNode* weight = map.find("max_weight")) {
-    diversity.max_weight = read_number(*weight, 0, 1, draft.complaints).value_or(1);
-    if (diversity.max_weight == 0) draft.complaints.expected(*weight, "a number above 0, up to 1");
-  }
-  if (const YamlNode* quotas = map.find("quotas")) read_quotas(*quotas, draft);
-  if (const YamlNode* candidates = map.find("candidates")) {
-    int count = 0;
-    read_into(candidates, 1, kMostCandidates, count, draft);
-    if (count > 0) diversity.candidates = count;
-  }
-  read_into(map.find("pool"), 1, kLargestPool, diversity.pool, draft);
-  read_into(map.find("max_attempts"), 1, kMostAttempts, diversity.max_attempts, draft);
+std::optional<double> read_max_weight(const YamlNode& node, ConfigDraft& draft) {
+  const auto weight = read_number(node, 0, 1, draft.complaints);
+  if (weight == 0.0) draft.complaints.expected(node, "a number above 0, up to 1");
+  return weight;
+}
+
+}  // namespace
+
+const Keys<Config::Distance>& distance_keys() {
+  using Distance = Config::Distance;
+  static const Keys<Distance> keys = {
+      word_key("area", &Distance::area),
+      {"mask", read_mask_path, [](const Distance& distance, const std::filesystem::path& folder) {
+         return distance.mask ? write_path(*distance.mask, folder) : "";
+       }}};
+  return keys;
+}
+
+const Keys<DiversityOptions>& diversity_keys() {
+  using Diversity = DiversityOptions;
+  static const Keys<Diversity> keys = {
+      word_key("mode", &Diversity::mode),
+      length_key("min_distance", &Diversity::min_distance_mm, kMaxDistance),
+      length_key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, kMaxDistance),
+      key("max_weight", &Diversity::max_weight, read_max_weight, format_number),
+      {"quotas", read_quotas, write_quotas},
+      whole_key("candidates", &Diversity::candidates, 1, kMostCandidates),
+      whole_key("pool", &Diversity::pool, 1, kLargestPool),
+      whole_key("max_attempts", &Diversity::max_attempts, 1, kMostAttempts)};
+  return keys;
+}
+
+const Keys<BelievabilityOptions>& believability_keys() {
+  using Believability = BelievabilityOptions;
+  static const Keys<Believability> keys = {
+      number_key("max_deviation", &Believability::max_deviation, 0, 1000),
+      number_key("max_stretch", &Believability::max_stretch, 1, 1000),
+      number_key("max_flipped", &Believability::max_flipped, 0, 1),
+      number_key("max_intersecting", &Believability::max_intersecting, 0, 1),
+      word_key("meshes", &Believability::meshes)};
+  return keys;
 }
 
 void read_believability(const YamlNode* node, ConfigDraft& draft) {
   BelievabilityOptions& believability = draft.config.believability;
-  if (node != nullptr && is_word(*node, "none")) {
-    believability.check = false;
-    return;
-  }
-  const MapReader map(node,
-                      {"max_deviation", "max_stretch", "max_flipped", "max_intersecting", "meshes"},
-                      draft.complaints);
-  using Meshes = BelievabilityOptions::Meshes;
-  if (const YamlNode* meshes = map.find("meshes")) {
-    const Choices<Meshes> choices = {{"auto", Meshes::kAuto},
-                                     {"all", Meshes::kAll},
-                                     {"none", Meshes::kNone},
-                                     {"judge", Meshes::kJudge}};
-    believability.meshes = read_choice(*meshes, choices, draft.complaints).value_or(Meshes::kAuto);
-  }
-  const auto read = [&](std::string_view key, double low, double high, double& value) {
-    const YamlNode* limit = map.find(key);
-    if (limit != nullptr) {
-      value = read_number(*limit, low, high, draft.complaints).value_or(value);
-    }
-  };
-  read("max_deviation", 0, 1000, believability.max_deviation);
-  read("max_stretch", 1, 1000, believability.max_stretch);
-  read("max_flipped", 0, 1, believability.max_flipped);
-  read("max_intersecting", 0, 1, believability.max_intersecting);
+  believability.check = node == nullptr || !is_word(*node, "none");
+  if (believability.check) read_keys(node, believability_keys(), believability, draft);
 }
 
 }  // namespace crowdface

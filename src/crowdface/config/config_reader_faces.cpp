@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section `faces`.
 #include <algorithm>
+#include <array>
 #include <set>
 #include <system_error>
 
@@ -37,10 +38,7 @@ NamedFiles read_directory(const YamlNode& node, ConfigDraft& draft) {
 
 NamedFiles read_files(const YamlNode& node, ConfigDraft& draft) {
   NamedFiles named;
-  if (node.kind != YamlNode::Kind::kList) {
-    draft.complaints.expected(node, "a list of OBJ files, [a.obj, b.obj]");
-    return named;
-  }
+  if (!draft.complaints.expect_list(node, "a list of OBJ files, [a.obj, b.obj]")) return named;
   for (const YamlNode& item : node.items) {
     const auto text = read_text(item, "an OBJ file", draft.complaints);
     if (!text) continue;
@@ -120,10 +118,7 @@ void check_tag(const YamlNode& node, const std::string& tag, ConfigDraft& draft)
 }
 
 void read_tags_of_head(const YamlNode& node, Eigen::Index head, ConfigDraft& draft) {
-  if (node.kind != YamlNode::Kind::kList) {
-    draft.complaints.expected(node, "a list of tags, [old, bearded]");
-    return;
-  }
+  if (!draft.complaints.expect_list(node, "a list of tags, [old, bearded]")) return;
   auto& tags = draft.config.faces.tags[static_cast<std::size_t>(head)];
   for (const YamlNode& item : node.items) {
     const auto tag = read_name(item, draft.complaints);
@@ -185,20 +180,13 @@ void read_faces(const YamlNode* node, ConfigDraft& draft) {
   const YamlNode* units =
       map.require("units", "what is one unit of the OBJ files: mm, cm, m or in?");
   if (units != nullptr) {
-    const Choices<LengthUnit> choices = {{"mm", LengthUnit::kMillimetre},
-                                         {"cm", LengthUnit::kCentimetre},
-                                         {"m", LengthUnit::kMetre},
-                                         {"in", LengthUnit::kInch}};
-    const auto unit = read_choice(*units, choices, draft.complaints);
+    const auto words = words_by_name(std::array{LengthUnit::kMillimetre, LengthUnit::kCentimetre,
+                                                LengthUnit::kMetre, LengthUnit::kInch});
+    const auto unit = read_choice(*units, words, draft.complaints);
     if (unit) draft.config.faces.units = *unit;
   }
   read_frame(map, draft);
-  if (const YamlNode* align = map.find("align")) {
-    const Choices<Align> choices = {
-        {"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}};
-    draft.config.faces.align =
-        read_choice(*align, choices, draft.complaints).value_or(Align::kCheck);
-  }
+  read_choice_into(map.find("align"), draft.config.faces.align, draft.complaints);
   read_tags(map.find("tags"), draft);
 }
 

@@ -63,8 +63,7 @@ void read_inherit(const YamlNode* node, FamilyOptions& family, ConfigDraft& draf
   for (std::size_t k = 0; k < names.size(); ++k) {
     const YamlNode* from = map.find(names[k]);
     if (from == nullptr) continue;
-    const Choices<int> choices = {{"mother", 0}, {"father", 1}, {"drawn", -1}};
-    family.inherit[k] = read_choice(*from, choices, draft.complaints).value_or(-1);
+    family.inherit[k] = read_choice(*from, words_of<int>(), draft.complaints).value_or(-1);
   }
 }
 
@@ -143,10 +142,8 @@ void read_family(const YamlNode& node, ConfigDraft& draft) {
 
 void read_families(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kList) {
-    draft.complaints.expected(*node, "a list of families, [{name: smith, members: 6, …}]");
+  if (!draft.complaints.expect_list(*node, "a list of families, [{name: smith, members: 6, …}]"))
     return;
-  }
   for (const YamlNode& item : node->items) read_family(item, draft);
 }
 

@@ -98,10 +98,8 @@ void read_recipe_regions(const YamlNode* node, HandRecipe& recipe, ConfigDraft& 
   const std::vector<std::string>& names = draft.config.regions.names;
   recipe.regions.assign(draft.config.region_names().size(), {});
   if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kMap) {
-    draft.complaints.expected(*node, "a mapping from regions, or all, to their values");
+  if (!draft.complaints.expect_map(*node, "a mapping from regions, or all, to their values"))
     return;
-  }
   std::vector<std::string> keys = names;
   keys.emplace_back("all");
   if (!draft.regions_known) {
@@ -122,10 +120,8 @@ void read_recipe_regions(const YamlNode* node, HandRecipe& recipe, ConfigDraft& 
 
 void read_recipes(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kList) {
-    draft.complaints.expected(*node, "a list of recipes, [{id: …, target: …, regions: …}]");
+  if (!draft.complaints.expect_list(*node, "a list of recipes, [{id: …, target: …, regions: …}]"))
     return;
-  }
   Ids ids;
   for (const YamlNode& item : node->items) {
     const MapReader map(&item, {"id", "target", "age", "regions"}, draft.complaints);

@@ -67,16 +67,15 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 
 void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   using Verdict = ReviewMark::Verdict;
-  const Choices<Verdict> verdicts = {{"keep", Verdict::kKeep}, {"reject", Verdict::kReject}};
   if (node.kind != YamlNode::Kind::kMap) {
-    mark.verdict = read_choice(node, verdicts, draft.complaints).value_or(Verdict::kKeep);
+    read_choice_into(&node, mark.verdict, draft.complaints);
     return;
   }
   const MapReader map(&node, {"mark", "lock", "note"}, draft.complaints);
   if (node.entries.empty()) draft.complaints.about(node, "expected mark, lock or note");
   if (const YamlNode* lock = map.find("lock")) read_lock(*lock, mark, draft);
   if (const YamlNode* verdict = map.find("mark")) {
-    mark.verdict = read_choice(*verdict, verdicts, draft.complaints).value_or(mark.verdict);
+    read_choice_into(verdict, mark.verdict, draft.complaints);
     if (mark.verdict == Verdict::kKeep && !mark.locked.empty()) {
       draft.complaints.about(*verdict, "a face that is kept has nothing to lock");
     }
@@ -108,10 +107,8 @@ Review read_review_file(const std::filesystem::path& file, const YamlNode& where
   }
   const YamlNode* faces = map.require("faces", "such as \"faces: {market_0007: reject}\"");
   if (faces == nullptr) return review;
-  if (faces->kind != YamlNode::Kind::kMap) {
-    draft.complaints.expected(*faces, "a mapping from faces to marks, {market_0007: reject}");
+  if (!draft.complaints.expect_map(*faces, "a mapping from faces to marks, {market_0007: reject}"))
     return review;
-  }
   const std::vector<std::string> ids = named_ids(draft.config);
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;

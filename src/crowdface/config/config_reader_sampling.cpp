@@ -122,11 +122,7 @@ std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDr
   const YamlNode* kind = map.require("distribution", "anchored, uniform, around or fixed");
   if (kind == nullptr) return std::nullopt;
   using Kind = PositionDistribution::Kind;
-  const Choices<Kind> choices = {{"anchored", Kind::kAnchored},
-                                 {"uniform", Kind::kUniform},
-                                 {"around", Kind::kAround},
-                                 {"fixed", Kind::kFixed}};
-  const auto chosen = read_choice(*kind, choices, draft.complaints);
+  const auto chosen = read_choice(*kind, words_of<Kind>(), draft.complaints);
   if (!chosen) return std::nullopt;
   PositionDistribution position;
   position.kind = *chosen;

@@ -2,64 +2,45 @@
 // The keys `output.contact_sheet` and `output.surfaces`.
 #include <algorithm>
 
-#include "crowdface/config/config_sections.h"
+#include "crowdface/config/config_keys.h"
 #include "crowdface/config/sheet_page_size.h"
-#include "crowdface/core/text.h"
 
 namespace crowdface {
 namespace {
 
 constexpr double kLongestScaleMm = 1000;
 
-/// A list of words, each once; what stood there before is left where the key is missing.
-template <class Value>
-void read_words(const YamlNode* node, const Choices<Value>& choices, const std::string& expected,
-                std::vector<Value>& values, Complaints& out) {
-  if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kList || node->items.empty()) {
-    out.expected(*node, expected);
-    return;
-  }
-  values.clear();
-  for (const YamlNode& item : node->items) {
-    const auto value = read_choice(item, choices, out);
-    if (!value) continue;
-    if (std::find(values.begin(), values.end(), *value) != values.end()) {
-      out.about(item, concat(quoted(item.text), " is named twice"));
-    }
-    values.push_back(*value);
-  }
-}
-
-void read_comparison(const MapReader& map, Config::Comparison& compare, ConfigDraft& draft) {
+void read_comparison(const YamlNode& node, Config::ContactSheet& sheet, ConfigDraft& draft) {
+  Config::Comparison& compare = sheet.compare;
   using With = Config::Comparison::With;
-  if (const YamlNode* scale = map.find("compare_scale")) {
-    const auto mm = read_length_mm(*scale, kLongestScaleMm, draft.complaints);
-    if (mm && *mm <= 0) draft.complaints.expected(*scale, "a length above 0 mm");
-    compare.scale_mm = mm.value_or(compare.scale_mm);
-  }
-  const YamlNode* node = map.find("compare");
-  if (node == nullptr) return;
   const auto text =
-      read_text(*node, "none, target, nearest, or a file or crowd folder", draft.complaints);
-  if (!text || *text == "none") return;
-  if (*text == "target") {
-    compare.with = With::kTarget;
-  } else if (*text == "nearest") {
-    compare.with = With::kNearest;
+      read_text(node, "none, target, nearest, or a file or crowd folder", draft.complaints);
+  if (!text) return;
+  const auto& words = words_of<With>();
+  const auto word = std::find_if(words.begin(), words.end(),
+                                 [&](const Word<With>& known) { return known.text == *text; });
+  if (word != words.end()) {
+    compare.with = word->value;
   } else {
     compare.with = With::kFile;
     compare.file = resolve(draft.folder, *text);
     if (!file_exists(compare.file)) {
-      draft.complaints.about(*node,
+      draft.complaints.about(node,
                              concat("expected none, target, nearest, or a file that is there; ",
                                     quoted(compare.file.string()), " is missing"),
                              ExitCode::kMissingInput);
     }
   }
-  if (draft.config.output.meshes.empty()) {
-    draft.complaints.about(*node, "comparing needs meshes, and output.meshes asks for none");
+  if (compare.with != With::kNothing && draft.config.output.meshes.empty()) {
+    draft.complaints.about(node, "comparing needs meshes, and output.meshes asks for none");
   }
+}
+
+std::string write_comparison(const Config::ContactSheet& sheet,
+                             const std::filesystem::path& folder) {
+  const Config::Comparison& compare = sheet.compare;
+  return compare.with == Config::Comparison::With::kFile ? write_path(compare.file, folder)
+                                                         : std::string(word_of(compare.with));
 }
 
 /// "#rrggbb".
@@ -79,6 +60,26 @@ std::optional<std::array<std::uint8_t, 3>> parse_colour(std::string_view text) {
 
 }  // namespace
 
+const Keys<Config::ContactSheet>& contact_sheet_keys() {
+  using Sheet = Config::ContactSheet;
+  static const Keys<Sheet> keys = {
+      whole_key("columns", &Sheet::columns, 1, 32),
+      whole_key("rows", &Sheet::rows, 1, 64),
+      whole_key("cell", &Sheet::cell, 32, 2048),
+      words_key("views", &Sheet::views, "a list of views, [front, three_quarter, profile]"),
+      words_key("labels", &Sheet::labels, "a list of labels, [id, target, nearest]"),
+      word_key("order", &Sheet::order),
+      {"compare", read_comparison, write_comparison},
+      {"compare_scale",
+       [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
+         read_positive_mm(node, kLongestScaleMm, sheet.compare.scale_mm, draft.complaints);
+       },
+       [](const Sheet& sheet, const auto&) { return write_mm(sheet.compare.scale_mm); }},
+      words_key("formats", &Sheet::formats, "a list of formats, [png, exr, pdf]"),
+      word_key("texture", &Sheet::texture)};
+  return keys;
+}
+
 void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
   auto& sheet = draft.config.output.contact_sheet;
   Complaints& out = draft.complaints;
@@ -87,50 +88,8 @@ void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
     sheet.reset();
     return;
   }
-  if (node->kind != YamlNode::Kind::kMap) {
-    out.expected(*node, "none or a mapping with the keys columns, rows, cell, views");
-    return;
-  }
-  const MapReader map(node,
-                      {"columns", "rows", "cell", "views", "labels", "order", "compare",
-                       "compare_scale", "formats", "texture"},
-                      out);
-  const auto read = [&](const char* key, std::uint64_t low, std::uint64_t high, int& value) {
-    const YamlNode* found = map.find(key);
-    if (found == nullptr) return;
-    const auto number = read_whole(*found, low, high, out);
-    if (number) value = static_cast<int>(*number);
-  };
-  read("columns", 1, 32, sheet->columns);
-  read("rows", 1, 64, sheet->rows);
-  read("cell", 32, 2048, sheet->cell);
-  read_words<View>(map.find("views"),
-                   {{"front", View::kFront},
-                    {"three_quarter", View::kThreeQuarter},
-                    {"profile", View::kProfile}},
-                   "a list of views, [front, three_quarter, profile]", sheet->views, out);
-  read_words<SheetLabel>(map.find("labels"),
-                         {{"id", SheetLabel::kId},
-                          {"family", SheetLabel::kFamily},
-                          {"target", SheetLabel::kTarget},
-                          {"nearest", SheetLabel::kNearest},
-                          {"nearest_head", SheetLabel::kNearestHead}},
-                         "a list of labels, [id, target, nearest]", sheet->labels, out);
-  if (const YamlNode* order = map.find("order")) {
-    const Choices<SheetOrder> choices = {{"plan", SheetOrder::kPlan},
-                                         {"family", SheetOrder::kFamily},
-                                         {"likeness", SheetOrder::kLikeness}};
-    sheet->order = read_choice(*order, choices, out).value_or(SheetOrder::kPlan);
-  }
-  if (const YamlNode* texture = map.find("texture")) {
-    const Choices<bool> choices = {{"true", true}, {"false", false}};
-    sheet->texture = read_choice(*texture, choices, out).value_or(false);
-  }
-  read_comparison(map, sheet->compare, draft);
-  read_words<SheetFormat>(
-      map.find("formats"),
-      {{"png", SheetFormat::kPng}, {"exr", SheetFormat::kExr}, {"pdf", SheetFormat::kPdf}},
-      "a list of formats, [png, exr, pdf]", sheet->formats, out);
+  if (!out.expect_map(*node, "none or a mapping with the keys columns, rows, cell, views")) return;
+  read_keys(node, contact_sheet_keys(), *sheet, draft);
   if (!fits_on_a_page(*sheet)) {
     out.about(*node,
               "one page of so many cells, rows and columns is too large (at most 65500 "
@@ -140,22 +99,16 @@ void read_contact_sheet(const YamlNode* node, ConfigDraft& draft) {
 
 void read_surfaces(const YamlNode* node, ConfigDraft& draft) {
   if (node == nullptr) return;
-  if (node->kind != YamlNode::Kind::kMap) {
-    draft.complaints.expected(*node, "a mapping from materials to surfaces, {M_Lashes: hidden}");
+  if (!draft.complaints.expect_map(*node,
+                                   "a mapping from materials to surfaces, {M_Lashes: hidden}"))
     return;
-  }
-  const Choices<SurfaceKind> choices = {
-      {"skin", SurfaceKind::kSkin}, {"eye", SurfaceKind::kEye},
-      {"iris", SurfaceKind::kIris}, {"teeth", SurfaceKind::kTeeth},
-      {"gums", SurfaceKind::kGums}, {"hidden", SurfaceKind::kHidden}};
   for (const YamlEntry& entry : node->entries) {
     SurfaceChoice& surface = draft.config.output.surfaces[entry.key];
     if (entry.value.kind == YamlNode::Kind::kScalar && entry.value.text.starts_with('#')) {
       surface.colour = parse_colour(entry.value.text);
       if (!surface.colour) draft.complaints.expected(entry.value, "a colour such as \"#c0a080\"");
     } else {
-      surface.kind =
-          read_choice(entry.value, choices, draft.complaints).value_or(SurfaceKind::kSkin);
+      read_choice_into(&entry.value, surface.kind, draft.complaints);
     }
   }
 }

@@ -30,16 +30,11 @@ struct ConfigDraft {
 
 /// Each reads one key of the root: its values into the draft, what is wrong into its complaints.
 /// `node` is null if the key is not there.
-void read_crowd(const YamlNode* node, ConfigDraft& draft);
 void read_faces(const YamlNode* node, ConfigDraft& draft);
 void read_regions(const YamlNode* node, ConfigDraft& draft);
-void read_smoothing(const YamlNode* node, ConfigDraft& draft);
-void read_blending(const YamlNode* node, ConfigDraft& draft);
 void read_parts(const YamlNode* node, ConfigDraft& draft);
 void read_plane(const YamlNode* node, ConfigDraft& draft);
 void read_sampling(const YamlNode* node, ConfigDraft& draft);
-void read_distance(const YamlNode* node, ConfigDraft& draft);
-void read_diversity(const YamlNode* node, ConfigDraft& draft);
 void read_believability(const YamlNode* node, ConfigDraft& draft);
 void read_recipes(const YamlNode* node, ConfigDraft& draft);
 void read_families(const YamlNode* node, ConfigDraft& draft);

@@ -135,6 +135,12 @@ std::optional<double> read_length_mm(const YamlNode& node, double high_mm, Compl
   return *value == 0 ? 0.0 : *value;
 }
 
+void read_positive_mm(const YamlNode& node, double high_mm, double& value_mm, Complaints& out) {
+  const auto length = read_length_mm(node, high_mm, out);
+  if (length == 0.0) out.expected(node, "a length above 0 mm");
+  value_mm = length.value_or(value_mm);
+}
+
 std::optional<std::string> read_text(const YamlNode& node, const std::string& expected,
                                      Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar || node.text.empty() ||
@@ -196,6 +202,30 @@ std::optional<std::size_t> read_word(const YamlNode& node, const std::vector<std
       node.kind == YamlNode::Kind::kScalar ? suggestion(node.text, words) : std::string();
   out.about(node, concat("expected ", join(words, " or "), ", found ", describe(node), hint));
   return std::nullopt;
+}
+
+std::string flow_list(const std::vector<std::string>& items) {
+  return concat('[', join(items), ']');
+}
+
+std::string flow_map(const std::vector<std::string>& entries) {
+  return concat('{', join(entries), '}');
+}
+
+std::string flow_names(const std::vector<std::string>& names) {
+  std::vector<std::string> items;
+  for (const std::string& name : names) items.push_back(write_scalar(name));
+  return flow_list(items);
+}
+
+std::string write_mm(double value_mm) {
+  return concat(value_mm, " mm");
+}
+
+std::string write_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const auto absolute = std::filesystem::absolute(file).lexically_normal();
+  const auto relative = absolute.lexically_relative(folder);
+  return write_scalar(relative.empty() ? absolute.string() : relative.string());
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {

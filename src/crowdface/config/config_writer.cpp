@@ -2,29 +2,13 @@
 #include "crowdface/config/config_writer.h"
 
 #include <algorithm>
-#include <array>
 
-#include "crowdface/config/yaml.h"
-#include "crowdface/core/text.h"
+#include "crowdface/config/config_keys.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string flow_list(const std::vector<std::string>& items) {
-  return concat('[', join(items), ']');
-}
-
-std::string flow_map(const std::vector<std::string>& entries) {
-  return concat('{', join(entries), '}');
-}
-
-std::string flow_names(const std::vector<std::string>& names) {
-  std::vector<std::string> items;
-  for (const std::string& name : names) items.push_back(write_scalar(name));
-  return flow_list(items);
-}
 
 std::string flow_point(const PlanePoint& point) {
   return flow_list({format_number(point.x()), format_number(point.y())});
@@ -41,15 +25,11 @@ std::string flow_factor(const Range& range) {
   return flow_range(range, [](double value) { return format_number(value); });
 }
 
-std::string mm(double value) {
-  return concat(value, " mm");
-}
-
 std::string flow_amount(const SmoothnessDistribution& smoothness) {
   using Unit = SmoothnessDistribution::Unit;
   switch (smoothness.unit) {
     case Unit::kSize:
-      return flow_range(smoothness.range, mm);
+      return flow_range(smoothness.range, write_mm);
     case Unit::kIterations:  // as integers: 1e+07 is no whole number to the reader
       return flow_range(smoothness.range,
                         [](double value) { return concat(static_cast<std::uint64_t>(value)); });
@@ -67,7 +47,7 @@ class Writer {
 
   std::string write() {
     line("schema: 1");
-    write_crowd();
+    write_section("crowd", crowd_keys(), config_.crowd);
     write_faces();
     write_regions();
     write_methods();
@@ -91,17 +71,19 @@ class Writer {
   }
   std::string head_key(Eigen::Index index) const { return write_scalar(head(index)); }
 
-  std::string path(const fs::path& file) const {
-    const fs::path absolute = fs::absolute(file).lexically_normal();
-    const fs::path relative = absolute.lexically_relative(directory_);
-    return write_scalar(relative.empty() ? absolute.string() : relative.string());
-  }
+  std::string path(const fs::path& file) const { return write_path(file, directory_); }
 
-  void write_crowd() {
-    line("crowd:");
-    line("  name: ", write_scalar(config_.crowd.name));
-    line("  count: ", config_.crowd.count);
-    line("  seed: ", config_.crowd.seed);
+  template <class Section>
+  void write_keys(std::string_view indent, const Keys<Section>& keys, const Section& section) {
+    for (const Key<Section>& key : keys) {
+      const std::string value = key.write(section, directory_);
+      if (!value.empty()) line(indent, key.name, ": ", value);
+    }
+  }
+  template <class Section>
+  void write_section(std::string_view name, const Keys<Section>& keys, const Section& section) {
+    line(name, ":");
+    write_keys("  ", keys, section);
   }
 
   void write_faces() {
@@ -112,9 +94,7 @@ class Writer {
     line("  units: ", name_of(faces.units));
     line("  up: ", name_of(faces.up));
     line("  front: ", name_of(faces.front));
-    line("  align: ", faces.align == Align::kCheck   ? "check"
-                      : faces.align == Align::kRigid ? "rigid"
-                                                     : "none");
+    line("  align: ", word_of(faces.align));
     const bool tagged = std::any_of(faces.tags.begin(), faces.tags.end(),
                                     [](const auto& tags) { return !tags.empty(); });
     line(tagged ? "  tags:" : "  tags: {}");
@@ -134,63 +114,19 @@ class Writer {
   }
 
   void write_methods() {
-    const Config::Smoothing& smoothing = config_.smoothing;
-    line("smoothing:");
-    line("  max_size: ", mm(smoothing.max_size_mm));
-    if (smoothing.max_iterations) line("  max_iterations: ", *smoothing.max_iterations);
-    line("  boundary: ", smoothing.boundary == Boundary::kFixed ? "fixed" : "free");
-    line("  operator: ", smoothing.operator_kind == OperatorKind::kUmbrella ? "umbrella" : "lazy");
-    line("  levels: ", levels_name(smoothing.levels));
-    line("  tolerance: ", mm(smoothing.tolerance_mm));
-    line("blending:");
-    line("  normalization: ",
-         config_.blending.normalization == Normalization::kPartition ? "partition" : "printed");
-    write_parts();
+    write_section("smoothing", smoothing_keys(), config_.smoothing);
+    write_section("blending", blending_keys(), config_.blending);
+    if (!config_.parts.follow) {
+      line("parts: none");
+    } else {
+      write_section("parts", parts_keys(), config_.parts);
+    }
     line("plane:");
-    line("  layout: ", layout_name(config_.plane.layout));
+    line("  layout: ", word_of(config_.plane.layout));
     line(config_.plane.anchors.empty() ? "  anchors: {}" : "  anchors:");
     for (const auto& [index, anchor] : config_.plane.anchors) {
       line("    ", head_key(index), ": ", flow_point(anchor));
     }
-  }
-
-  void write_parts() {
-    const Config::Parts& parts = config_.parts;
-    if (!parts.follow) return line("parts: none");
-    line("parts:");
-    line("  shape: ", parts.shape == PartShape::kBlend ? "blend" : "target");
-    line("  skin: ", flow_names(parts.skin));
-    line("  rigid: ", flow_names(parts.rigid));
-    line("  bound: ", flow_names(parts.bound));
-    std::vector<std::string> together;
-    for (const auto& names : parts.together) together.push_back(flow_names(names));
-    line("  together: ", flow_list(together));
-  }
-
-  static std::string_view levels_name(Levels levels) {
-    switch (levels) {
-      case Levels::kExact:
-        return "exact";
-      case Levels::kCubic:
-        return "cubic";
-      case Levels::kBasis:
-        break;
-    }
-    return "basis";
-  }
-
-  static std::string_view layout_name(Layout layout) {
-    switch (layout) {
-      case Layout::kGrid:
-        return "grid";
-      case Layout::kSimilarity:
-        return "similarity";
-      case Layout::kManual:
-        return "manual";
-      case Layout::kCircle:
-        break;
-    }
-    return "circle";
   }
 
   std::string flow_targets() const {
@@ -216,19 +152,20 @@ class Writer {
 
   std::string flow_position(const PositionDistribution& position) const {
     using Kind = PositionDistribution::Kind;
+    const std::string kind = concat("distribution: ", word_of(position.kind));
     switch (position.kind) {
       case Kind::kAround:
-        return flow_map({"distribution: around",
+        return flow_map({kind,
                          concat("face: ", position.head ? head_key(*position.head) : "target"),
                          concat("radius: ", position.radius)});
       case Kind::kFixed:
-        return flow_map({"distribution: fixed", concat("position: ", flow_point(position.at))});
+        return flow_map({kind, concat("position: ", flow_point(position.at))});
       case Kind::kUniform:
-        return flow_map({"distribution: uniform"});
+        return flow_map({kind});
       case Kind::kAnchored:
         break;
     }
-    return flow_map({"distribution: anchored", concat("pull: ", position.pull)});
+    return flow_map({kind, concat("pull: ", position.pull)});
   }
 
   /// One line a region; without regions the one line is called `default`.
@@ -262,35 +199,10 @@ class Writer {
   }
 
   void write_casting() {
-    line("distance:");
-    line("  area: ", config_.distance.area == FaceArea::kFront ? "front" : "skin");
-    if (config_.distance.mask) line("  mask: ", path(*config_.distance.mask));
-    const DiversityOptions& diversity = config_.diversity;
-    line("diversity:");
-    line("  mode: ", diversity.mode == DiversityOptions::Mode::kSpread ? "spread" : "first_fit");
-    line("  min_distance: ", mm(diversity.min_distance_mm));
-    line("  min_distance_to_faces: ", mm(diversity.min_distance_to_faces_mm));
-    line("  max_weight: ", diversity.max_weight);
-    std::vector<std::string> quotas;
-    for (const Quota& quota : diversity.quotas) {
-      quotas.push_back(concat(write_scalar(quota.name), ": ", quota.share));
-    }
-    line("  quotas: ", flow_map(quotas));
-    if (diversity.candidates) line("  candidates: ", *diversity.candidates);
-    line("  pool: ", diversity.pool);
-    line("  max_attempts: ", diversity.max_attempts);
-    const BelievabilityOptions& believability = config_.believability;
-    if (!believability.check) return line("believability: none");
-    line("believability:");
-    line("  max_deviation: ", believability.max_deviation);
-    line("  max_stretch: ", believability.max_stretch);
-    line("  max_flipped: ", believability.max_flipped);
-    line("  max_intersecting: ", believability.max_intersecting);
-    using Meshes = BelievabilityOptions::Meshes;
-    line("  meshes: ", believability.meshes == Meshes::kAll     ? "all"
-                       : believability.meshes == Meshes::kNone  ? "none"
-                       : believability.meshes == Meshes::kJudge ? "judge"
-                                                                : "auto");
+    write_section("distance", distance_keys(), config_.distance);
+    write_section("diversity", diversity_keys(), config_.diversity);
+    if (!config_.believability.check) return line("believability: none");
+    write_section("believability", believability_keys(), config_.believability);
   }
 
   std::string flow_recipe_region(const HandRecipe::Region& region) const {
@@ -339,16 +251,12 @@ class Writer {
              flow_map({concat("mother: ", parent(0)), concat("father: ", parent(1))}));
         std::vector<std::string> inherit;
         for (std::size_t k = 0; k < names.size(); ++k) {
-          const int from = family.inherit[k];
-          inherit.push_back(concat(write_scalar(names[k]), ": ",
-                                   from < 0    ? "drawn"
-                                   : from == 0 ? "mother"
-                                               : "father"));
+          inherit.push_back(concat(write_scalar(names[k]), ": ", word_of(family.inherit[k])));
         }
         line("    inherit: ", flow_map(inherit));
       }
-      line("    max_distance: ", mm(family.max_distance_mm));
-      line("    min_distance: ", mm(family.min_distance_mm));
+      line("    max_distance: ", write_mm(family.max_distance_mm));
+      line("    min_distance: ", write_mm(family.min_distance_mm));
       line("    age: ", flow_factor(family.age));
     }
   }
@@ -359,21 +267,8 @@ class Writer {
     line("review: ", flow_list(files));
   }
 
-  static std::string view_name(View view) {
-    switch (view) {
-      case View::kThreeQuarter:
-        return "three_quarter";
-      case View::kProfile:
-        return "profile";
-      case View::kFront:
-        break;
-    }
-    return "front";
-  }
-
   static std::string surface_word(const SurfaceChoice& surface) {
-    constexpr std::array kKinds = {"skin", "eye", "iris", "teeth", "gums", "hidden"};
-    if (!surface.colour) return kKinds[static_cast<std::size_t>(surface.kind)];
+    if (!surface.colour) return std::string(word_of(surface.kind));
     constexpr std::string_view kDigits = "0123456789abcdef";
     std::string text = "\"#";
     for (const std::uint8_t value : *surface.colour) {
@@ -383,36 +278,13 @@ class Writer {
     return text + '"';
   }
 
-  void write_sheet_details(const Config::ContactSheet& sheet) {
-    using With = Config::Comparison::With;
-    constexpr std::array kLabels = {"id", "family", "target", "nearest", "nearest_head"};
-    constexpr std::array kOrders = {"plan", "family", "likeness"};
-    constexpr std::array kFormats = {"png", "exr", "pdf"};
-    constexpr std::array kWith = {"none", "target", "nearest"};
-    std::vector<std::string> labels, formats;
-    for (const SheetLabel label : sheet.labels) {
-      labels.emplace_back(kLabels[static_cast<std::size_t>(label)]);
-    }
-    for (const SheetFormat format : sheet.formats) {
-      formats.emplace_back(kFormats[static_cast<std::size_t>(format)]);
-    }
-    line("    labels: ", flow_list(labels));
-    line("    order: ", kOrders[static_cast<std::size_t>(sheet.order)]);
-    line("    compare: ", sheet.compare.with == With::kFile
-                              ? path(sheet.compare.file)
-                              : kWith[static_cast<std::size_t>(sheet.compare.with)]);
-    line("    compare_scale: ", sheet.compare.scale_mm, " mm");
-    line("    formats: ", flow_list(formats));
-    line("    texture: ", sheet.texture ? "true" : "false");
-  }
-
   void write_output() {
     line("output:");
     line("  directory: ", path(config_.output.directory));
     std::vector<std::string> meshes;
     for (const MeshFormat format : config_.output.meshes) meshes.emplace_back(name_of(format));
     line("  meshes: ", flow_list(meshes));
-    line("  gallery: ", config_.output.gallery == Gallery::kAuto ? "auto" : "none");
+    line("  gallery: ", word_of(config_.output.gallery));
     std::vector<std::string> surfaces;
     for (const auto& [name, surface] : config_.output.surfaces) {
       surfaces.push_back(concat(write_scalar(name), ": ", surface_word(surface)));
@@ -421,13 +293,7 @@ class Writer {
     const auto& sheet = config_.output.contact_sheet;
     if (!sheet) return line("  contact_sheet: none");
     line("  contact_sheet:");
-    line("    columns: ", sheet->columns);
-    line("    rows: ", sheet->rows);
-    line("    cell: ", sheet->cell);
-    std::vector<std::string> views;
-    for (const View view : sheet->views) views.push_back(view_name(view));
-    line("    views: ", flow_list(views));
-    write_sheet_details(*sheet);
+    write_keys("    ", contact_sheet_keys(), *sheet);
   }
 
   const Config& config_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/casting_report.h"
 
+#include "crowdface/config/words.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 
@@ -40,8 +41,7 @@ Json distances_to_json(const Job& job, const CrowdDistances& distances) {
 }
 
 Json asked_to_json(const DiversityOptions& diversity) {
-  const bool spread = diversity.mode == DiversityOptions::Mode::kSpread;
-  return {{"mode", spread ? "spread" : "first_fit"},
+  return {{"mode", word_of(diversity.mode)},
           {"min_distance_mm", diversity.min_distance_mm},
           {"min_distance_to_faces_mm", diversity.min_distance_to_faces_mm},
           {"max_weight", diversity.max_weight}};

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "crowdface/config/config.h"
+
+namespace crowdface {
+
+/// A value and the word for it in a config.
+template <class Value>
+struct Word {
+  std::string_view text;
+  Value value;
+};
+
+/// In the order in which messages name them.
+template <class Value>
+using Words = std::vector<Word<Value>>;
+
+/// The words of every type that has some. Configs are read and written by them.
+inline const auto& all_words() {
+  using Kind = PositionDistribution::Kind;
+  using Mode = DiversityOptions::Mode;
+  using Meshes = BelievabilityOptions::Meshes;
+  using Verdict = ReviewMark::Verdict;
+  using With = Config::Comparison::With;  // kFile is written as the file itself
+  static const std::tuple words = {
+      Words<bool>{{"true", true}, {"false", false}},
+      Words<Align>{{"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}},
+      Words<Boundary>{{"fixed", Boundary::kFixed}, {"free", Boundary::kFree}},
+      Words<OperatorKind>{{"umbrella", OperatorKind::kUmbrella}, {"lazy", OperatorKind::kLazy}},
+      Words<Levels>{
+          {"basis", Levels::kBasis}, {"exact", Levels::kExact}, {"cubic", Levels::kCubic}},
+      Words<Normalization>{{"partition", Normalization::kPartition},
+                           {"printed", Normalization::kPrinted}},
+      Words<PartShape>{{"target", PartShape::kTarget}, {"blend", PartShape::kBlend}},
+      Words<Layout>{{"circle", Layout::kCircle},
+                    {"grid", Layout::kGrid},
+                    {"similarity", Layout::kSimilarity},
+                    {"manual", Layout::kManual}},
+      Words<Kind>{{"anchored", Kind::kAnchored},
+                  {"uniform", Kind::kUniform},
+                  {"around", Kind::kAround},
+                  {"fixed", Kind::kFixed}},
+      Words<FaceArea>{{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}},
+      Words<Mode>{{"first_fit", Mode::kFirstFit}, {"spread", Mode::kSpread}},
+      Words<Meshes>{{"auto", Meshes::kAuto},
+                    {"all", Meshes::kAll},
+                    {"none", Meshes::kNone},
+                    {"judge", Meshes::kJudge}},
+      Words<Verdict>{{"keep", Verdict::kKeep}, {"reject", Verdict::kReject}},
+      Words<Gallery>{{"auto", Gallery::kAuto}, {"none", Gallery::kNone}},
+      Words<View>{{"front", View::kFront},
+                  {"three_quarter", View::kThreeQuarter},
+                  {"profile", View::kProfile}},
+      Words<SheetLabel>{{"id", SheetLabel::kId},
+                        {"family", SheetLabel::kFamily},
+                        {"target", SheetLabel::kTarget},
+                        {"nearest", SheetLabel::kNearest},
+                        {"nearest_head", SheetLabel::kNearestHead}},
+      Words<SheetOrder>{{"plan", SheetOrder::kPlan},
+                        {"family", SheetOrder::kFamily},
+                        {"likeness", SheetOrder::kLikeness}},
+      Words<SheetFormat>{
+          {"png", SheetFormat::kPng}, {"exr", SheetFormat::kExr}, {"pdf", SheetFormat::kPdf}},
+      Words<With>{{"none", With::kNothing}, {"target", With::kTarget}, {"nearest", With::kNearest}},
+      Words<SurfaceKind>{{"skin", SurfaceKind::kSkin},
+                         {"eye", SurfaceKind::kEye},
+                         {"iris", SurfaceKind::kIris},
+                         {"teeth", SurfaceKind::kTeeth},
+                         {"gums", SurfaceKind::kGums},
+                         {"hidden", SurfaceKind::kHidden}},
+      Words<int>{{"mother", 0}, {"father", 1}, {"drawn", -1}}};  // FamilyOptions::inherit
+  return words;
+}
+
+template <class Value>
+const Words<Value>& words_of() {
+  return std::get<Words<Value>>(all_words());
+}
+
+/// The words of values that have a name_of.
+template <class Values>
+auto words_by_name(const Values& values) {
+  Words<typename Values::value_type> words;
+  for (const auto value : values) words.push_back({name_of(value), value});
+  return words;
+}
+
+/// The word of a value, which must have one.
+template <class Value>
+std::string_view word_of(Value value) {
+  const auto& words = words_of<Value>();
+  return std::find_if(words.begin(), words.end(),
+                      [&](const Word<Value>& word) { return word.value == value; })
+      ->text;
+}
+
+}  // namespace crowdface
