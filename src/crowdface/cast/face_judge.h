@@ -40,7 +40,6 @@ class FaceJudge {
     return heads_.nearest(point);
   }
   const FaceSpace& space() const { return space_; }
-  const Plausibility& plausibility() const { return plausibility_; }
 
  private:
   const FaceSpace& space_;

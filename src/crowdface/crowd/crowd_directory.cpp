@@ -11,6 +11,7 @@
 #include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/ledger.h"
+#include "crowdface/io/npy.h"
 #include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
@@ -48,9 +49,7 @@ void remove_pictures(const CrowdDirectory& directory) {
     remove_all_with(folder, ".js");
     remove_file(folder);
   }
-  for (const char* file : {"index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"}) {
-    remove_file(directory.gallery() / file);
-  }
+  for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);
   remove_file(directory.gallery());
   remove_file(directory.likeness());
 }
@@ -70,9 +69,7 @@ void remove_crowd(const CrowdDirectory& directory) {
     if (is_sheet_file(entry.path())) sheets.push_back(entry.path());
   }
   for (const fs::path& sheet : sheets) remove_file(sheet);
-  for (const char* array : {"corners.npy", "offsets.npy", "uvs.npy", "corner_uvs.npy"}) {
-    remove_file(directory.topology() / array);
-  }
+  for (const char* array : kTopologyArrays) remove_file(directory.topology() / array);
   for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
   for (const fs::path& path : directory.shard_logs()) remove_file(path);
   remove_pictures(directory);
@@ -120,7 +117,7 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   std::vector<fs::path> files = record_files(directory);
   for (const fs::path& file :
        {directory.config(), directory.log(), directory.lock(), directory.sheet(1),
-        directory.sheets() / "index.png", directory.gallery() / "index.html"}) {
+        directory.sheets() / "index.png", directory.gallery() / kGalleryPageFiles.front()}) {
     files.push_back(file);
   }
   for (const fs::path& file : files) {
@@ -240,6 +237,11 @@ std::vector<std::string> ids_in_plan(const std::string& plan) {
     begin = end + 1;
   }
   return ids;
+}
+
+bool is_gallery_page_file(const fs::path& path) {
+  return std::find(kGalleryPageFiles.begin(), kGalleryPageFiles.end(), path.filename().string()) !=
+         kGalleryPageFiles.end();
 }
 
 bool is_sheet_file(const fs::path& path) {

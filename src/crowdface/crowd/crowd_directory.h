@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/crowd/shard.h"
@@ -71,6 +73,11 @@ void refuse_folder_elsewhere(const CrowdDirectory& directory, const std::filesys
 
 /// The ids a plan names; lines that cannot be read, or whose id is no file's name, name none.
 std::vector<std::string> ids_in_plan(const std::string& plan);
+
+/// The gallery's page, in its folder; what it shows lies in `data` below.
+inline constexpr std::array<std::string_view, 4> kGalleryPageFiles = {
+    "index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"};
+bool is_gallery_page_file(const std::filesystem::path& path);
 
 /// Whether a file in a folder of contact sheets is one that we write, by its name.
 bool is_sheet_file(const std::filesystem::path& path);

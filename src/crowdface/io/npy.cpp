@@ -108,11 +108,12 @@ std::vector<std::filesystem::path> write_topology_arrays(const Topology& topolog
                                                          const TextureCoordinates& uvs,
                                                          const std::filesystem::path& folder) {
   make_directories(folder);
-  std::vector<std::filesystem::path> files = {folder / "corners.npy", folder / "offsets.npy"};
+  std::vector<std::filesystem::path> files = {folder / kTopologyArrays[0],
+                                              folder / kTopologyArrays[1]};
   write_indices(topology.corner_vertices, files[0]);
   write_indices(topology.face_offsets, files[1]);
   if (topology.corner_uvs.empty()) return files;
-  files.insert(files.end(), {folder / "uvs.npy", folder / "corner_uvs.npy"});
+  files.insert(files.end(), {folder / kTopologyArrays[2], folder / kTopologyArrays[3]});
   write_uvs(uvs, files[2]);
   write_indices(topology.corner_uvs, files[3]);
   return files;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ std::size_t npy_encode_bytes(Index vertices);
 
 /// Positions that encode_npy made. \throws InvalidInput if the file is anything else.
 Positions read_npy(const std::filesystem::path& path);
+
+inline constexpr std::array kTopologyArrays = {"corners.npy", "offsets.npy", "uvs.npy",
+                                               "corner_uvs.npy"};
 
 /// Writes what positions alone do not say, as arrays in a folder: `corners.npy` (int32, #C, the
 /// vertices of all faces one face after the other), `offsets.npy` (int32, #F + 1, where each face's

@@ -27,9 +27,6 @@ using Json = nlohmann::ordered_json;
 /// 24,000 triangles have some 12,000 vertices of ten bytes each: as text 160 kB a face.
 constexpr std::size_t kMostTriangles = 24'000;
 
-constexpr std::array<std::string_view, 4> kPageFiles = {"index.html", "gallery.js", "gallery.css",
-                                                        "three.LICENSE.txt"};
-
 std::vector<const Positions*> positions_of(const FaceSet& faces) {
   std::vector<const Positions*> heads;
   for (const Head& head : faces.heads) heads.push_back(&head.positions);
@@ -134,7 +131,7 @@ std::optional<fs::path> find_gallery_page() {
     if (error) return std::nullopt;
     folder = program.parent_path().parent_path() / "share/crowdface/gallery";
   }
-  for (const std::string_view file : kPageFiles) {
+  for (const std::string_view file : kGalleryPageFiles) {
     if (!fs::exists(folder / file, error)) return std::nullopt;
   }
   return folder;
@@ -145,16 +142,11 @@ bool has_gallery(const Config& config) {
          find_gallery_page();
 }
 
-bool is_page_file(const fs::path& path) {
-  return std::find(kPageFiles.begin(), kPageFiles.end(), path.filename().string()) !=
-         kPageFiles.end();
-}
-
 Digest gallery_page_digest(const Config& config) {
   Hasher hasher;
   if (has_gallery(config)) {
     const fs::path page = *find_gallery_page();
-    for (const std::string_view file : kPageFiles) hasher.add(hash_file(page / file).digest);
+    for (const std::string_view file : kGalleryPageFiles) hasher.add(hash_file(page / file).digest);
   }
   return hasher.digest();
 }
@@ -221,7 +213,7 @@ void write_gallery(const CrowdDirectory& directory, const Config& config, const 
   write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
   write_file(directory.gallery() / "data/crowd.js",
              call("setCrowd", crowd_to_json(config, crowd, settings, likeness)));
-  for (const std::string_view file : kPageFiles) {
+  for (const std::string_view file : kGalleryPageFiles) {
     write_file(directory.gallery() / file, read_file(page / file));
   }
 }

@@ -21,9 +21,6 @@ std::optional<std::filesystem::path> find_gallery_page();
 /// Whether a crowd of this config gets a gallery here.
 bool has_gallery(const Config& config);
 
-/// Whether a file in a gallery's folder is part of the page, by its name.
-bool is_page_file(const std::filesystem::path& path);
-
 /// The hash of the page that a crowd of this config gets; of nothing, if it gets none.
 Digest gallery_page_digest(const Config& config);
 

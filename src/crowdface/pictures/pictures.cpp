@@ -99,7 +99,7 @@ std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory
   add(directory.sheets(), is_sheet_file);
   add(directory.head_render("").parent_path(), ends_in(".png"));
   add(directory.founder_render("").parent_path(), ends_in(".png"));
-  add(directory.gallery(), is_page_file);
+  add(directory.gallery(), is_gallery_page_file);
   add(directory.gallery() / "data", ends_in(".js"));
   add(directory.gallery_head("").parent_path(), ends_in(".js"));
   std::sort(files.begin(), files.end());
