@@ -68,6 +68,7 @@ std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   constexpr std::uint64_t kMostThreads = 1024;
   set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);
   if (!log_file.empty()) open_log(log_file);
+  limit_image_memory(machine_memory() / 8 * 3);
   for (const std::string& limit : limits) set_input_limit(limit);
   const std::uint64_t limit =
       threads.empty() ? 0 : whole_number("--threads", threads, 1, kMostThreads);
@@ -120,7 +121,7 @@ void WriteOptions::add_to(CLI::App& command) {
   command
       .add_option("--memory", memory,
                   "How much the run may take, such as \"4 GiB\" (default: three quarters of what "
-                  "there is): sets how many faces are in flight")
+                  "there is): sets how many faces are in flight; images take at most half of it")
       ->type_name("SIZE");
 }
 
@@ -140,6 +141,7 @@ GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) con
                               quoted(memory)));
     }
     bytes = *given;
+    limit_image_memory(bytes / 2);
   }
   Shard part;
   if (!shard.empty()) {

@@ -46,7 +46,7 @@ TEST(Import, MakeHumanHeadsAreReadyForACrowd) {
   const ObjFile fine = read_obj(folder / "fine/makehuman_01.obj");
   EXPECT_GT(fine.topology.vertex_count, 700);
   EXPECT_LT(fine.topology.vertex_count, 1700);
-  EXPECT_THAT(face_materials(fine.materials, fine.topology.face_count()).back(),
+  EXPECT_THAT(face_materials(fine.materials, fine.topology.face_count()).names.back(),
               ::testing::Eq("eyeball_l"));
 }
 

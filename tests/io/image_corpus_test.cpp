@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/input_limits.h"
 #include "crowdface/io/image.h"
 
 #include "support/temporary_folder.h"
@@ -38,12 +39,91 @@ class ImageCorpus : public ::testing::Test {
     return read_text(file);
   }
 
+  struct TiffForm {
+    const char* compression;
+    bool tiled, planes_apart;
+    OIIO::TypeDesc type;
+  };
+
+  /// Of 48 x 48 pixels in nine tiles or six strips; its directory comes before them.
+  std::string tiff(const TiffForm& form) const {
+    constexpr int kSide = 48;
+    OIIO::ImageSpec spec(kSide, kSide, 3, form.type);
+    spec.attribute("compression", form.compression);
+    spec.attribute("tiff:RowsPerStrip", 8);
+    if (form.tiled) spec.tile_width = spec.tile_height = 16;
+    if (form.planes_apart) spec.attribute("planarconfig", "separate");
+    std::vector<std::uint8_t> values(std::size_t{3} * kSide * kSide);
+    std::mt19937 random(1);
+    for (std::uint8_t& value : values) value = static_cast<std::uint8_t>(random() % 7 * 30);
+    const fs::path file = folder_ / "form.tif";
+    auto output = OIIO::ImageOutput::create("tiff");
+    EXPECT_TRUE(output->open(file.string(), spec)) << output->geterror();
+    EXPECT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, values.data())) << output->geterror();
+    EXPECT_TRUE(output->close());
+    return with_directory_first(read_text(file));
+  }
+
+  /// The same TIFF (classic, little endian) with its directory, and what that points to, in front of
+  /// the pixels: then a cut leaves a directory that is whole.
+  static std::string with_directory_first(const std::string& bytes) {
+    const auto word = [&](std::size_t at, std::size_t size) {
+      std::uint32_t value = 0;
+      for (std::size_t i = size; i-- > 0;) {
+        value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
+      }
+      return value;
+    };
+    const auto put = [](std::string& text, std::size_t at, std::uint32_t value) {
+      for (std::size_t i = 0; i < 4; ++i) text[at + i] = static_cast<char>(value >> (8 * i));
+    };
+    // All that is old goes behind a copy of the directory; what it points to moves by that much.
+    const std::size_t from = word(4, 4), entries = word(from, 2);
+    std::string front = bytes.substr(0, 8) + bytes.substr(from, 2 + 12 * entries) + "\0\0\0\0"s;
+    std::string rest = bytes.substr(8);
+    std::string lists;
+    put(front, 4, 8);
+    std::vector<std::pair<std::size_t, std::size_t>> offsets;  // where, how many
+    for (std::size_t e = 0; e < entries; ++e) {
+      const std::size_t entry = 10 + 12 * e, old = from + 2 + 12 * e;
+      const std::uint32_t tag = word(old, 2), type = word(old + 2, 2), count = word(old + 4, 4);
+      const std::size_t sizes[13] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8};
+      const std::size_t size = count * sizes[type];
+      const bool inside = size <= 4;
+      const std::size_t place = inside ? entry + 8 : front.size() + lists.size();
+      if (!inside) {
+        lists += bytes.substr(word(old + 8, 4), size);
+        put(front, entry + 8, static_cast<std::uint32_t>(place));
+      }
+      if (tag == 273 || tag == 324) {
+        EXPECT_EQ(type, 4U);
+        offsets.emplace_back(place, count);
+      }
+    }
+    front += lists;
+    const auto moved = static_cast<std::uint32_t>(front.size() - 8);
+    for (const auto& [place, count] : offsets) {
+      for (std::size_t i = 0; i < count; ++i) {
+        std::uint32_t value = 0;
+        for (std::size_t b = 4; b-- > 0;) {
+          value = value << 8U | static_cast<unsigned char>(front[place + 4 * i + b]);
+        }
+        put(front, place + 4 * i, value + moved);
+      }
+    }
+    return front + rest;
+  }
+
   /// \return whether it was read.
   bool read(const std::string& bytes) {
     const fs::path file = folder_.write("mask.bin", bytes);
     try {
       const Image image = read_image(file);
-      for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          for (int c = 0; c < image.channels; ++c) EXPECT_TRUE(std::isfinite(image.at(x, y, c)));
+        }
+      }
       return true;
     } catch (const InvalidInput& error) {
       EXPECT_THAT(error.what(), ::testing::StartsWith(file.string() + ": "));
@@ -146,6 +226,105 @@ TEST_F(ImageCorpus, CutAnywhereIsRefused) {
     }
   }
   EXPECT_GE(refused, 100);
+}
+
+// The decoder took a strip that it could not read for one that it had, and its old memory for pixels.
+TEST_F(ImageCorpus, ATiffCutAnywhereIsRefusedWhateverItsForm) {
+  for (const char* compression : {"none", "lzw", "zip", "packbits"}) {
+    for (const bool tiled : {false, true}) {
+      for (const bool planes_apart : {false, true}) {
+        for (const auto type : {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::FLOAT}) {
+          const std::string bytes = tiff({compression, tiled, planes_apart, type});
+          const auto what = ::testing::Message() << compression << (tiled ? ", tiles" : ", strips")
+                                                 << (planes_apart ? ", planes" : "");
+          EXPECT_TRUE(read(bytes)) << what;
+          constexpr std::size_t kCuts = 30;
+          // The last pixels end before what was the directory.
+          const std::size_t pixels_end = bytes.size() - 400;
+          for (std::size_t cut = 0; cut < kCuts; ++cut) {
+            const std::size_t size = pixels_end * cut / kCuts;
+            EXPECT_FALSE(read(bytes.substr(0, size))) << what << ", cut to " << size;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ImageCorpus, ADamagedStripIsRefusedOrGivesTheSamePixelsEachTime) {
+  std::mt19937 random(3);
+  for (const char* compression : {"lzw", "zip", "packbits"}) {
+    for (const bool planes_apart : {false, true}) {
+      const std::string bytes = tiff({compression, false, planes_apart, OIIO::TypeDesc::UINT8});
+      int refused = 0;
+      for (int i = 0; i < 60; ++i) {
+        std::string mutant = bytes;
+        for (std::size_t k = 0; k < 8; ++k) {
+          mutant[bytes.size() / 2 + random() % 200] = static_cast<char>(random());
+        }
+        const fs::path file = folder_.write("mutant.tif", mutant);
+        try {
+          const Image first = read_image(file);
+          EXPECT_EQ(first.pixels, read_image(file).pixels) << compression;
+        } catch (const InvalidInput&) {
+          ++refused;
+        }
+      }
+      if (compression != "packbits"s) {
+        EXPECT_GT(refused, 20) << compression << planes_apart;
+      }
+    }
+  }
+}
+
+// The decoder would take memory for all that is claimed before it looks.
+TEST_F(ImageCorpus, ATiffThatClaimsMoreThanItHoldsIsRefusedBeforeItIsDecoded) {
+  const std::string small_entry = "\x03\0\x01\0\0\0"s;
+  for (const char* compression : {"none", "lzw", "zip", "packbits"}) {
+    const std::string bytes = tiff({compression, false, false, OIIO::TypeDesc::UINT8});
+    std::string huge = bytes;
+    for (const std::string& tag : {"\0\x01"s, "\x01\x01"s, "\x16\x01"s}) {  // sides, rows a strip
+      const std::size_t at = huge.find(tag + small_entry);
+      ASSERT_NE(at, huge.npos);
+      huge.replace(at + 8, 2, "\0\x40"s);  // 16384
+    }
+    EXPECT_THAT(refusal(huge), ::testing::HasSubstr("is too short for the 16384 x 16384 pixels"));
+  }
+  std::string jpeg = tiff({"none", false, false, OIIO::TypeDesc::UINT8});
+  jpeg[jpeg.find("\x03\x01"s + small_entry) + 8] = 7;
+  EXPECT_THAT(refusal(jpeg), ::testing::HasSubstr("found TIFF's compression 7"));
+}
+
+TEST_F(ImageCorpus, AJpegCutAnywhereIsRefused) {
+  OIIO::ImageSpec spec(40, 30, 3, OIIO::TypeDesc::UINT8);
+  const std::vector<std::uint8_t> values(std::size_t{3} * 40 * 30, 77);
+  const fs::path file = folder_ / "a.jpg";
+  auto output = OIIO::ImageOutput::create(file.string());
+  ASSERT_TRUE(output->open(file.string(), spec) &&
+              output->write_image(OIIO::TypeDesc::UINT8, values.data()) && output->close());
+  const std::string bytes = read_text(file);
+  EXPECT_EQ(read_image(file, {.jpeg = true}).width, 40);
+  for (std::size_t size = 3; size < bytes.size(); size += 7) {
+    const fs::path cut = folder_.write("cut.jpg", bytes.substr(0, size));
+    EXPECT_THROW(read_image(cut, {.jpeg = true}), InvalidInput) << size;
+  }
+}
+
+// Each alone is within its limits.
+TEST_F(ImageCorpus, ImagesTogetherTakeNoMoreThanTheirMemory) {
+  const std::uint64_t before = input_limits().image_bytes;
+  limit_image_memory(std::uint64_t{5} * 100 * 100);
+  const fs::path file = folder_.write(
+      "grey.png", encode_png(100, 100, 1, std::vector<std::uint8_t>(std::size_t{100} * 100, 9)));
+  {
+    std::vector<Image> held;
+    for (int i = 0; i < 5; ++i) held.push_back(read_image(file));
+    EXPECT_THROW(read_image(file), InvalidInput);
+    held.pop_back();
+    EXPECT_NO_THROW(read_image(file));
+  }
+  EXPECT_NO_THROW(read_image(file));
+  set_input_limit("image_bytes=" + std::to_string(before));
 }
 
 TEST_F(ImageCorpus, FlippedBytesAreReadOrRefused) {

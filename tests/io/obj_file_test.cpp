@@ -38,8 +38,28 @@ TEST(ReadObj, KeepsQuadsNgonsOrderAndGroups) {
   EXPECT_EQ(file.positions.row(4), Eigen::RowVector3d(2, 0.5, 0));
   EXPECT_EQ(file.uvs.row(4), Eigen::RowVector2d(0.5, 0));
   EXPECT_EQ(file.material_libraries, (std::vector<std::string>{"a.mtl"}));
-  EXPECT_EQ(face_materials(file.materials, file.topology.face_count()),
-            (std::vector<std::string>{"skin", "lips of rose", "lips of rose"}));
+  const FaceMaterials materials = face_materials(file.materials, file.topology.face_count());
+  EXPECT_EQ(materials.names, (std::vector<std::string>{"skin", "lips of rose"}));
+  EXPECT_EQ(materials.of_face, (std::vector<std::uint32_t>{0, 1, 1}));
+}
+
+TEST(FaceMaterials, NameIsKeptOnceAndOnlyIfAFaceHasIt) {
+  const std::vector<MaterialRange> ranges = {{"skin", 1}, {"unused", 2}, {"lips", 2}, {"skin", 3}};
+  const FaceMaterials materials = face_materials(ranges, 5);
+  EXPECT_EQ(materials.names, (std::vector<std::string>{"", "skin", "lips"}));
+  EXPECT_EQ(materials.of_face, (std::vector<std::uint32_t>{0, 1, 2, 1, 1}));
+  EXPECT_EQ(face_materials({}, 2).of_face, (std::vector<std::uint32_t>{0, 0}));
+}
+
+// One of 40 MB took eleven gigabytes, a copy a face.
+TEST(ReadObj, NamesBeyondAThousandBytesAreRefused) {
+  const auto with = [](const std::string& line) {
+    return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + "\nf 1 2 3\n";
+  };
+  for (const std::string statement : {"usemtl ", "g ", "o ", "mtllib "}) {
+    EXPECT_NO_THROW(read_text(with(statement + std::string(1000, 'm'))));
+    EXPECT_THROW(read_text(with(statement + std::string(1001, 'm'))), InvalidInput) << statement;
+  }
 }
 
 TEST(ReadObj, RoundsNumbersCorrectly) {

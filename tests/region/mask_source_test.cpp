@@ -22,13 +22,13 @@ TEST(MaskSource, TileNumberReplacesEveryMark) {
 }
 
 TEST(MaskSource, AlphaIsNoMask) {
-  EXPECT_THAT(mask_channels({1, 1, 4, 3, {}}), ElementsAre(0, 1, 2));
-  EXPECT_THAT(mask_channels({1, 1, 2, 1, {}}), ElementsAre(0));
-  EXPECT_THAT(mask_channels({1, 1, 3, -1, {}}), ElementsAre(0, 1, 2));
+  EXPECT_THAT(mask_channels({1, 1, 4, 3, {}, {}}), ElementsAre(0, 1, 2));
+  EXPECT_THAT(mask_channels({1, 1, 2, 1, {}, {}}), ElementsAre(0));
+  EXPECT_THAT(mask_channels({1, 1, 3, -1, {}, {}}), ElementsAre(0, 1, 2));
 }
 
 TEST(MaskSource, NegativeValueIsNamedUnlessAlpha) {
-  Image image{2, 1, 2, -1, {0, 0, 0, -0.5F}};
+  Image image{2, 1, 2, -1, std::vector<float>{0, 0, 0, -0.5F}, {}};
   try {
     MaskSource("m.exr", image).read(1001);
     FAIL() << "accepted";

@@ -41,7 +41,7 @@ struct Strip {
 
 Image image_of(int width, int height, int channels, const std::vector<float>& pixels,
                int alpha = -1) {
-  return {width, height, channels, alpha, pixels};
+  return {width, height, channels, alpha, pixels, {}};
 }
 
 std::string message_of(const Strip& strip, const std::vector<MaskSource>& masks, Index regions) {
@@ -59,7 +59,7 @@ Strip three() {
 
 TEST(SampleBilinear, TexelCentresAreExact) {
   Image image = image_of(4, 8, 1, {});
-  for (int i = 0; i < 32; ++i) image.pixels.push_back(0.37F * static_cast<float>(i));
+  for (int i = 0; i < 32; ++i) std::get<0>(image.pixels).push_back(0.37F * static_cast<float>(i));
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 4; ++x) {
       EXPECT_EQ(sample_bilinear(image, (x + 0.5) / 4, 1 - (y + 0.5) / 8, 0), image.at(x, y, 0));
@@ -111,7 +111,8 @@ TEST(RegionWeights, ConstantMasksAreScaledToOne) {
 
 TEST(RegionWeights, RowsSumToOne) {
   Image image = image_of(5, 4, 3, {});
-  for (int i = 0; i < 60; ++i) image.pixels.push_back(static_cast<float>((i * 37) % 19) / 7);
+  for (int i = 0; i < 60; ++i)
+    std::get<0>(image.pixels).push_back(static_cast<float>((i * 37) % 19) / 7);
   std::vector<std::array<double, 2>> places;
   places.reserve(200);
   for (int i = 0; i < 200; ++i) places.push_back({0.137 * i - 5, 0.731 * i});
@@ -165,7 +166,8 @@ TEST(RegionWeights, AlphaIsIgnored) {
 
 TEST(RegionWeights, ThreadCountChangesNothing) {
   Image image = image_of(16, 16, 3, {});
-  for (int i = 0; i < 768; ++i) image.pixels.push_back(static_cast<float>((i * 91) % 57) / 57);
+  for (int i = 0; i < 768; ++i)
+    std::get<0>(image.pixels).push_back(static_cast<float>((i * 91) % 57) / 57);
   std::vector<std::array<double, 2>> places;
   places.reserve(20000);
   for (int i = 0; i < 20000; ++i) places.push_back({0.618034 * i - 0.618034 * i / 1.7, 1e-4 * i});

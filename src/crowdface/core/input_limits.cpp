@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/input_limits.h"
 
+#include <algorithm>
+
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 
@@ -10,11 +12,15 @@ namespace {
 struct Named {
   std::string_view name;
   std::uint64_t InputLimits::*limit;
+  std::uint64_t most = 1ULL << 31U;
 };
-constexpr Named kNamed[] = {
-    {"vertices", &InputLimits::vertices},         {"faces", &InputLimits::faces},
-    {"image_pixels", &InputLimits::image_pixels}, {"textures", &InputLimits::textures},
-    {"yaml_bytes", &InputLimits::yaml_bytes},     {"yaml_depth", &InputLimits::yaml_depth}};
+constexpr Named kNamed[] = {{"vertices", &InputLimits::vertices},
+                            {"faces", &InputLimits::faces},
+                            {"image_pixels", &InputLimits::image_pixels},
+                            {"image_bytes", &InputLimits::image_bytes, 1ULL << 50U},
+                            {"textures", &InputLimits::textures},
+                            {"yaml_bytes", &InputLimits::yaml_bytes},
+                            {"yaml_depth", &InputLimits::yaml_depth}};
 
 InputLimits& in_force() {
   static InputLimits limits;
@@ -28,19 +34,24 @@ const InputLimits& input_limits() {
 }
 
 void set_input_limit(std::string_view assignment) {
-  constexpr std::uint64_t kMost = 1ULL << 31U;
   const std::size_t equals = assignment.find('=');
   const std::string_view name = assignment.substr(0, equals);
   for (const Named& known : kNamed) {
     if (known.name != name || equals == assignment.npos) continue;
     const auto number = parse_unsigned(assignment.substr(equals + 1));
-    if (!number || *number < 1 || *number > kMost) break;
+    if (!number || *number < 1 || *number > known.most) {
+      throw UsageError(concat("--limit: expected for ", name, " a whole number from 1 to ",
+                              known.most, ", found ", quoted(assignment)));
+    }
     in_force().*known.limit = *number;
     return;
   }
-  throw UsageError(concat("--limit: expected NAME=NUMBER with a whole number from 1 to ", kMost,
-                          " and one of the names ", describe_input_limits(), ", found ",
-                          quoted(assignment)));
+  throw UsageError(concat("--limit: expected NAME=NUMBER with one of the names ",
+                          describe_input_limits(), ", found ", quoted(assignment)));
+}
+
+void limit_image_memory(std::uint64_t bytes) {
+  in_force().image_bytes = std::min(in_force().image_bytes, bytes);
 }
 
 std::string describe_input_limits() {

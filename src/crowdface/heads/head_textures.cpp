@@ -22,29 +22,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Texture to_texture(const Image& image) {
+Texture to_texture(const Image& image, int most_px) {
   std::vector<float> linear(65536);
   for (std::size_t i = 0; i < linear.size(); ++i) {
     const float value = static_cast<float>(i) / 65535.0F;
     linear[i] = from_srgb(Eigen::Array3f::Constant(value))[0];
   }
   const bool grey = image.channels < 3;
-  Texture texture{image.width, image.height, {}};
-  texture.texels.reserve(static_cast<std::size_t>(image.width) *
-                         static_cast<std::size_t>(image.height));
-  for (int y = 0; y < image.height; ++y) {
+  return shrunk_texture(image.width, image.height, most_px, [&](int y, std::span<Light> texels) {
     for (int x = 0; x < image.width; ++x) {
-      Light light;
+      Light& light = texels[static_cast<std::size_t>(x)];
       for (int c = 0; c < 3; ++c) {
         const float value = image.at(x, y, grey ? 0 : c);
-        light[c] = image.of_floats
+        light[c] = image.of_floats()
                        ? std::max(value, 0.0F)
                        : linear[static_cast<std::size_t>(std::lround(65535.0F * value))];
       }
-      texture.texels.push_back(light);
     }
-  }
-  return texture;
+  });
+}
+
+/// The texture, and its share of all images' memory for as long as it lives.
+std::shared_ptr<const Texture> read_texture(const fs::path& path, int most_px) {
+  struct Kept {
+    ImageMemory memory;
+    Texture texture;
+  };
+  const Image image = read_image(path, {.jpeg = true});
+  const auto texels = static_cast<std::uint64_t>(std::min(image.width, most_px)) *
+                      static_cast<std::uint64_t>(std::min(image.height, most_px));
+  ImageMemory memory = take_image_memory(path, texels * sizeof(Light));
+  const auto kept =
+      std::make_shared<const Kept>(Kept{std::move(memory), to_texture(image, most_px)});
+  return {kept, &kept->texture};
 }
 
 /// A texture and the digest of its file.
@@ -65,8 +75,7 @@ class TextureShelf {
     TextureFile file;
     std::error_code ignored;  // a name longer than the system allows is that of no file
     if (fs::is_regular_file(path, ignored)) {
-      const Image image = read_image(path, {.jpeg = true});
-      file.texture = std::make_shared<const Texture>(shrunk(to_texture(image), most_px_));
+      file.texture = read_texture(path, most_px_);
       file.content = hash_file(path).digest;
     }
     return files_.emplace(path, std::move(file)).first->second;
@@ -108,15 +117,15 @@ struct NamedCoat {
   std::vector<fs::path> missing;
 };
 
-/// \param tiles  #faces; \param materials  #faces, their names.
+/// \param tiles  #faces.
 NamedCoat coat_of(const ColourTextures& named, const std::vector<int>& tiles,
-                  const std::vector<std::string>& materials, TextureShelf& shelf) {
+                  const FaceMaterials& materials, TextureShelf& shelf) {
   NamedCoat result;
   result.coat.of_face.assign(tiles.size(), TextureCoat::kNone);
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();
-    const auto found = named.of_material.find(materials[f]);
+    const auto found = named.of_material.find(materials.names[materials.of_face[f]]);
     if (found == named.of_material.end()) continue;
     const fs::path path = with_tile(found->second, tiles[f]);
     const auto [row, is_new] = rows.emplace(path, TextureCoat::kNone);

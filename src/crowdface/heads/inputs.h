@@ -17,8 +17,8 @@ namespace crowdface {
 /// Everything a job reads, checked: heads, their topology, masks, and what follows from them.
 struct Inputs {
   FaceSet faces;
-  std::vector<ObjFile> files;          ///< #heads; topology and positions have moved to `faces`
-  std::vector<std::string> materials;  ///< #F, the first head's material of each face
+  std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
+  FaceMaterials materials;     ///< of the first head's faces
   Adjacency adjacency;
   Components components;
   PartList parts;   ///< `parts: none`: empty

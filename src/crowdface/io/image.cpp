@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/image.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <system_error>
 
@@ -34,7 +34,7 @@ std::string checked_format(const path& file, std::string_view bytes, const Image
                         bytes.empty() ? "an empty file"
                                       : "a file that begins with " + quoted(bytes.substr(0, 8))));
   }
-  if (const std::string defect = container_defect(format, bytes, limits.max_side);
+  if (const std::string defect = container_defect(format, bytes, limits.max_side, limits.jpeg);
       !defect.empty()) {
     refuse(file, defect);
   }
@@ -70,6 +70,10 @@ void check_size(const path& file, const OIIO::ImageSpec& spec, const ImageLimits
   if (spec.nchannels > limits.max_channels) {
     refuse(file, concat("expected at most ", limits.max_channels, " channels, found ", size));
   }
+  if (spec.tile_width > limits.max_side || spec.tile_height > limits.max_side) {
+    refuse(file, concat("expected tiles of at most ", limits.max_side, " pixels a side, found ",
+                        spec.tile_width, " x ", spec.tile_height));
+  }
   if (std::int64_t{spec.width} * spec.height * spec.nchannels > limits.max_values) {
     refuse(file, concat("expected at most ", limits.max_values, " values in all, found ", size));
   }
@@ -83,8 +87,8 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 }
 
 /// Memory is taken for all pixels before the first is decoded, so a header may not claim more than
-/// the file can hold. Only for PNG: TIFF and OpenEXR have compressions without such a bound, and of
-/// a cut JPEG the rest is made up.
+/// the file can hold. TIFFs are looked at before they are opened (tiff_defect); OpenEXR and JPEG have
+/// no such bound, only that of all images' memory.
 void check_png_claim(const path& file, std::string_view bytes, const OIIO::ImageSpec& spec) {
   constexpr std::uint64_t kMostOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
   const std::uint64_t bits = png_bits_per_pixel(bytes);
@@ -108,50 +112,71 @@ void check_kind(const path& file, std::string_view format, const OIIO::ImageSpec
   }
 }
 
-void read_into(OIIO::ImageInput& input, const path& file, const OIIO::TypeDesc& type,
-               void* pixels) {
-  if (!input.read_image(0, 0, 0, -1, type, pixels)) {
+/// Strips of a TIFF are decoded a row at a time: when the decoder takes several at once, it hides that
+/// one of them is damaged. (Where planes lie apart it does not, and rows would be read again for each.)
+bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
+  return std::string_view(input.format_name()) == "tiff" && spec.tile_width == 0 &&
+         spec.get_string_attribute("planarconfig") != "separate";
+}
+
+template <class T>
+void read_pixels(OIIO::ImageInput& input, const path& file, Image& image) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const auto row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
+  const std::size_t values = row * static_cast<std::size_t>(spec.height);
+  std::vector<T>& pixels = image.pixels.emplace<std::vector<T>>();
+  pixels.resize(values);
+  constexpr OIIO::TypeDesc kType = OIIO::BaseTypeFromC<T>::value;
+  bool read = true;
+  if (by_rows(input, spec)) {
+    for (int y = 0; read && y < spec.height; ++y) {
+      read = input.read_scanline(spec.y + y, 0, kType,
+                                 pixels.data() + row * static_cast<std::size_t>(y));
+    }
+  } else {
+    read = input.read_image(0, 0, 0, -1, kType, pixels.data());
+  }
+  // Of some damage the decoder says only that it was there.
+  if (!read || input.has_error()) {
     refuse(file, concat("is damaged or cut short: ", input.geterror()));
   }
 }
 
-/// Integers as fractions of the largest: divided, not multiplied by a rounded 1/255.
-template <class T>
-void read_integers(OIIO::ImageInput& input, const path& file, const OIIO::TypeDesc& type,
-                   std::vector<float>& out) {
-  std::vector<T> values(out.size());
-  read_into(input, file, type, values.data());
-  constexpr auto kLargest = static_cast<float>(std::numeric_limits<T>::max());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    out[i] = static_cast<float>(values[i]) / kLargest;
-  }
-}
-
-void read_pixels(OIIO::ImageInput& input, const path& file, const OIIO::TypeDesc& type,
-                 std::vector<float>& out) {
+void read_pixels(OIIO::ImageInput& input, const path& file, Image& image) {
+  const OIIO::TypeDesc type = input.spec().format;
   switch (type.basetype) {
     case OIIO::TypeDesc::UINT8:
-      return read_integers<std::uint8_t>(input, file, type, out);
+      return read_pixels<std::uint8_t>(input, file, image);
     case OIIO::TypeDesc::UINT16:
-      return read_integers<std::uint16_t>(input, file, type, out);
+      return read_pixels<std::uint16_t>(input, file, image);
     case OIIO::TypeDesc::HALF:
     case OIIO::TypeDesc::FLOAT:
     case OIIO::TypeDesc::DOUBLE:
-      return read_into(input, file, OIIO::TypeDesc::FLOAT, out.data());
+      return read_pixels<float>(input, file, image);
     default:
       refuse(file, concat("expected 8 or 16 bit integers or floats, found ", type.c_str()));
   }
 }
 
+/// Bytes that the pixels take, those of integers in their own type.
+std::uint64_t pixel_bytes(const OIIO::ImageSpec& spec) {
+  const std::size_t of_value = std::min<std::size_t>(spec.format.basesize(), sizeof(float));
+  return static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
+         static_cast<std::uint64_t>(spec.nchannels) *
+         (spec.format.is_floating_point() ? sizeof(float) : of_value);
+}
+
 void check_finite(const path& file, const Image& image) {
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (std::isfinite(image.pixels[i])) continue;
+  if (!image.of_floats()) return;
+  const auto& pixels = std::get<std::vector<float>>(image.pixels);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (std::isfinite(pixels[i])) continue;
     const auto channels = static_cast<std::size_t>(image.channels);
     const auto width = static_cast<std::size_t>(image.width);
-    refuse(file, concat("expected finite values, found ",
-                        image.pixels[i] != image.pixels[i] ? "NaN" : "infinity", " at column ",
-                        i / channels % width + 1, ", row ", i / channels / width + 1, ", channel ",
-                        i % channels + 1));
+    refuse(file,
+           concat("expected finite values, found ", pixels[i] != pixels[i] ? "NaN" : "infinity",
+                  " at column ", i / channels % width + 1, ", row ", i / channels / width + 1,
+                  ", channel ", i % channels + 1));
   }
 }
 
@@ -188,11 +213,9 @@ Image read_image(const path& file, const ImageLimits& limits) {
   check_kind(file, format, spec);
   check_size(file, spec, limits);
   if (format == "png") check_png_claim(file, mapped.bytes(), spec);
-  Image image{spec.width,         spec.height, spec.nchannels,
-              spec.alpha_channel, {},          spec.format.is_floating_point()};
-  image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                      static_cast<std::size_t>(spec.nchannels));
-  read_pixels(*input, file, spec.format, image.pixels);
+  Image image{spec.width, spec.height, spec.nchannels, spec.alpha_channel, {}, {}};
+  if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(spec));
+  read_pixels(*input, file, image);
   check_finite(file, image);
   return image;
 }

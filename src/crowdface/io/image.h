@@ -5,24 +5,37 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
+
+#include "crowdface/io/image_memory.h"
 
 namespace crowdface {
 
-/// The plain numbers of an image: no gamma, no alpha premultiplication. 8 and 16 bit integers as
-/// value/255 and value/65535, floats as they are.
+/// The plain numbers of an image, no gamma, no alpha premultiplication, in the type of the file.
 struct Image {
   int width = 0;
   int height = 0;
   int channels = 0;
-  int alpha_channel = -1;     ///< which channel is alpha; −1: none
-  std::vector<float> pixels;  ///< row by row, first row on top, channels of a pixel side by side
-  bool of_floats = false;     ///< the file holds floats, not integers
+  int alpha_channel = -1;  ///< which channel is alpha; −1: none
+  /// Row by row, first row on top, channels of a pixel side by side.
+  std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
+  ImageMemory memory = {};
 
+  bool of_floats() const { return pixels.index() == 0; }
+
+  /// Integers as fractions of the largest: divided, not multiplied by a rounded 1/255.
   float at(int x, int y, int channel) const {
-    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-    return pixels[(row + static_cast<std::size_t>(x)) * static_cast<std::size_t>(channels) +
-                  static_cast<std::size_t>(channel)];
+    const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                           static_cast<std::size_t>(x)) *
+                              static_cast<std::size_t>(channels) +
+                          static_cast<std::size_t>(channel);
+    if (const auto* bytes = std::get_if<1>(&pixels))
+      return static_cast<float>((*bytes)[i]) / 255.0F;
+    if (const auto* words = std::get_if<2>(&pixels)) {
+      return static_cast<float>((*words)[i]) / 65535.0F;
+    }
+    return std::get<0>(pixels)[i];
   }
 };
 
@@ -39,7 +52,9 @@ struct ImageLimits {
 /// Palettes are resolved; alpha and colours stay as they stand in the file.
 /// \throws MissingInput if there is no such file; InvalidInput if it is of another format, damaged
 ///         or cut, beyond the limits, of integers of more than 16 bits, an EXR of which only a part
-///         is stored, or if a value is not finite (the first such pixel is named).
+///         is stored, a TIFF of another compression than none, LZW, Deflate and PackBits (with
+///         `jpeg`: JPEG too), if a value is not finite (the first such pixel is named), or if all
+///         images together would take more memory than they may.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
 /// An 8-bit PNG file in memory: the same bytes for the same pixels, no time stamp.

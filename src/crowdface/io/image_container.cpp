@@ -8,6 +8,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
+#include "crowdface/io/tiff_container.h"
 
 namespace crowdface {
 namespace {
@@ -28,6 +29,18 @@ bool png_is_whole(std::string_view bytes) {
     const std::size_t next = at + 12 + big_endian(bytes, at);
     if (bytes.substr(at + 4, 4) == "IEND") return next <= bytes.size();
     at = next;
+  }
+  return false;
+}
+
+/// Whether a JPEG's pixels run to its end mark: the decoder makes up what is missing. Before them come
+/// segments, each a mark of two bytes and its length; among them is no other mark of an end.
+bool jpeg_is_whole(std::string_view bytes) {
+  constexpr char kStartOfScan = '\xDA';
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == '\xFF') {
+    if (bytes[at + 1] == kStartOfScan) return bytes.find("\xFF\xD9"sv, at) != bytes.npos;
+    at += bytes[at + 1] == '\xFF' ? 1 : 2 + (big_endian(bytes, at) & 0xFFFFU);
   }
   return false;
 }
@@ -175,11 +188,16 @@ std::string image_format(std::string_view bytes) {
   return {};
 }
 
-std::string container_defect(std::string_view format, std::string_view bytes, int max_side) {
+std::string container_defect(std::string_view format, std::string_view bytes, int max_side,
+                             bool jpeg) {
   if (format == "png" && !png_is_whole(bytes)) {
     return "is damaged or cut short: the PNG's end is missing";
   }
+  if (format == "jpeg" && !jpeg_is_whole(bytes)) {
+    return "is damaged or cut short: the JPEG's end is missing";
+  }
   if (format == "openexr") return exr_defect(bytes, max_side);
+  if (format == "tiff") return tiff_defect(bytes, jpeg);
   return {};
 }
 

@@ -111,16 +111,21 @@ ObjFile read_obj(const std::filesystem::path& path) {
   return result;
 }
 
-std::vector<std::string> face_materials(const std::vector<MaterialRange>& ranges,
-                                        Index face_count) {
-  std::vector<std::string> names(static_cast<std::size_t>(face_count));
+FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index face_count) {
+  FaceMaterials result;
+  std::map<std::string_view, std::uint32_t> rows;
+  const auto use = [&](std::string_view name, Index begin, Index end) {
+    if (begin == end) return;
+    const auto [row, is_new] = rows.emplace(name, static_cast<std::uint32_t>(result.names.size()));
+    if (is_new) result.names.emplace_back(name);
+    result.of_face.insert(result.of_face.end(), static_cast<std::size_t>(end - begin), row->second);
+  };
+  use("", 0, ranges.empty() ? face_count : ranges.front().first_face);
   for (std::size_t m = 0; m < ranges.size(); ++m) {
-    const auto begin = static_cast<std::size_t>(ranges[m].first_face);
-    const auto end =
-        m + 1 < ranges.size() ? static_cast<std::size_t>(ranges[m + 1].first_face) : names.size();
-    for (std::size_t f = begin; f < end; ++f) names[f] = ranges[m].name;
+    use(ranges[m].name, ranges[m].first_face,
+        m + 1 < ranges.size() ? ranges[m + 1].first_face : face_count);
   }
-  return names;
+  return result;
 }
 
 }  // namespace crowdface

@@ -32,8 +32,14 @@ struct ObjFile {
 /// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
 ObjFile read_obj(const std::filesystem::path& path);
 
-/// The material of every face, #F; empty text where none is named.
+/// Which face is of which material.
+struct FaceMaterials {
+  std::vector<std::string>
+      names;  ///< each once, as faces first have them; empty where none is named
+  std::vector<std::uint32_t> of_face;  ///< #F, rows of `names`
+};
+
 /// \param ranges  an OBJ file's materials
-std::vector<std::string> face_materials(const std::vector<MaterialRange>& ranges, Index face_count);
+FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index face_count);
 
 }  // namespace crowdface

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMostCorners = 255;  // the loader counts corners in a byte
 constexpr std::uint64_t kMostPerVertex = 8;
+constexpr std::size_t kLongestName = 1000;  // of a material, a group, a list of material files
 constexpr double kLargestCoordinate = 1e7;  // beyond, single precision keeps no tenth of a unit
 
 /// Statements that carry no geometry we blend; they are copied through.
@@ -133,14 +134,22 @@ class Scanner {
     if (statement == "vt") return texture_coordinate();
     if (statement == "vn") return normal();
     if (statement == "usemtl") {
-      scan_.materials.push_back({std::string(rest_after(line, statement)), scan_.face_count});
+      scan_.materials.push_back({name_after(line, statement), scan_.face_count});
     } else if (statement == "g" || statement == "o") {
-      scan_.groups.push_back({std::string(rest_after(line, statement)), scan_.face_count});
+      scan_.groups.push_back({name_after(line, statement), scan_.face_count});
     } else if (statement == "mtllib") {
-      scan_.material_libraries.emplace_back(rest_after(line, statement));
+      scan_.material_libraries.push_back(name_after(line, statement));
     } else if (std::ranges::find(kOtherStatements, statement) == kOtherStatements.end()) {
       fail(concat("expected an OBJ statement, found ", quoted(statement)));
     }
+  }
+
+  std::string name_after(std::string_view line, std::string_view statement) const {
+    const std::string_view name = rest_after(line, statement);
+    if (name.size() > kLongestName) {
+      fail(concat("expected a name of at most ", kLongestName, " bytes, found ", name.size()));
+    }
+    return std::string(name);
   }
 
   double number(std::string_view word, double largest) const {

@@ -6,29 +6,32 @@
 
 namespace crowdface {
 
-Texture shrunk(Texture texture, int most_px) {
-  const int longest = std::max(texture.width, texture.height);
-  const int block = (longest + most_px - 1) / most_px;
-  if (block <= 1) return texture;
-  Texture small{std::max(1, texture.width / block), std::max(1, texture.height / block), {}};
-  small.texels.reserve(static_cast<std::size_t>(small.width) *
-                       static_cast<std::size_t>(small.height));
+Texture shrunk_texture(int width, int height, int most_px,
+                       const std::function<void(int y, std::span<Light> texels)>& row) {
+  const int block = (std::max(width, height) + most_px - 1) / most_px;
+  Texture small{std::max(1, width / block), std::max(1, height / block), {}};
+  small.texels.assign(
+      static_cast<std::size_t>(small.width) * static_cast<std::size_t>(small.height),
+      Light::Zero());
+  std::vector<Light> texels(static_cast<std::size_t>(width));
   for (int y = 0; y < small.height; ++y) {
+    Light* sums =
+        &small.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width)];
     // Blocks of one size, or one larger where the sides are no multiples.
-    const int top = y * texture.height / small.height;
-    const int bottom = (y + 1) * texture.height / small.height;
-    for (int x = 0; x < small.width; ++x) {
-      const int left = x * texture.width / small.width;
-      const int right = (x + 1) * texture.width / small.width;
-      Light sum = Light::Zero();
-      for (int j = top; j < bottom; ++j) {
-        for (int i = left; i < right; ++i) {
-          sum +=
-              texture.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(texture.width) +
-                             static_cast<std::size_t>(i)];
-        }
+    const int top = static_cast<int>(std::int64_t{y} * height / small.height);
+    const int bottom = static_cast<int>((std::int64_t{y} + 1) * height / small.height);
+    const auto left_of = [&](int x) {
+      return static_cast<int>(std::int64_t{x} * width / small.width);
+    };
+    for (int j = top; j < bottom; ++j) {
+      row(j, texels);
+      for (int x = 0; x < small.width; ++x) {
+        for (int i = left_of(x); i < left_of(x + 1); ++i)
+          sums[x] += texels[static_cast<std::size_t>(i)];
       }
-      small.texels.emplace_back(sum / static_cast<float>((bottom - top) * (right - left)));
+    }
+    for (int x = 0; x < small.width; ++x) {
+      sums[x] /= static_cast<float>((bottom - top) * (left_of(x + 1) - left_of(x)));
     }
   }
   return small;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,8 +20,10 @@ struct Texture {
   std::vector<Light> texels;  ///< height · width, first row on top: v = 1
 };
 
-/// A texture made smaller, texels averaged in whole blocks, until no side is longer.
-Texture shrunk(Texture texture, int most_px);
+/// A texture made smaller while it is read, texels averaged in whole blocks, until no side is longer.
+/// \param row  writes the `width` texels of row y; each row is asked for once, from the top down.
+Texture shrunk_texture(int width, int height, int most_px,
+                       const std::function<void(int y, std::span<Light> texels)>& row);
 
 /// The colour at texture coordinates: bilinear between the centres of texels, clamped at the edge.
 /// Only what lies behind the point of a coordinate counts, so that each tile holds one picture.

@@ -28,13 +28,10 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs) {
   options.unit = config.faces.units;
   options.up = config.faces.up;
   options.front = config.faces.front;
-  std::map<std::string, std::uint32_t> rows;
-  for (const std::string& name : inputs.materials) {
-    const auto [row, is_new] =
-        rows.emplace(name, static_cast<std::uint32_t>(options.materials.size()));
-    if (is_new) options.materials.push_back(glb_material(name));
-    options.face_materials.push_back(row->second);
+  for (const std::string& name : inputs.materials.names) {
+    options.materials.push_back(glb_material(name));
   }
+  options.face_materials = inputs.materials.of_face;
   return options;
 }
 

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/tiff_container.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+enum Tag : std::uint64_t {
+  kWidth = 256,
+  kHeight = 257,
+  kBitsPerSample = 258,
+  kCompression = 259,
+  kStripOffsets = 273,
+  kSamplesPerPixel = 277,
+  kRowsPerStrip = 278,
+  kStripByteCounts = 279,
+  kPlanarConfiguration = 284,
+  kTileWidth = 322,
+  kTileLength = 323,
+  kTileOffsets = 324,
+  kTileByteCounts = 325,
+};
+
+/// The first directory: each tag with its numbers. What lies beyond the file throws.
+class Directory {
+ public:
+  struct BeyondTheEnd {};
+
+  explicit Directory(std::string_view bytes) : bytes_(bytes), big_endian_(bytes.starts_with("MM")) {
+    big_tiff_ = number(2, 2) == 43;
+    begin_ = number(big_tiff_ ? 8 : 4, offset_size());
+    count_ = number(begin_, big_tiff_ ? 8 : 2);
+    begin_ += big_tiff_ ? 8 : 2;
+    if (count_ > bytes_.size() / entry_size()) throw BeyondTheEnd();
+    require_inside(begin_, count_ * entry_size());
+  }
+
+  /// \return nothing if there is no such entry, or one that holds no whole numbers.
+  std::vector<std::uint64_t> numbers(Tag tag) const {
+    for (std::uint64_t e = 0; e < count_; ++e) {
+      const std::uint64_t entry = begin_ + e * entry_size();
+      if (number(entry, 2) == tag) return values_of(entry);
+    }
+    return {};
+  }
+
+  /// The first number of an entry; `otherwise` without it.
+  std::uint64_t first(Tag tag, std::uint64_t otherwise) const {
+    const std::vector<std::uint64_t> all = numbers(tag);
+    return all.empty() ? otherwise : all.front();
+  }
+
+  bool holds(std::uint64_t begin, std::uint64_t size) const {
+    return begin <= bytes_.size() && size <= bytes_.size() - begin;
+  }
+
+ private:
+  std::uint64_t offset_size() const { return big_tiff_ ? 8 : 4; }
+  std::uint64_t entry_size() const { return big_tiff_ ? 20 : 12; }
+
+  void require_inside(std::uint64_t begin, std::uint64_t size) const {
+    if (!holds(begin, size)) throw BeyondTheEnd();
+  }
+
+  std::uint64_t number(std::uint64_t at, std::uint64_t size) const {
+    require_inside(at, size);
+    std::uint64_t value = 0;
+    for (std::uint64_t i = 0; i < size; ++i) {
+      const std::uint64_t next = big_endian_ ? at + i : at + size - 1 - i;
+      value = value << 8U | static_cast<unsigned char>(bytes_[next]);
+    }
+    return value;
+  }
+
+  /// An entry is a tag, a type, how many there are, and these or where they stand.
+  std::vector<std::uint64_t> values_of(std::uint64_t entry) const {
+    constexpr std::uint64_t kSizes[17] = {0, 0, 0, 2, 4, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 0, 8};
+    const std::uint64_t type = number(entry + 2, 2), count = number(entry + 4, offset_size());
+    const std::uint64_t size = type < 17 ? kSizes[type] : 0;
+    if (size == 0) return {};
+    if (count > bytes_.size()) throw BeyondTheEnd();
+    std::uint64_t place = entry + 4 + offset_size();
+    if (count * size > offset_size()) place = number(place, offset_size());
+    require_inside(place, count * size);
+    std::vector<std::uint64_t> values(count);
+    for (std::uint64_t i = 0; i < count; ++i) values[i] = number(place + i * size, size);
+    return values;
+  }
+
+  std::string_view bytes_;
+  bool big_endian_, big_tiff_ = false;
+  std::uint64_t begin_ = 0, count_ = 0;
+};
+
+/// How many bytes one byte can stand for at most; nothing for a compression that is not read.
+std::optional<std::uint64_t> most_of_one_byte(std::uint64_t compression, bool jpeg) {
+  switch (compression) {
+    case 1:
+      return 1;
+    case 5:
+      return 2600;  // LZW's longest string, of 12 bits
+    case 8:
+    case 32946:
+      return 1100;  // deflate's longest match takes 2 bits: 1032
+    case 32773:
+      return 64;  // PackBits: 128 from 2
+    case 7:
+      if (jpeg) return 1000;  // a block of 64 three times over, of 2 bits each
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::uint64_t parts_of(std::uint64_t whole, std::uint64_t part) {
+  return whole / part + (whole % part != 0 ? 1 : 0);
+}
+
+/// How a picture is cut: strips are tiles as wide as the picture.
+struct Cut {
+  std::uint64_t width, height;  ///< of the picture
+  std::uint64_t across, down;   ///< of a piece
+  std::uint64_t bits;           ///< of a pixel, in one plane
+  std::uint64_t planes;
+  std::vector<std::uint64_t> begins, sizes;
+
+  std::uint64_t pieces() const { return parts_of(width, across) * parts_of(height, down) * planes; }
+  /// Bytes of a piece that is unpacked; the last strip may be lower.
+  std::uint64_t bytes_of(std::uint64_t piece, bool tiled) const {
+    const std::uint64_t row = piece % parts_of(height, down);
+    const std::uint64_t rows = tiled ? down : std::min(down, height - row * down);
+    return (across * bits + 7) / 8 * rows;
+  }
+};
+
+std::string defect_of(const Directory& directory, bool jpeg) {
+  constexpr std::uint64_t kMostSide = 1U << 24U, kMostBits = 64, kMostSamples = 1U << 16U;
+  const std::uint64_t width = directory.first(kWidth, 0), height = directory.first(kHeight, 0);
+  const std::uint64_t samples = directory.first(kSamplesPerPixel, 1);
+  const std::vector<std::uint64_t> depths = directory.numbers(kBitsPerSample);
+  const std::uint64_t depth = depths.empty() ? 1 : *std::max_element(depths.begin(), depths.end());
+  const bool tiled = directory.first(kTileWidth, 0) != 0;
+  const std::uint64_t across = tiled ? directory.first(kTileWidth, 0) : width;
+  const std::uint64_t down = tiled ? directory.first(kTileLength, 0)
+                                   : std::min(directory.first(kRowsPerStrip, height), height);
+  for (const std::uint64_t side : {width, height, across, down}) {
+    if (side < 1 || side > kMostSide) return concat("expected a picture, found a side of ", side);
+  }
+  if (depth < 1 || depth > kMostBits || samples < 1 || samples > kMostSamples) {
+    return concat("expected samples of 8, 16 or 32 bits, found ", samples, " of ", depth);
+  }
+  const std::uint64_t compression = directory.first(kCompression, 1);
+  const auto most = most_of_one_byte(compression, jpeg);
+  if (!most) {
+    return concat("expected no compression, LZW, Deflate or PackBits, found TIFF's compression ",
+                  compression, "; save it with one of these, or as PNG");
+  }
+  const bool planar = directory.first(kPlanarConfiguration, 1) == 2;
+  const Cut cut{width,
+                height,
+                across,
+                down,
+                depth * (planar ? 1 : samples),
+                planar ? samples : 1,
+                directory.numbers(tiled ? kTileOffsets : kStripOffsets),
+                directory.numbers(tiled ? kTileByteCounts : kStripByteCounts)};
+  const std::string_view pieces = tiled ? "tiles" : "strips";
+  const std::uint64_t expected = cut.pieces();
+  if (cut.begins.size() < expected || cut.sizes.size() < expected) {
+    return concat("expected ", expected, ' ', pieces, " for ", width, " x ", height,
+                  " pixels, found ", std::min(cut.begins.size(), cut.sizes.size()));
+  }
+  for (std::uint64_t p = 0; p < expected; ++p) {
+    if (!directory.holds(cut.begins[p], cut.sizes[p])) throw Directory::BeyondTheEnd();
+    const std::uint64_t claimed = cut.bytes_of(p, tiled);
+    if (parts_of(claimed, *most) <= cut.sizes[p]) continue;
+    return concat("is too short for the ", width, " x ", height,
+                  " pixels that it claims to hold: ", "expected at least ",
+                  parts_of(claimed, *most), " bytes of one of its ", pieces, ", found ",
+                  cut.sizes[p], " (cut short?)");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string tiff_defect(std::string_view bytes, bool jpeg) {
+  try {
+    return defect_of(Directory(bytes), jpeg);
+  } catch (const Directory::BeyondTheEnd&) {
+    return "is damaged or cut short: what its directory names lies beyond the file's end";
+  }
+}
+
+}  // namespace crowdface
