@@ -35,14 +35,13 @@ const Subject& subject() {
 void BM_Render(benchmark::State& state) {
   const Subject& s = subject();
   const ThreadLimit limit(static_cast<int>(state.range(0)));
-  const FaceRenderer renderer(s.heads.topology(),
-                              {.occlusion_rays = static_cast<int>(state.range(1))}, {},
+  const FaceRenderer renderer(s.heads.topology(), {.occlusion = state.range(1) != 0}, {},
                               state.range(2) != 0 ? &s.other : nullptr);
   renderer.render(s.positions, s.camera);
   for (auto _ : state) benchmark::DoNotOptimize(renderer.render(s.positions, s.camera).pixels);
 }
 BENCHMARK(BM_Render)
-    ->ArgNames({"threads", "occlusion_rays", "refit"})
+    ->ArgNames({"threads", "occlusion", "refit"})
     ->ArgsProduct({{1, 2}, {0, 1}, {0, 1}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()

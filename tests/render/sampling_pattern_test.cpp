@@ -1,50 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/sampling_pattern.h"
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace crowdface {
 namespace {
 
-TEST(SamplingPattern, PlacesShareNoFineRowOrColumn) {
+TEST(PlacesInPixel, ShareNoFineRowOrColumn) {
   for (const int side : {1, 2, 3, 5}) {
-    const SamplingPattern pattern(side, 0);
     std::set<int> columns;
     std::set<int> rows;
     const auto cells = static_cast<float>(side * side);
-    for (const auto& place : pattern.places) {
+    for (const auto& place : places_in_pixel(side)) {
       columns.insert(static_cast<int>(place.x() * cells));
       rows.insert(static_cast<int>(place.y() * cells));
     }
     EXPECT_EQ(columns.size(), static_cast<std::size_t>(side * side));
     EXPECT_EQ(rows.size(), static_cast<std::size_t>(side * side));
-    EXPECT_TRUE(pattern.sky.empty());
   }
 }
 
-TEST(SamplingPattern, DiscsAreEvenByArea) {
-  const SamplingPattern pattern(4, 8);
-  ASSERT_EQ(pattern.sky.size(), 128U);
+/// All points of the square of kInterleave² pixels whose upper left corner is (x, y).
+std::vector<Eigen::Vector2f> points_around(const InterleavedDisc& disc, int rays, int x, int y) {
+  std::vector<Eigen::Vector2f> points;
+  for (int j = y; j < y + kInterleave; ++j) {
+    for (int i = x; i < x + kInterleave; ++i) {
+      for (int k = 0; k < rays; ++k) points.push_back(disc.point(i, j, k));
+    }
+  }
+  return points;
+}
+
+TEST(InterleavedDisc, IsEvenByAreaAroundEveryPixel) {
+  const InterleavedDisc disc(14);
   Eigen::Vector2f mean = Eigen::Vector2f::Zero();
   float square = 0;
-  for (const auto& point : pattern.sky) {
+  const auto points = points_around(disc, 14, 5, 7);
+  for (const auto& point : points) {
     EXPECT_LE(point.norm(), 1);
-    mean += point / 128;
-    square += point.squaredNorm() / 128;
+    mean += point / static_cast<float>(points.size());
+    square += point.squaredNorm() / static_cast<float>(points.size());
   }
   EXPECT_LT(mean.norm(), 0.02);
   EXPECT_NEAR(square, 0.5, 0.02);  // ∫ r² over the unit disc, by its area
 }
 
-TEST(PixelTurn, IsAUnitVectorThatDiffersBetweenNeighbours) {
-  for (int y = 0; y < 20; ++y) {
-    for (int x = 0; x < 20; ++x) {
-      EXPECT_NEAR(pixel_turn(x, y).norm(), 1, 1e-6);
-      EXPECT_GT((pixel_turn(x, y) - pixel_turn(x + 1, y)).norm(), 0.2);
-    }
-  }
+TEST(InterleavedDisc, EverySquareOfPixelsHasTheSameDirectionsAndNoneTwice) {
+  const InterleavedDisc disc(3);
+  const auto sorted = [&](int x, int y) {
+    auto points = points_around(disc, 3, x, y);
+    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+      return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+    });
+    return points;
+  };
+  const auto first = sorted(0, 0);
+  EXPECT_EQ(std::adjacent_find(first.begin(), first.end()), first.end());
+  EXPECT_EQ(first, sorted(4, 2));
+  EXPECT_EQ(first, sorted(31, 17));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ inline constexpr int kPartsVersion =
     3;  ///< where parts come to lie; in `settings` of heads with parts
 inline constexpr int kPrepareVersion = 4;  ///< entries of the cache
 /// A picture, what is found about a skin, or a mesh file of the same positions.
-inline constexpr int kFaceFilesVersion = 3;
+inline constexpr int kFaceFilesVersion = 4;
 inline constexpr int kSheetVersion = 5;  ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

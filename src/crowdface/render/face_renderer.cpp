@@ -74,7 +74,7 @@ struct FaceRenderer::Prepared {
   Topology topology;
   NormalFans fans;
   RenderOptions options;
-  SamplingPattern pattern;
+  Sampling sampling;
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
   std::vector<std::optional<Light>> quad_paints;  ///< linear; or empty
@@ -88,7 +88,7 @@ struct FaceRenderer::Prepared {
       : topology(mesh),
         fans(mesh),
         options(choice),
-        pattern(choice.samples_per_side, choice.occlusion_rays) {}
+        sampling(choice.samples_per_side, choice.light_rays) {}
 };
 
 namespace {
@@ -137,9 +137,9 @@ std::vector<float> unscaled(const Positions& positions) {
 void check(const Topology& topology, const RenderOptions& options, const Surfaces& surfaces) {
   require(options.size_px >= 1 && options.size_px <= 16384, "render: ", options.size_px, " pixels");
   require(options.samples_per_side >= 1 && options.samples_per_side <= 16 &&
-              options.occlusion_rays >= 0 && options.occlusion_rays <= 256,
-          "render: ", options.samples_per_side, " samples a side, ", options.occlusion_rays,
-          " occlusion rays");
+              options.light_rays >= 1 && options.light_rays <= 256,
+          "render: ", options.samples_per_side, " samples a side, ", options.light_rays,
+          " rays to each light");
   for (const std::size_t found : {surfaces.kinds.size(), surfaces.paints.size()}) {
     require(found == 0 || static_cast<Index>(found) == topology.face_count(), "render: ", found,
             " surfaces, ", topology.face_count(), " faces");
@@ -203,12 +203,13 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->eyeballs,
                     std::move(eyes),
                     gaze,
+                    prepared_->options.occlusion,
                     Eigen::Vector3f(0, 0, static_cast<float>(1 / camera.half_tangent))};
   const int size = prepared_->options.size_px;
   const int tiles = (size + kTile - 1) / kTile;
   Rgb8Image image(size, size);
   parallel_for_each(std::ptrdiff_t{tiles} * tiles, [&](std::ptrdiff_t tile) {
-    render_tile(stage, prepared_->pattern, static_cast<int>(tile % tiles) * kTile,
+    render_tile(stage, prepared_->sampling, static_cast<int>(tile % tiles) * kTile,
                 static_cast<int>(tile / tiles) * kTile, image);
   });
   prepared_->scenes.give_back(std::move(scene));

@@ -15,8 +15,10 @@ namespace crowdface {
 
 struct RenderOptions {
   int size_px = 256;         ///< side of the square image
-  int samples_per_side = 3;  ///< antialiasing: this squared samples a pixel, at fixed places
-  int occlusion_rays = 1;    ///< a sample; pixels share what theirs find. 0 leaves it out
+  int samples_per_side = 3;  ///< antialiasing: this squared samples a pixel where the picture
+                             ///< changes, at fixed places; four where it does not
+  int light_rays = 3;        ///< a pixel towards each light; pixels share what theirs find
+  bool occlusion = true;     ///< whether the sky's light is kept out of hollows
   Axis front = {2, 1};       ///< where the eyes look: irises are painted there
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/ray_scene.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include <embree3/rtcore.h>
@@ -16,21 +18,36 @@ namespace {
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 
-RTCRay to_embree(const Ray& ray) {
-  RTCRay out;
-  out.org_x = ray.origin.x();
-  out.org_y = ray.origin.y();
-  out.org_z = ray.origin.z();
-  out.dir_x = ray.direction.x();
-  out.dir_y = ray.direction.y();
-  out.dir_z = ray.direction.z();
-  out.tnear = ray.nearest;
-  out.tfar = ray.furthest;
-  out.time = 0;
-  out.mask = ~0U;
-  out.id = 0;
-  out.flags = 0;
-  return out;
+/// How many rays Embree traces together.
+constexpr std::size_t kTogether = 16;
+
+/// \param valid  -1 for each of the packet's rays that is one, 0 for the rest.
+void fill(std::span<const Ray> rays, RTCRay16& packet, std::array<int, kTogether>& valid) {
+  valid.fill(0);
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    const Ray& ray = rays[r];
+    valid[r] = -1;
+    packet.org_x[r] = ray.origin.x();
+    packet.org_y[r] = ray.origin.y();
+    packet.org_z[r] = ray.origin.z();
+    packet.dir_x[r] = ray.direction.x();
+    packet.dir_y[r] = ray.direction.y();
+    packet.dir_z[r] = ray.direction.z();
+    packet.tnear[r] = ray.nearest;
+    packet.tfar[r] = ray.furthest;
+    packet.time[r] = 0;
+    packet.mask[r] = ~0U;
+    packet.id[r] = 0;
+    packet.flags[r] = 0;
+  }
+}
+
+/// Calls `body(first, packet of rays)` for sixteen rays after the other.
+template <class Body>
+void for_each_packet(std::span<const Ray> rays, const Body& body) {
+  for (std::size_t first = 0; first < rays.size(); first += kTogether) {
+    body(first, rays.subspan(first, std::min(kTogether, rays.size() - first)));
+  }
 }
 
 }  // namespace
@@ -105,28 +122,43 @@ void RayScene::move_points(std::vector<float> points) {
   state_->commit_points();
 }
 
-std::optional<RayHit> RayScene::nearest_hit(const Ray& ray) const {
-  RTCRayHit query;
-  query.ray = to_embree(ray);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+std::vector<std::optional<RayHit>> RayScene::nearest_hits(std::span<const Ray> rays) const {
+  std::vector<std::optional<RayHit>> hits(rays.size());
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(state_->scene, &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return RayHit{query.hit.primID,
-                query.hit.u,
-                query.hit.v,
-                query.ray.tfar,
-                {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for_each_packet(rays, [&](std::size_t first, std::span<const Ray> some) {
+    alignas(64) std::array<int, kTogether> valid;
+    RTCRayHit16 query;
+    fill(some, query.ray, valid);
+    std::fill_n(query.hit.geomID, kTogether, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(query.hit.instID[0], kTogether, RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect16(valid.data(), state_->scene, &context, &query);
+    for (std::size_t r = 0; r < some.size(); ++r) {
+      const RTCHit16& hit = query.hit;
+      if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;
+      hits[first + r] = RayHit{hit.primID[r],
+                               hit.u[r],
+                               hit.v[r],
+                               query.ray.tfar[r],
+                               {hit.Ng_x[r], hit.Ng_y[r], hit.Ng_z[r]}};
+    }
+  });
+  return hits;
 }
 
-bool RayScene::occluded(const Ray& ray) const {
-  RTCRay query = to_embree(ray);
+std::vector<bool> RayScene::occluded(std::span<const Ray> rays) const {
+  std::vector<bool> blocked(rays.size());
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcOccluded1(state_->scene, &context, &query);
-  return query.tfar < 0;
+  for_each_packet(rays, [&](std::size_t first, std::span<const Ray> some) {
+    alignas(64) std::array<int, kTogether> valid;
+    RTCRay16 query;
+    fill(some, query, valid);
+    rtcOccluded16(valid.data(), state_->scene, &context, &query);
+    for (std::size_t r = 0; r < some.size(); ++r) blocked[first + r] = query.tfar[r] < 0;
+  });
+  return blocked;
 }
 
 Eigen::Vector3f RayScene::point(std::uint32_t vertex) const {

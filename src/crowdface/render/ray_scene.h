@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -61,8 +63,11 @@ class RayScene {
   /// \param points  as many as before.
   void move_points(std::vector<float> points);
 
-  std::optional<RayHit> nearest_hit(const Ray& ray) const;
-  bool occluded(const Ray& ray) const;
+  /// What each ray meets first, if anything. Rays that stand beside each other in the list are traced together,
+  /// which is quick if they run alike.
+  std::vector<std::optional<RayHit>> nearest_hits(std::span<const Ray> rays) const;
+  /// Whether each ray meets anything.
+  std::vector<bool> occluded(std::span<const Ray> rays) const;
   Eigen::Vector3f point(std::uint32_t vertex) const;
 
  private:

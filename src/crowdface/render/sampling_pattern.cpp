@@ -36,36 +36,29 @@ Eigen::Vector2f disc_point(int i, int count) {
   return to_disc(radical_inverse(i), (static_cast<float>(i) + 0.5F) / static_cast<float>(count));
 }
 
-float fraction(float x) {
-  return x - std::floor(x);
-}
-
 }  // namespace
 
-SamplingPattern::SamplingPattern(int samples_per_side, int sky_rays) {
-  const int samples = samples_per_side * samples_per_side;
-  const auto side = static_cast<float>(samples_per_side);
-  for (int s = 0; s < samples; ++s) {
-    // No two samples share a row or a column of the fine grid (Kensler 2013, "Correlated
-    // multi-jittered sampling", canonical arrangement).
-    const int column = s % samples_per_side;
-    const int row = s / samples_per_side;
-    const auto i = static_cast<float>(column);
-    const auto j = static_cast<float>(row);
-    places.emplace_back((i + (j + 0.5F) / side) / side, (j + (i + 0.5F) / side) / side);
-    lamp.push_back(disc_point(s, samples));
-    // Strided, so that the rays of one sample alone are spread out too.
-    for (int r = 0; r < sky_rays; ++r) {
-      sky.push_back(disc_point(r * samples + s, samples * sky_rays));
+std::vector<Eigen::Vector2f> places_in_pixel(int side) {
+  std::vector<Eigen::Vector2f> places;
+  const auto cells = static_cast<float>(side);
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const auto i = static_cast<float>(column);
+      const auto j = static_cast<float>(row);
+      places.emplace_back((i + (j + 0.5F) / cells) / cells, (j + (i + 0.5F) / cells) / cells);
     }
   }
+  return places;
 }
 
-Eigen::Vector2f pixel_turn(int x, int y) {
-  const float phase = fraction(52.9829189F * fraction(0.06711056F * static_cast<float>(x) +
-                                                      0.00583715F * static_cast<float>(y)));
-  const float angle = 2 * std::numbers::pi_v<float> * phase;
-  return {std::cos(angle), std::sin(angle)};
+InterleavedDisc::InterleavedDisc(int rays) {
+  const int count = rays * kInterleave * kInterleave;
+  for (int i = 0; i < count; ++i) points_.push_back(disc_point(i, count));
+}
+
+const Eigen::Vector2f& InterleavedDisc::point(int x, int y, int k) const {
+  const int pixel = y % kInterleave * kInterleave + x % kInterleave;
+  return points_[static_cast<std::size_t>(k * kInterleave * kInterleave + pixel)];
 }
 
 }  // namespace crowdface

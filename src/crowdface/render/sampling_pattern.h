@@ -7,19 +7,24 @@
 
 namespace crowdface {
 
-/// Where the samples of a pixel lie: fixed and evenly spread, the same for every pixel but for a
-/// turn, so that what is left of noise makes no pattern.
-struct SamplingPattern {
-  std::vector<Eigen::Vector2f> places;  ///< #samples in [0, 1)²: antialiasing
-  std::vector<Eigen::Vector2f> lamp;    ///< #samples in the unit disc: towards an area light
-  std::vector<Eigen::Vector2f> sky;     ///< #samples · rays in the unit disc, sample by sample
+/// `side`² points of [0, 1)² of which no two share a row or a column of the fine grid (Kensler 2013,
+/// "Correlated multi-jittered sampling", canonical arrangement).
+std::vector<Eigen::Vector2f> places_in_pixel(int side);
 
-  /// \param samples_per_side, sky_rays  at least 1 and 0.
-  SamplingPattern(int samples_per_side, int sky_rays);
+/// Pixels of a square of this side look in directions that interleave; those of the next look in the same
+/// (Keller & Heidrich 2001, "Interleaved sampling").
+inline constexpr int kInterleave = 3;
+
+/// Directions as points of the unit disc, even by area: `rays` for each pixel, and together with
+/// those of the eight pixels around it, wherever it lies, always the same 9 · `rays`.
+class InterleavedDisc {
+ public:
+  explicit InterleavedDisc(int rays);
+  /// Ray `k` of a pixel; only x and y modulo kInterleave count.
+  const Eigen::Vector2f& point(int x, int y, int k) const;
+
+ private:
+  std::vector<Eigen::Vector2f> points_;
 };
-
-/// The turn of one pixel's discs: cosine and sine of an angle that differs most between neighbours
-/// (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced Warfare").
-Eigen::Vector2f pixel_turn(int x, int y);
 
 }  // namespace crowdface

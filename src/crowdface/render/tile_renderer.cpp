@@ -20,6 +20,11 @@ constexpr float kSkyReach = 0.55F;    // how far ambient occlusion looks
 constexpr float kClearance = 2e-4F;   // rays start this far above the surface
 constexpr float kThickness = 0.012F;  // how deep light soaks in: softens where shadows begin
 
+constexpr float kSameNormal = 0.985F;  // cosine: 10 degrees
+constexpr float kSameAlbedo = 0.03F;
+// The pixels around a point count its own pixel in; this is for a point unlike all of them.
+constexpr float kOwnWeight = 0.01F;
+
 /// Shares of a primitive's four vertices in a point on it.
 Eigen::Vector4f shares(const Quad& quad, float u, float v) {
   if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
@@ -49,20 +54,30 @@ Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vecto
   return eye_albedo(stage.eyes[eye], stage.gaze, point);
 }
 
+/// How much of a light arrives, as found by rays towards it.
+struct Openness {
+  float open = 0;   ///< rays that reached it
+  float asked = 0;  ///< of so many
+
+  void add(const Openness& other, float weight) {
+    open += weight * other.open;
+    asked += weight * other.asked;
+  }
+};
+
 /// A point of the surface that a camera ray has met.
 struct Meeting {
   Vector point;
   Vector start;  ///< where rays to the lights begin
   ShadePoint surface;
-  std::uint32_t sample;   ///< of the pixel: which of its rays this was
   bool asks_key = false;  ///< whether the key light could reach it at all
+  Openness key, sky;
 };
 
-Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction, std::size_t sample) {
+Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const Quad& quad = stage.quads[hit.primitive];
   const Eigen::Vector4f weights = shares(quad, hit.u, hit.v);
   Meeting meeting;
-  meeting.sample = static_cast<std::uint32_t>(sample);
   meeting.point = stage.viewer + hit.distance * direction;
   meeting.surface.kind = stage.kinds[hit.primitive];
   Vector normal = Vector::Zero();
@@ -94,31 +109,27 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction, std
   return meeting;
 }
 
-/// A direction given as a point of the disc around `axis`, turned by the pixel's angle.
-struct Turned {
-  Vector s, t;
-  Turned(const Vector& axis, const Eigen::Vector2f& turn) {
-    const auto [a, b] = perpendicular(axis);
-    s = turn.x() * a + turn.y() * b;
-    t = turn.x() * b - turn.y() * a;
-  }
-  Vector operator()(const Eigen::Vector2f& disc) const { return disc.x() * s + disc.y() * t; }
-};
+/// A direction given as a point of the disc around `axis`.
+Vector around(const Vector& axis, const Eigen::Vector2f& disc) {
+  const auto [s, t] = perpendicular(axis);
+  return disc.x() * s + disc.y() * t;
+}
 
-/// What a pixel shows, for its neighbours to compare with what they show.
+/// What a pixel shows, for itself and its neighbours.
 struct Summary {
   Vector point = Vector::Zero();   ///< mean
   Vector normal = Vector::Zero();  ///< mean of unit normals: shorter than 1 where they differ
-  float key = 0, sky = 0;          ///< means
-  float asked_key = 0, seen = 0;   ///< how many samples these are of
+  Light albedo = Light::Zero();    ///< mean
+  Openness key, sky;               ///< of all its points
+  bool empty = true;
 };
 
 /// One square of the image, and a rim of pixels around it that lend what they know of their lights.
 class Tile {
  public:
-  Tile(const Stage& stage, const SamplingPattern& pattern, int left, int top, int size)
+  Tile(const Stage& stage, const Sampling& sampling, int left, int top, int size)
       : stage_(stage),
-        pattern_(pattern),
+        sampling_(sampling),
         size_(size),
         left_(left),
         top_(top),
@@ -127,12 +138,16 @@ class Tile {
         outer_left_(std::max(left - 1, 0)),
         outer_top_(std::max(top - 1, 0)),
         outer_right_(std::min(right_ + 1, size)),
-        outer_bottom_(std::min(bottom_ + 1, size)) {}
+        outer_bottom_(std::min(bottom_ + 1, size)),
+        pixels_(static_cast<std::size_t>(outer_right_ - outer_left_) *
+                static_cast<std::size_t>(outer_bottom_ - outer_top_)) {}
 
   void render(Rgb8Image& image) {
-    look();
+    look(sampling_.coarse, [](const Pixel&) { return true; });
+    for (Pixel& pixel : pixels_) pixel.changes = changes(pixel);
+    look(sampling_.fine, [](const Pixel& pixel) { return pixel.changes; });
     ask_key();
-    ask_sky();
+    if (stage_.occlusion) ask_sky();
     summarize();
     for (int y = top_; y < bottom_; ++y) {
       for (int x = left_; x < right_; ++x) {
@@ -145,6 +160,8 @@ class Tile {
  private:
   struct Pixel {
     std::uint32_t first = 0, end = 0;  ///< of its meetings
+    std::uint32_t missed = 0;          ///< how many of its samples met nothing
+    bool changes = false;              ///< whether its samples show different things
     Light backdrop = Light::Zero();    ///< of its samples that met nothing
     Summary summary = {};
   };
@@ -161,25 +178,37 @@ class Tile {
     }
   }
 
-  Eigen::Vector2f place(int x, int y, std::size_t sample) const {
+  Eigen::Vector2f on_image(int x, int y, const Eigen::Vector2f& place) const {
     const Eigen::Vector2f corner(static_cast<float>(x), static_cast<float>(y));
-    return (corner + pattern_.places[sample]) / static_cast<float>(size_);
+    return (corner + place) / static_cast<float>(size_);
   }
 
-  /// What the camera's rays meet.
-  void look() {
-    pixels_.resize(static_cast<std::size_t>(outer_right_ - outer_left_) *
-                   static_cast<std::size_t>(outer_bottom_ - outer_top_));
+  /// What the camera's rays meet at these places of the pixels that ask.
+  template <class Asks>
+  void look(const std::vector<Eigen::Vector2f>& places, const Asks& asks) {
+    std::vector<Ray> rays;
+    for_each_pixel([&](int x, int y, const Pixel& pixel) {
+      if (!asks(pixel)) return;
+      for (const Eigen::Vector2f& place : places) {
+        const Eigen::Vector2f at = on_image(x, y, place);
+        rays.push_back({stage_.viewer, Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer});
+      }
+    });
+    const auto hits = stage_.scene.nearest_hits(rays);
+    std::size_t ray = 0;
     for_each_pixel([&](int x, int y, Pixel& pixel) {
+      if (!asks(pixel)) return;
       pixel.first = static_cast<std::uint32_t>(meetings_.size());
-      for (std::size_t s = 0; s < pattern_.places.size(); ++s) {
-        const Eigen::Vector2f at = place(x, y, s);
-        const Vector direction = Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer;
-        if (const auto hit = stage_.scene.nearest_hit({stage_.viewer, direction})) {
-          meetings_.push_back(meet(stage_, *hit, direction, s));
+      pixel.missed = 0;
+      pixel.backdrop = Light::Zero();
+      for (const Eigen::Vector2f& place : places) {
+        if (hits[ray]) {
+          meetings_.push_back(meet(stage_, *hits[ray], rays[ray].direction));
         } else {
-          pixel.backdrop += background(at.y());
+          pixel.backdrop += background(on_image(x, y, place).y());
+          ++pixel.missed;
         }
+        ++ray;
       }
       pixel.end = static_cast<std::uint32_t>(meetings_.size());
     });
@@ -189,105 +218,155 @@ class Tile {
     return std::span(meetings_).subspan(pixel.first, pixel.end - pixel.first);
   }
 
-  /// Whether the key light reaches the points that face it.
-  void ask_key() {
-    const Vector key = key_direction();
-    for_each_pixel([&](int x, int y, const Pixel& pixel) {
-      const Turned turned(key, pixel_turn(x, y));
-      for (Meeting& meeting : meetings_of(pixel)) {
-        meeting.surface.key = 0;
-        if (!meeting.asks_key) continue;
-        const Vector direction = key + kKeyRadius * turned(pattern_.lamp[meeting.sample]);
-        const Vector start = meeting.start + kThickness * meeting.surface.normal;
-        const bool lit = !stage_.scene.occluded({start, direction.normalized()});
-        meeting.surface.key = lit ? 1.0F : 0.0F;
-      }
+  /// Whether a pixel's samples show more than one smooth piece of surface in one colour.
+  bool changes(const Pixel& pixel) {
+    const std::span<const Meeting> meetings = meetings_of(pixel);
+    if (meetings.empty()) return false;
+    if (pixel.missed > 0) return true;
+    const Meeting& first = meetings.front();
+    return std::any_of(meetings.begin() + 1, meetings.end(), [&](const Meeting& other) {
+      const float height = (other.point - first.point).dot(first.surface.normal);
+      return other.surface.kind != first.surface.kind ||
+             other.surface.inside != first.surface.inside ||
+             other.surface.normal.dot(first.surface.normal) < kSameNormal ||
+             std::abs(height) > pixel_side() ||
+             (other.surface.albedo - first.surface.albedo).abs().maxCoeff() > kSameAlbedo;
     });
   }
 
-  /// Share of the sky that each point sees, weighted by the cosine.
-  void ask_sky() {
-    const std::size_t rays = pattern_.sky.size() / pattern_.places.size();
-    if (rays == 0) return;  // all of it
-    for_each_pixel([&](int x, int y, const Pixel& pixel) {
-      const Eigen::Vector2f turn = pixel_turn(x, y);
-      for (Meeting& meeting : meetings_of(pixel)) {
-        const Vector& normal = meeting.surface.normal;
-        const Turned turned(normal, turn);
-        float open = 0;
-        for (std::size_t r = 0; r < rays; ++r) {
-          const Eigen::Vector2f& disc = pattern_.sky[meeting.sample * rays + r];
-          const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
-          const Vector direction = turned(disc) + height * normal;
-          if (!stage_.scene.occluded({meeting.start, direction, 0, kSkyReach})) open += 1;
+  float pixel_side() const { return 2 / static_cast<float>(size_); }
+
+  /// Calls `body(meeting, disc)` for each direction in which a meeting asks for lights, in the order of
+  /// directions: rays that run alike are sent one after the other. A pixel that shows one thing asks as often as
+  /// there are light rays; where it changes, each of its meetings asks.
+  template <class Body>
+  void for_each_ask(const Body& body) {
+    const auto rays = static_cast<std::size_t>(sampling_.light_rays);
+    for (int shift_y = 0; shift_y < kInterleave; ++shift_y) {
+      for (int shift_x = 0; shift_x < kInterleave; ++shift_x) {
+        for (std::size_t k = 0; k < rays; ++k) {
+          const Eigen::Vector2f& disc = sampling_.lights.point(
+              outer_left_ + shift_x, outer_top_ + shift_y, static_cast<int>(k));
+          for (int y = outer_top_ + shift_y; y < outer_bottom_; y += kInterleave) {
+            for (int x = outer_left_ + shift_x; x < outer_right_; x += kInterleave) {
+              const Pixel& at = pixel(x, y);
+              const std::span<Meeting> meetings = meetings_of(at);
+              if (meetings.empty()) continue;
+              const std::size_t first = k % meetings.size();
+              const std::size_t end = at.changes ? meetings.size() : first + 1;
+              for (std::size_t m = first; m < end; m += rays) body(meetings[m], disc);
+            }
+          }
         }
-        meeting.surface.sky = open / static_cast<float>(rays);
       }
+    }
+  }
+
+  void ask_key() {
+    const Vector key = key_direction();
+    std::vector<Ray> rays;
+    std::vector<Openness*> asking;
+    for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc) {
+      if (!meeting.asks_key) return;
+      const Vector start = meeting.start + kThickness * meeting.surface.normal;
+      rays.push_back({start, key + kKeyRadius * around(key, disc)});
+      asking.push_back(&meeting.key);
     });
+    trace(rays, asking);
+  }
+
+  /// Directions are cosine-weighted.
+  void ask_sky() {
+    std::vector<Ray> rays;
+    std::vector<Openness*> asking;
+    for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc) {
+      const Vector& normal = meeting.surface.normal;
+      const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
+      rays.push_back({meeting.start, around(normal, disc) + height * normal, 0, kSkyReach});
+      asking.push_back(&meeting.sky);
+    });
+    trace(rays, asking);
+  }
+
+  void trace(const std::vector<Ray>& rays, const std::vector<Openness*>& asking) {
+    const std::vector<bool> blocked = stage_.scene.occluded(rays);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      asking[r]->add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
+    }
   }
 
   void summarize() {
     for (Pixel& pixel : pixels_) {
       Summary& summary = pixel.summary;
-      for (const Meeting& meeting : meetings_of(pixel)) {
+      const std::span<const Meeting> meetings = meetings_of(pixel);
+      if (meetings.empty()) continue;
+      for (const Meeting& meeting : meetings) {
         summary.point += meeting.point;
         summary.normal += meeting.surface.normal;
-        summary.sky += meeting.surface.sky;
-        summary.seen += 1;
-        if (!meeting.asks_key) continue;
-        summary.key += meeting.surface.key;
-        summary.asked_key += 1;
+        summary.albedo += meeting.surface.albedo;
+        summary.key.add(meeting.key, 1);
+        summary.sky.add(meeting.sky, 1);
       }
-      if (summary.seen == 0) continue;
-      summary.point /= summary.seen;
-      summary.normal /= summary.seen;
-      summary.sky /= summary.seen;
-      summary.key /= std::max(summary.asked_key, 1.0F);
+      const auto count = static_cast<float>(meetings.size());
+      summary.point /= count;
+      summary.normal /= count;
+      summary.albedo /= count;
+      summary.empty = false;
     }
   }
 
-  /// How far a pixel shows the surface of a meeting: 0 elsewhere, 1 right beside it.
+  /// How far a pixel shows the surface of a point: 0 elsewhere, 1 right beside it.
   float likeness(const Meeting& meeting, const Summary& other) const {
     const Vector& normal = meeting.surface.normal;
     const float facing = std::clamp((normal.dot(other.normal) - 0.7F) / 0.25F, 0.0F, 1.0F);
     if (facing == 0) return 0;
-    const float step = 2 / static_cast<float>(size_);  // one pixel
-    const float height = std::abs((other.point - meeting.point).dot(normal)) / step;
+    const float height = std::abs((other.point - meeting.point).dot(normal)) / pixel_side();
     return facing * std::clamp(2 - height, 0.0F, 1.0F);
   }
 
-  /// The point with the lights that it and the pixels around have found.
+  /// The point with the lights that the pixels around it, and its own, have found.
   ShadePoint with_shared_lights(const Meeting& meeting, int x, int y) {
-    float key = meeting.surface.key, key_weight = meeting.asks_key ? 1.0F : 0.0F;
-    float sky = meeting.surface.sky, sky_weight = 1;
+    Openness key, sky;
+    key.add(meeting.key, kOwnWeight);
+    sky.add(meeting.sky, kOwnWeight);
     for (int j = std::max(y - 1, outer_top_); j < std::min(y + 2, outer_bottom_); ++j) {
       for (int i = std::max(x - 1, outer_left_); i < std::min(x + 2, outer_right_); ++i) {
         const Summary& other = pixel(i, j).summary;
-        if (other.seen == 0) continue;
+        if (other.empty) continue;
         const float weight = likeness(meeting, other);
-        sky += weight * other.seen * other.sky;
-        sky_weight += weight * other.seen;
-        if (!meeting.asks_key) continue;
-        key += weight * other.asked_key * other.key;
-        key_weight += weight * other.asked_key;
+        key.add(other.key, weight);
+        sky.add(other.sky, weight);
       }
     }
     ShadePoint surface = meeting.surface;
-    surface.sky = sky / sky_weight;
-    if (meeting.asks_key) surface.key = key / key_weight;
+    surface.key = key.asked > 0 ? key.open / key.asked : 0;
+    surface.sky = sky.asked > 0 ? sky.open / sky.asked : 1;
     return surface;
   }
 
   /// The mean of a pixel's samples.
   Light light_at(int x, int y) {
-    Pixel& at = pixel(x, y);
+    const Pixel& at = pixel(x, y);
+    const std::span<const Meeting> meetings = meetings_of(at);
+    if (!meetings.empty() && !at.changes) return shade(with_shared_lights(middle_of(at), x, y));
     Light sum = at.backdrop;
-    for (const Meeting& meeting : meetings_of(at)) sum += shade(with_shared_lights(meeting, x, y));
-    return sum / static_cast<float>(pattern_.places.size());
+    for (const Meeting& meeting : meetings) sum += shade(with_shared_lights(meeting, x, y));
+    return sum / static_cast<float>(meetings.size() + at.missed);
+  }
+
+  /// The one point that stands for all of a pixel.
+  Meeting middle_of(const Pixel& pixel) {
+    Meeting middle = meetings_[pixel.first];
+    middle.point = pixel.summary.point;
+    middle.surface.normal = pixel.summary.normal.normalized();
+    middle.surface.albedo = pixel.summary.albedo;
+    middle.key = pixel.summary.key;
+    middle.sky = pixel.summary.sky;
+    return middle;
   }
 
   const Stage& stage_;
-  const SamplingPattern& pattern_;
+  const Sampling& sampling_;
   int size_;
   int left_, top_, right_, bottom_;
   int outer_left_, outer_top_, outer_right_, outer_bottom_;
@@ -297,9 +376,9 @@ class Tile {
 
 }  // namespace
 
-void render_tile(const Stage& stage, const SamplingPattern& pattern, int left, int top,
+void render_tile(const Stage& stage, const Sampling& sampling, int left, int top,
                  Rgb8Image& image) {
-  Tile(stage, pattern, left, top, image.width).render(image);
+  Tile(stage, sampling, left, top, image.width).render(image);
 }
 
 }  // namespace crowdface

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -39,7 +40,22 @@ struct Stage {
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Eigen::Vector3f gaze;
+  bool occlusion;  ///< whether the sky's light is kept out of hollows
   Eigen::Vector3f viewer;
+};
+
+/// Where rays go.
+struct Sampling {
+  std::vector<Eigen::Vector2f> coarse;  ///< places in every pixel
+  std::vector<Eigen::Vector2f> fine;    ///< and in those where the picture changes
+  int light_rays;                       ///< a pixel, towards each light
+  InterleavedDisc lights;
+
+  Sampling(int samples_per_side, int rays)
+      : coarse(places_in_pixel(std::min(2, samples_per_side))),
+        fine(places_in_pixel(samples_per_side)),
+        light_rays(rays),
+        lights(rays) {}
 };
 
 /// Side of the squares that an image is rendered in, in pixels.
@@ -49,7 +65,6 @@ inline constexpr int kTile = 32;
 /// it shares with those around it that show the same surface: each has tried other directions, and
 /// together they leave no grain.
 /// \param left, top  the square's upper left corner; what sticks out of the image is left out.
-void render_tile(const Stage& stage, const SamplingPattern& pattern, int left, int top,
-                 Rgb8Image& image);
+void render_tile(const Stage& stage, const Sampling& sampling, int left, int top, Rgb8Image& image);
 
 }  // namespace crowdface

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/skin_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,14 +54,15 @@ std::vector<double> vertex_openness(const Positions& positions, const Positions&
     for (auto i = begin; i < end; ++i) {
       const std::uint32_t v = vertices[static_cast<std::size_t>(i)];
       const Eigen::Vector3f normal = normals.row(v).transpose().cast<float>();
-      int outward = 0, free = 0;
+      const Eigen::Vector3f from = positions.row(v).transpose().cast<float>() + 0.05F * normal;
+      std::vector<Ray> outward;
       for (const Eigen::Vector3f& ray : rays) {
-        if (ray.dot(normal) < 0.1F) continue;
-        ++outward;
-        const Eigen::Vector3f from = positions.row(v).transpose().cast<float>() + 0.05F * normal;
-        if (!scene.occluded({from, ray, 0.01F})) ++free;
+        if (ray.dot(normal) >= 0.1F) outward.push_back({from, ray, 0.01F});
       }
-      open[static_cast<std::size_t>(i)] = outward > 0 ? static_cast<double>(free) / outward : 0;
+      const std::vector<bool> blocked = scene.occluded(outward);
+      const auto free = static_cast<double>(std::count(blocked.begin(), blocked.end(), false));
+      open[static_cast<std::size_t>(i)] =
+          outward.empty() ? 0 : free / static_cast<double>(outward.size());
     }
   });
   return open;
