@@ -64,9 +64,8 @@ Positions NormalFans::normals(const Positions& areas, const Eigen::RowVector3d& 
   Positions normals(rows(), 3);
   parallel_blocks(rows(), kRowsPerBlock, [&](Index begin, Index end) {
     for (Index row = begin; row < end; ++row) {
-      const auto r = static_cast<std::size_t>(row);
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (auto i = offsets_[r]; i < offsets_[r + 1]; ++i) sum += areas.row(faces_[i]);
+      for (const std::uint32_t face : around(row)) sum += areas.row(face);
       const double length = std::sqrt(sum(0) * sum(0) + sum(1) * sum(1) + sum(2) * sum(2));
       normals.row(row) = length > 0 ? Eigen::RowVector3d(sum / length) : nowhere;
     }

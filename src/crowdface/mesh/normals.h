@@ -29,6 +29,11 @@ class NormalFans {
   Positions normals(const Positions& areas, const Eigen::RowVector3d& nowhere) const;
 
   Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
+  /// The faces around one row, ascending.
+  std::span<const std::uint32_t> around(Index row) const {
+    const auto r = static_cast<std::size_t>(row);
+    return {faces_.data() + offsets_[r], offsets_[r + 1] - offsets_[r]};
+  }
   std::size_t memory_bytes() const {
     return (offsets_.size() + faces_.size()) * sizeof(std::uint32_t);
   }

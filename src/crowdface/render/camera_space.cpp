@@ -67,18 +67,33 @@ float winding(const Topology& topology, const Positions& positions) {
 }
 
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
-                                            const Positions& positions, const Camera& camera,
-                                            float sign) {
-  const Positions normals = fans.normals(face_area_vectors(topology, positions), {0, 0, 1});
-  std::vector<Eigen::Vector3f> out(static_cast<std::size_t>(normals.rows()));
-  parallel_blocks(normals.rows(), kVertexBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const Eigen::Vector3d n = normals.row(i);
-      const Eigen::Vector3d turned(n.dot(camera.right), n.dot(camera.up), n.dot(camera.back));
-      out[static_cast<std::size_t>(i)] = sign * turned.cast<float>();
+                                            const std::vector<float>& points, float sign) {
+  using Vector = Eigen::Vector3f;
+  const auto point = [&](std::uint32_t vertex) {
+    return Eigen::Map<const Vector>(points.data() + std::size_t{3} * vertex);
+  };
+  std::vector<Vector> areas(static_cast<std::size_t>(topology.face_count()));
+  parallel_blocks(topology.face_count(), kVertexBlock, [&](Index begin, Index end) {
+    for (Index f = begin; f < end; ++f) {
+      const auto face = topology.face(f);
+      Vector sum = Vector::Zero();
+      for (std::size_t c = 1; c + 1 < face.size(); ++c) {
+        sum += (point(face[c]) - point(face[0])).cross(point(face[c + 1]) - point(face[0]));
+      }
+      areas[static_cast<std::size_t>(f)] = sum;
     }
   });
-  return out;
+  std::vector<Vector> normals(static_cast<std::size_t>(fans.rows()));
+  parallel_blocks(fans.rows(), kVertexBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      Vector sum = Vector::Zero();
+      for (const std::uint32_t face : fans.around(i)) sum += areas[face];
+      const float length = sum.norm();
+      normals[static_cast<std::size_t>(i)] =
+          length > 0 ? Vector(sum * (sign / length)) : Vector(sign * Vector::UnitZ());
+    }
+  });
+  return normals;
 }
 
 }  // namespace crowdface

@@ -26,10 +26,10 @@ Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
 /// towards its middle.
 float winding(const Topology& topology, const Positions& positions);
 
-/// #V unit normals times `sign`.
-/// \param fans  of the topology's vertices.
+/// #V unit normals times `sign`, in single precision: for looking at.
+/// \param fans    of the topology's vertices.
+/// \param points  as to_camera gives them.
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
-                                            const Positions& positions, const Camera& camera,
-                                            float sign);
+                                            const std::vector<float>& points, float sign);
 
 }  // namespace crowdface

@@ -189,11 +189,12 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   std::vector<float> points = to_camera(positions, camera);
   const Eigen::Vector3f gaze = to_camera(camera, prepared_->options.front);
   std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, points, gaze);
-  std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
   // A crowd is wound like its heads: there is no need to find that out for every face.
   const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
+  std::vector<Eigen::Vector3f> normals = camera_normals(topology, prepared_->fans, points, sign);
+  std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
   const Stage stage{*scene,
-                    camera_normals(topology, prepared_->fans, positions, camera, sign),
+                    std::move(normals),
                     colours,
                     prepared_->quads,
                     prepared_->quad_kinds,
