@@ -17,8 +17,8 @@ parsers=("$@")
 declare -A sources=(
   [obj]='io/obj_file.cpp io/obj_scan.cpp'
   [mask]='io/image.cpp'
-  [yaml]='config/config_reader*.cpp config/config_values.cpp config/yaml*.cpp config/complaints.cpp'
-  [review]='config/config_reader_review.cpp config/yaml.cpp'
+  [yaml]='config/*_keys.cpp config/co*.cpp config/yaml*.cpp'
+  [review]='config/review_keys.cpp config/yaml.cpp'
   [plan]='crowd/plan_file.cpp'
   [cache]='heads/head_cache.cpp'
   [ledger]='crowd/ledger.cpp'
@@ -34,7 +34,7 @@ export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 rm -f "$out"/*_test.profraw
 # The words that the readers of configs, plans and reviews know.
-grep -oh '"[a-z_][a-z_]*"' src/crowdface/{config/{config,yaml},crowd/plan}*.cpp | sort -u >"$out/words.dict"
+grep -oh '"[a-z_][a-z_]*"' src/crowdface/{config/*,crowd/plan*}.cpp | sort -u >"$out/words.dict"
 
 # Seeds that are no files of tests/fuzz.
 more_seeds() {

@@ -3,12 +3,12 @@
 #include <memory>
 #include <system_error>
 
-#include "crowdface/config/config_values.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/length_units.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/output_file.h"
@@ -25,23 +25,6 @@ namespace crowdface::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The unit in which the mesh is as tall as a head, with or without neck and shoulders.
-LengthUnit guess_unit(double height) {
-  constexpr double kTypicalHeightMm = 280;
-  LengthUnit best = LengthUnit::kCentimetre;
-  double best_ratio = 1e300;
-  for (const LengthUnit unit :
-       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre}) {
-    const double mm = std::max(height * mm_per(unit), 1e-9);
-    const double ratio = std::max(mm / kTypicalHeightMm, kTypicalHeightMm / mm);
-    if (ratio < best_ratio) {
-      best_ratio = ratio;
-      best = unit;
-    }
-  }
-  return best;
-}
 
 /// Whether the image tells three regions apart.
 bool has_three_bands(const fs::path& image) {
@@ -113,7 +96,8 @@ void init(const fs::path& heads, const fs::path& out, bool force) {
   refuse_path_no_config_can_hold(facts.heads);
   for (const fs::path& head : files) facts.names.push_back(head.stem().string());
   facts.head_height = first.col(facts.up.index).maxCoeff() - first.col(facts.up.index).minCoeff();
-  facts.units = guess_unit(facts.head_height);
+  constexpr double kTypicalHeightMm = 280;  // with or without neck and shoulders
+  facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);
   facts.vertices = first.rows();
   facts.crowd_name = "crowd";
   facts.tags = tags_beside(heads, facts.names);

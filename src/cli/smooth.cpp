@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/config/words.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
@@ -23,7 +25,8 @@ namespace {
 struct Options {
   CommonOptions common;
   std::string in, out, iterations;
-  std::string boundary = "fixed", operator_kind = "umbrella";
+  Boundary boundary = Boundary::kFixed;
+  OperatorKind operator_kind = OperatorKind::kUmbrella;
   bool plain = false;
 };
 
@@ -61,10 +64,8 @@ void smooth_file(const Options& options) {
     refuse_to_write_over({options.in}, outputs.back());
   }
   const ObjFile file = read_obj(options.in);
-  const SmoothingOperator smoothing(
-      build_adjacency(file.topology),
-      options.boundary == "free" ? Boundary::kFree : Boundary::kFixed,
-      options.operator_kind == "lazy" ? OperatorKind::kLazy : OperatorKind::kUmbrella);
+  const SmoothingOperator smoothing(build_adjacency(file.topology), options.boundary,
+                                    options.operator_kind);
   std::vector<Positions> results;
   if (options.plain) {
     for (const std::uint64_t level : levels) {
@@ -77,6 +78,17 @@ void smooth_file(const Options& options) {
     write_obj_like(file, file.topology, results[l], outputs[l]);
     log_info(concat(options.in, " smoothed by ", levels[l], " iterations: ", outputs[l].string()));
   }
+}
+
+/// An option that takes one of the words of its type.
+template <class Value>
+void add_word_option(CLI::App& command, const char* name, Value& value, const char* help) {
+  std::map<std::string, Value> words;
+  for (const auto& word : words_of<Value>()) words.emplace(word.text, word.value);
+  const auto choose = [words, &value](const std::string& text) { value = words.at(text); };
+  command.add_option_function<std::string>(name, choose, help)
+      ->check(CLI::IsMember(words))
+      ->default_str(std::string(word_of(value)));
 }
 
 }  // namespace
@@ -96,14 +108,10 @@ Run add_smooth(CLI::App& program) {
   command->add_option("-o,--output", options->out, "The mesh to write")
       ->required()
       ->type_name("OUT.obj");
-  command->add_option("--boundary", options->boundary, "Open rims stay (fixed) or move (free)")
-      ->check(CLI::IsMember({"fixed", "free"}))
-      ->capture_default_str();
-  command
-      ->add_option("--operator", options->operator_kind,
-                   "The mean of the neighbours (umbrella), or half-way to it (lazy)")
-      ->check(CLI::IsMember({"umbrella", "lazy"}))
-      ->capture_default_str();
+  add_word_option(*command, "--boundary", options->boundary,
+                  "Open rims stay (fixed) or move (free)");
+  add_word_option(*command, "--operator", options->operator_kind,
+                  "The mean of the neighbours (umbrella), or half-way to it (lazy)");
   command->add_flag("--plain", options->plain,
                     "Iterate one by one instead of filtering: slow, for comparison");
   options->common.add_to(*command);

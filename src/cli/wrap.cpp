@@ -12,12 +12,12 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
+#include "crowdface/core/length_units.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
-#include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/obj_writer.h"
@@ -64,19 +64,9 @@ Eigen::Vector3d vector_of(Axis axis) {
 
 /// The unit in which the mesh is as large as a head with its neck.
 LengthUnit guess_unit(const Positions& positions) {
-  constexpr double kTypicalMm = 430;
-  const double extent = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
-  LengthUnit best = LengthUnit::kCentimetre;
-  double nearest = 1e300;
-  for (const LengthUnit unit :
-       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre}) {
-    const double mm = std::max(extent * mm_per(unit), 1e-9);
-    const double ratio = std::max(mm / kTypicalMm, kTypicalMm / mm);
-    if (ratio >= nearest) continue;
-    nearest = ratio;
-    best = unit;
-  }
-  return best;
+  constexpr double kTypicalDiagonalMm = 430;
+  return nearest_unit((positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm(),
+                      kTypicalDiagonalMm);
 }
 
 /// Everything that all scans of a run share.

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "crowdface/config/config_sections.h"
-#include "crowdface/core/text.h"
+#include "crowdface/config/codec.h"
 
 namespace crowdface {
 
@@ -18,8 +16,8 @@ struct Key {
   std::string_view name;
   /// Reads the value into the section. After a complaint the section may stay as it was.
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
-  /// The value in YAML; empty: the key is left out. Paths are written relative to the folder.
-  std::function<std::string(const Section&, const std::filesystem::path& folder)> write;
+  /// Likewise as entry() takes it; empty: the key is left out.
+  std::function<std::string(const Section&, const ConfigWriting&)> write;
   std::string_view required = {};  ///< for a key that must be there: what would do
 };
 
@@ -27,107 +25,104 @@ struct Key {
 template <class Section>
 using Keys = std::vector<Key<Section>>;
 
-const Keys<Config::Crowd>& crowd_keys();
-const Keys<Config::Smoothing>& smoothing_keys();
-const Keys<Config::Blending>& blending_keys();
-const Keys<Config::Parts>& parts_keys();
-const Keys<Config::Distance>& distance_keys();
-const Keys<DiversityOptions>& diversity_keys();
-const Keys<BelievabilityOptions>& believability_keys();
-const Keys<Config::ContactSheet>& contact_sheet_keys();
+/// The keys of a config: its sections.
+const Keys<Config>& root_keys();
 
-/// Reads a mapping with these keys; null: none of them is there.
 template <class Section>
-void read_keys(const YamlNode* node, const Keys<Section>& keys, Section& section,
-               ConfigDraft& draft) {
+std::vector<std::string> names_of(const Keys<Section>& keys) {
   std::vector<std::string> names;
   for (const Key<Section>& key : keys) names.emplace_back(key.name);
-  const MapReader map(node, names, draft.complaints);
+  return names;
+}
+
+/// Reads a mapping with these keys. \return whether it is one.
+template <class Section>
+bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section,
+               ConfigDraft& draft) {
+  const MapReader map(&node, names_of(keys), draft.complaints);
   for (const Key<Section>& key : keys) {
     const YamlNode* value =
         key.required.empty() ? map.find(key.name) : map.require(key.name, key.required);
     if (value != nullptr) key.read(*value, section, draft);
   }
+  return node.kind == YamlNode::Kind::kMap;
 }
 
-/// A key whose value stands in one member, which may be an optional one.
-/// \param read   (node, draft) → optional value, empty after a complaint.
-/// \param write  value → YAML; a member that is empty is not written.
-template <class Section, class Member, class Read, class Write>
-Key<Section> key(std::string_view name, Member Section::*member, const Read& read,
-                 const Write& write, std::string_view required = {}) {
+/// "key: value" for each key that is not left out.
+template <class Section>
+std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& section,
+                                    const ConfigWriting& writing) {
+  std::vector<std::string> entries;
+  for (const Key<Section>& key : keys) {
+    const std::string value = key.write(section, writing);
+    if (!value.empty()) entries.push_back(entry(key.name, value));
+  }
+  return entries;
+}
+
+/// A key whose value stands in one member. A member that is an empty optional is not written.
+template <class Section, class Member, class Value>
+Key<Section> key(std::string_view name, Member Section::*member, const Codec<Value>& codec,
+                 std::string_view required = {}) {
   return {name,
           [=](const YamlNode& node, Section& section, ConfigDraft& draft) {
-            if (auto value = read(node, draft))
+            if (auto value = codec.read(node, draft))
               section.*member = static_cast<Member>(std::move(*value));
           },
-          [=](const Section& section, const auto&) -> std::string {
+          [=](const Section& section, const ConfigWriting& writing) -> std::string {
             if constexpr (requires { (section.*member).has_value(); }) {
-              return section.*member ? write(*(section.*member)) : "";
+              return section.*member ? codec.write(static_cast<Value>(*(section.*member)), writing)
+                                     : "";
             } else {
-              return write(section.*member);
+              return codec.write(static_cast<Value>(section.*member), writing);
             }
           },
           required};
 }
 
-/// One of the words of the member's type.
-template <class Section, class Value>
-Key<Section> word_key(std::string_view name, Value Section::*member) {
-  return key(
-      name, member,
-      [](const YamlNode& node, ConfigDraft& draft) {
-        return read_choice(node, words_of<Value>(), draft.complaints);
-      },
-      [](Value value) { return std::string(word_of(value)); });
-}
+/// What is looked at once a section is read. \param sound  whether it had no complaint.
+using SectionCheck = void (*)(const YamlNode& node, bool sound, ConfigDraft& draft);
 
-/// A list of such words, each once. \param expected  "a list of views, [front, profile]".
-template <class Section, class Value>
-Key<Section> words_key(std::string_view name, std::vector<Value> Section::*member,
-                       const std::string& expected) {
-  const auto read = [=](const YamlNode& node,
-                        ConfigDraft& draft) -> std::optional<std::vector<Value>> {
-    if (node.kind == YamlNode::Kind::kList && !node.items.empty()) {
-      return read_choices(node, words_of<Value>(), draft.complaints);
-    }
-    draft.complaints.expected(node, expected);
-    return std::nullopt;
-  };
-  return key(name, member, read, flow_words<Value>);
-}
-
-/// A number, bounds included.
-template <class Section>
-Key<Section> number_key(std::string_view name, double Section::*member, double low, double high) {
-  return key(
-      name, member,
-      [=](const YamlNode& node, ConfigDraft& draft) {
-        return read_number(node, low, high, draft.complaints);
-      },
-      format_number);
-}
-
-/// A whole number, bounds included.
+/// A key whose value is a mapping with keys of its own.
 template <class Section, class Member>
-Key<Section> whole_key(std::string_view name, Member Section::*member, std::uint64_t low,
-                       std::uint64_t high, std::string_view required = {}) {
-  const auto read = [=](const YamlNode& node, ConfigDraft& draft) {
-    return read_whole(node, low, high, draft.complaints);
-  };
-  return key(
-      name, member, read, [](auto whole) { return concat(whole); }, required);
+Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Member>& keys,
+                         std::string_view required = {}, SectionCheck check = nullptr) {
+  return {name,
+          [=, &keys](const YamlNode& node, Section& section, ConfigDraft& draft) {
+            const std::size_t complaints_before = draft.complaints.size();
+            read_keys(node, keys, section.*member, draft);
+            if (check) check(node, draft.complaints.size() == complaints_before, draft);
+          },
+          [=, &keys](const Section& section, const ConfigWriting& writing) {
+            return block_map(write_keys(keys, section.*member, writing));
+          },
+          required};
 }
 
-/// A length from 0.
-template <class Section>
-Key<Section> length_key(std::string_view name, double Section::*member_mm, double high_mm) {
-  return key(
-      name, member_mm,
-      [=](const YamlNode& node, ConfigDraft& draft) {
-        return read_length_mm(node, high_mm, draft.complaints);
-      },
-      write_mm);
+template <class Section, class Value>
+Key<Section> word_key(std::string_view name, Value Section::*member,
+                      std::string_view required = {}) {
+  return key(name, member, word<Value>(), required);
 }
 
+/// The keys of a config: its sections. Each has its keys in a table like this one.
+const Keys<Config>& root_keys();
+const Keys<Config::Distance>& distance_keys();
+const Keys<DiversityOptions>& diversity_keys();
+const Keys<SamplingOptions>& sampling_keys();
+const Keys<Config::Output>& output_keys();
+void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_faces(const Config& config, const ConfigWriting& writing);
+void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_regions(const Config& config, const ConfigWriting& writing);
+void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_parts(const Config& config, const ConfigWriting& writing);
+void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_believability(const Config& config, const ConfigWriting& writing);
+void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_recipes(const Config& config, const ConfigWriting& writing);
+void read_families(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_families(const Config& config, const ConfigWriting& writing);
+void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_review(const Config& config, const ConfigWriting& writing);
 }  // namespace crowdface

@@ -55,6 +55,13 @@ std::string plain(double value) {
   return format_fixed(value, 0);
 }
 
+/// Every line but the first two further in.
+std::string indented(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '\n' ? "\n  " : std::string(1, c);
+  return out;
+}
+
 bool has_control_character(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
@@ -135,12 +142,6 @@ std::optional<double> read_length_mm(const YamlNode& node, double high_mm, Compl
   return *value == 0 ? 0.0 : *value;
 }
 
-void read_positive_mm(const YamlNode& node, double high_mm, double& value_mm, Complaints& out) {
-  const auto length = read_length_mm(node, high_mm, out);
-  if (length == 0.0) out.expected(node, "a length above 0 mm");
-  value_mm = length.value_or(value_mm);
-}
-
 std::optional<std::string> read_text(const YamlNode& node, const std::string& expected,
                                      Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar || node.text.empty() ||
@@ -192,16 +193,24 @@ std::optional<Range> read_range(const YamlNode& node, Complaints& out,
   return Range{*low, *high};
 }
 
-std::optional<std::size_t> read_word(const YamlNode& node, const std::vector<std::string>& words,
-                                     Complaints& out) {
-  if (node.kind == YamlNode::Kind::kScalar) {
-    const auto found = std::find(words.begin(), words.end(), node.text);
-    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  }
+void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out) {
   const std::string hint =
       node.kind == YamlNode::Kind::kScalar ? suggestion(node.text, words) : std::string();
   out.about(node, concat("expected ", join(words, " or "), ", found ", describe(node), hint));
-  return std::nullopt;
+}
+
+void refuse_repeated(const YamlNode& list, Complaints& out) {
+  for (auto item = list.items.begin(); item != list.items.end(); ++item) {
+    if (std::any_of(list.items.begin(), item, [&](const YamlNode& other) {
+          return other.kind == YamlNode::Kind::kScalar && other.text == item->text;
+        })) {
+      out.about(*item, concat(quoted(item->text), " is named twice"));
+    }
+  }
+}
+
+bool is_word(const YamlNode& node, std::string_view word) {
+  return node.kind == YamlNode::Kind::kScalar && node.text == word;
 }
 
 std::string flow_list(const std::vector<std::string>& items) {
@@ -218,14 +227,23 @@ std::string flow_names(const std::vector<std::string>& names) {
   return flow_list(items);
 }
 
-std::string write_mm(double value_mm) {
-  return concat(value_mm, " mm");
+std::string block_list(const std::vector<std::string>& items) {
+  if (items.empty()) return "[]";
+  std::string lines;
+  for (const std::string& item : items) {
+    const bool one_line = !item.starts_with('\n');
+    lines += concat("\n- ", one_line ? item : indented(item).substr(3));
+  }
+  return lines;
 }
 
-std::string write_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  const auto absolute = std::filesystem::absolute(file).lexically_normal();
-  const auto relative = absolute.lexically_relative(folder);
-  return write_scalar(relative.empty() ? absolute.string() : relative.string());
+std::string block_map(const std::vector<std::string>& entries) {
+  if (entries.empty()) return "{}";
+  return concat('\n', join(entries, "\n"));
+}
+
+std::string entry(std::string_view key, std::string_view value) {
+  return concat(key, value.starts_with('\n') ? ":" : ": ", indented(value));
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {

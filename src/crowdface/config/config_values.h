@@ -40,8 +40,6 @@ std::optional<double> read_number(const YamlNode& node, double low, double high,
 std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low, std::uint64_t high,
                                         Complaints& out);
 std::optional<double> read_length_mm(const YamlNode& node, double high_mm, Complaints& out);
-/// The same above 0 mm; a complaint leaves what stands there.
-void read_positive_mm(const YamlNode& node, double high_mm, double& value_mm, Complaints& out);
 /// A text without control characters that is not empty. \param expected  "a file name".
 std::optional<std::string> read_text(const YamlNode& node, const std::string& expected,
                                      Complaints& out);
@@ -52,54 +50,35 @@ std::optional<PlanePoint> read_point(const YamlNode& node, Complaints& out);
 std::optional<Range> read_range(const YamlNode& node, Complaints& out,
                                 const std::function<std::optional<double>(const YamlNode&)>& read);
 
-/// Which of the words it is.
-std::optional<std::size_t> read_word(const YamlNode& node, const std::vector<std::string>& words,
-                                     Complaints& out);
-
+/// Complains that the node is none of the words.
+void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out);
 /// The value of one of the words.
-template <class Words>
-auto read_choice(const YamlNode& node, const Words& words, Complaints& out) {
+template <class Value>
+std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words, Complaints& out) {
   std::vector<std::string> texts;
   for (const auto& word : words) texts.emplace_back(word.text);
-  const auto index = read_word(node, texts, out);
-  return index ? std::optional(words[*index].value) : std::nullopt;
-}
-
-/// The value of one of its type's words; what stands there is left where the key is missing or
-/// after a complaint.
-template <class Value>
-void read_choice_into(const YamlNode* node, Value& value, Complaints& out) {
-  if (node != nullptr) value = read_choice(*node, words_of<Value>(), out).value_or(value);
-}
-
-/// A list of words, each once. \param node  a list.
-template <class Words>
-auto read_choices(const YamlNode& node, const Words& words, Complaints& out) {
-  std::vector<decltype(words[0].value)> values;
-  for (const YamlNode& item : node.items) {
-    const auto value = read_choice(item, words, out);
-    if (!value) continue;
-    if (std::find(values.begin(), values.end(), *value) != values.end()) {
-      out.about(item, concat(quoted(item.text), " is named twice"));
-    }
-    values.push_back(*value);
+  const auto found = std::find(texts.begin(), texts.end(), node.text);
+  if (node.kind == YamlNode::Kind::kScalar && found != texts.end()) {
+    return words[static_cast<std::size_t>(found - texts.begin())].value;
   }
-  return values;
+  expected_one_of(node, texts, out);
+  return std::nullopt;
 }
 
-/// Each writes one value, or a list or mapping of them in one line: "[a, b]".
+/// Complains of items of a list that are the same text.
+void refuse_repeated(const YamlNode& list, Complaints& out);
+/// Whether it is this word.
+bool is_word(const YamlNode& node, std::string_view word);
+
+/// A list or mapping in one line, "[a, b]".
 std::string flow_list(const std::vector<std::string>& items);
 std::string flow_map(const std::vector<std::string>& entries);
 std::string flow_names(const std::vector<std::string>& names);
-template <class Value>
-std::string flow_words(const std::vector<Value>& values) {
-  std::vector<std::string> items;
-  for (const Value value : values) items.emplace_back(word_of(value));
-  return flow_list(items);
-}
-std::string write_mm(double value_mm);
-/// A path relative to the folder, which is absolute.
-std::string write_path(const std::filesystem::path& file, const std::filesystem::path& folder);
+/// The same, a line each, for entry() and block_list() to set further in; "[]" if it is empty.
+std::string block_list(const std::vector<std::string>& items);
+std::string block_map(const std::vector<std::string>& entries);
+/// "key: value".
+std::string entry(std::string_view key, std::string_view value);
 
 /// `; did you mean "count"?`, or nothing if no candidate is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crowdface/config/config.h"
+#include "crowdface/core/length_units.h"
 
 namespace crowdface {
 
@@ -21,7 +22,15 @@ struct Word {
 template <class Value>
 using Words = std::vector<Word<Value>>;
 
-/// The words of every type that has some. Configs are read and written by them.
+/// The words of values that have a name_of.
+template <class Values>
+auto words_by_name(const Values& values) {
+  Words<typename Values::value_type> words;
+  for (const auto value : values) words.push_back({name_of(value), value});
+  return words;
+}
+
+/// The words of every type that has some. Configs and options are read and written by them.
 inline const auto& all_words() {
   using Kind = PositionDistribution::Kind;
   using Mode = DiversityOptions::Mode;
@@ -30,6 +39,8 @@ inline const auto& all_words() {
   using With = Config::Comparison::With;  // kFile is written as the file itself
   static const std::tuple words = {
       Words<bool>{{"true", true}, {"false", false}},
+      words_by_name(kLengthUnits),
+      words_by_name(all_mesh_formats()),
       Words<Align>{{"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}},
       Words<Boundary>{{"fixed", Boundary::kFixed}, {"free", Boundary::kFree}},
       Words<OperatorKind>{{"umbrella", OperatorKind::kUmbrella}, {"lazy", OperatorKind::kLazy}},
@@ -81,14 +92,6 @@ inline const auto& all_words() {
 template <class Value>
 const Words<Value>& words_of() {
   return std::get<Words<Value>>(all_words());
-}
-
-/// The words of values that have a name_of.
-template <class Values>
-auto words_by_name(const Values& values) {
-  Words<typename Values::value_type> words;
-  for (const auto value : values) words.push_back({name_of(value), value});
-  return words;
 }
 
 /// The word of a value, which must have one.

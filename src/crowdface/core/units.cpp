@@ -1,42 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/units.h"
 
+#include <array>
+
 #include "crowdface/core/text.h"
 
 namespace crowdface {
 
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double mm;
+};
+/// By their numbers.
+constexpr std::array<Unit, 4> kUnits = {{{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
+
+}  // namespace
+
 double mm_per(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::kMillimetre:
-      return 1;
-    case LengthUnit::kCentimetre:
-      return 10;
-    case LengthUnit::kMetre:
-      return 1000;
-    case LengthUnit::kInch:
-      return 25.4;
-  }
-  return 1;
+  return kUnits[static_cast<std::size_t>(unit)].mm;
 }
 
 std::string_view name_of(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::kMillimetre:
-      return "mm";
-    case LengthUnit::kCentimetre:
-      return "cm";
-    case LengthUnit::kMetre:
-      return "m";
-    case LengthUnit::kInch:
-      return "in";
-  }
-  return "mm";
+  return kUnits[static_cast<std::size_t>(unit)].name;
 }
 
 std::optional<LengthUnit> parse_length_unit(std::string_view name) {
-  for (const LengthUnit unit :
-       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre, LengthUnit::kInch}) {
-    if (name == name_of(unit)) return unit;
+  for (std::size_t i = 0; i < kUnits.size(); ++i) {
+    if (name == kUnits[i].name) return static_cast<LengthUnit>(i);
   }
   return std::nullopt;
 }

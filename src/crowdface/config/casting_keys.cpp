@@ -15,20 +15,16 @@ constexpr std::uint64_t kLargestPool = 1000;
 constexpr std::uint64_t kMostAttempts = 1'000'000;
 constexpr double kShareRounding = 1e-9;
 
-bool is_word(const YamlNode& node, std::string_view word) {
-  return node.kind == YamlNode::Kind::kScalar && node.text == word;
+/// One image, or a set of UDIM tiles.
+void read_mask(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {
+  const auto mask = path("an image file").read(node, draft);
+  if (!mask) return;
+  distance.mask = mask->string();
+  if (distance.mask->find(kTileWord) == std::string::npos) expect_file(node, *mask, draft);
 }
 
-/// One image, or a set of UDIM tiles.
-void read_mask_path(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {
-  const auto text = read_text(node, "an image file", draft.complaints);
-  if (!text) return;
-  const std::string path = resolve(draft.folder, *text).string();
-  if (path.find(kTileWord) == path.npos && !file_exists(path)) {
-    draft.complaints.about(node, concat("the file ", quoted(path), " is missing"),
-                           ExitCode::kMissingInput);
-  }
-  distance.mask = path;
+std::string write_mask(const Config::Distance& distance, const ConfigWriting& writing) {
+  return distance.mask ? path("").write(*distance.mask, writing) : "";
 }
 
 /// No head may count for two quotas: the shares of both could not be kept apart.
@@ -52,8 +48,7 @@ bool is_target(Eigen::Index head, const ConfigDraft& draft) {
 }
 
 void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft& draft) {
-  if (!draft.complaints.expect_map(node, "a mapping from heads or tags to shares, {old: 0.3}"))
-    return;
+  draft.complaints.expect_map(node, "a mapping from heads or tags to shares, {old: 0.3}");
   auto& quotas = diversity.quotas;
   double total = 0;
   for (const YamlEntry& entry : node.entries) {
@@ -69,7 +64,7 @@ void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft&
                                    [&](Eigen::Index head) { return is_target(head, draft); })) {
       draft.complaints.add(
           entry.key_place,
-          concat(entry.value.path, ": none of its heads is among ", "sampling.targets"));
+          concat(entry.value.path, ": none of its heads is among sampling.targets"));
     }
     quotas.push_back(std::move(quota));
   }
@@ -87,33 +82,44 @@ void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft&
   if (!quotas.empty() && !targets.empty() && !some_left && total < 1 - kShareRounding) {
     draft.complaints.about(
         node, concat("the shares sum to ", total,
-                     ", but every target counts for one of them; for whom is ", "the rest?"));
+                     ", but every target counts for one of them; for whom is the rest?"));
   }
 }
 
-std::string write_quotas(const DiversityOptions& diversity, const std::filesystem::path&) {
+std::string write_quotas(const DiversityOptions& diversity, const ConfigWriting&) {
   std::vector<std::string> quotas;
   for (const Quota& quota : diversity.quotas) {
-    quotas.push_back(concat(write_scalar(quota.name), ": ", quota.share));
+    quotas.push_back(entry(write_scalar(quota.name), format_number(quota.share)));
   }
   return flow_map(quotas);
 }
 
-std::optional<double> read_max_weight(const YamlNode& node, ConfigDraft& draft) {
-  const auto weight = read_number(node, 0, 1, draft.complaints);
-  if (weight == 0.0) draft.complaints.expected(node, "a number above 0, up to 1");
-  return weight;
+Codec<double> max_weight() {
+  Codec<double> codec = number(0, 1);
+  codec.read = [read = codec.read](const YamlNode& node, ConfigDraft& draft) {
+    const auto weight = read(node, draft);
+    if (weight == 0.0) draft.complaints.expected(node, "a number above 0, up to 1");
+    return weight;
+  };
+  return codec;
+}
+
+const Keys<BelievabilityOptions>& believability_keys() {
+  using Believability = BelievabilityOptions;
+  static const Keys<Believability> keys = {
+      key("max_deviation", &Believability::max_deviation, number(0, 1000)),
+      key("max_stretch", &Believability::max_stretch, number(1, 1000)),
+      key("max_flipped", &Believability::max_flipped, number(0, 1)),
+      key("max_intersecting", &Believability::max_intersecting, number(0, 1)),
+      word_key("meshes", &Believability::meshes)};
+  return keys;
 }
 
 }  // namespace
 
 const Keys<Config::Distance>& distance_keys() {
-  using Distance = Config::Distance;
-  static const Keys<Distance> keys = {
-      word_key("area", &Distance::area),
-      {"mask", read_mask_path, [](const Distance& distance, const std::filesystem::path& folder) {
-         return distance.mask ? write_path(*distance.mask, folder) : "";
-       }}};
+  static const Keys<Config::Distance> keys = {word_key("area", &Config::Distance::area),
+                                              {"mask", read_mask, write_mask}};
   return keys;
 }
 
@@ -121,31 +127,26 @@ const Keys<DiversityOptions>& diversity_keys() {
   using Diversity = DiversityOptions;
   static const Keys<Diversity> keys = {
       word_key("mode", &Diversity::mode),
-      length_key("min_distance", &Diversity::min_distance_mm, kMaxDistance),
-      length_key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, kMaxDistance),
-      key("max_weight", &Diversity::max_weight, read_max_weight, format_number),
+      key("min_distance", &Diversity::min_distance_mm, length(kMaxDistance)),
+      key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistance)),
+      key("max_weight", &Diversity::max_weight, max_weight()),
       {"quotas", read_quotas, write_quotas},
-      whole_key("candidates", &Diversity::candidates, 1, kMostCandidates),
-      whole_key("pool", &Diversity::pool, 1, kLargestPool),
-      whole_key("max_attempts", &Diversity::max_attempts, 1, kMostAttempts)};
+      key("candidates", &Diversity::candidates, whole(1, kMostCandidates)),
+      key("pool", &Diversity::pool, whole(1, kLargestPool)),
+      key("max_attempts", &Diversity::max_attempts, whole(1, kMostAttempts))};
   return keys;
 }
 
-const Keys<BelievabilityOptions>& believability_keys() {
-  using Believability = BelievabilityOptions;
-  static const Keys<Believability> keys = {
-      number_key("max_deviation", &Believability::max_deviation, 0, 1000),
-      number_key("max_stretch", &Believability::max_stretch, 1, 1000),
-      number_key("max_flipped", &Believability::max_flipped, 0, 1),
-      number_key("max_intersecting", &Believability::max_intersecting, 0, 1),
-      word_key("meshes", &Believability::meshes)};
-  return keys;
+void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  config.believability.check = !is_word(node, "none");
+  if (config.believability.check) {
+    read_keys(node, believability_keys(), config.believability, draft);
+  }
 }
 
-void read_believability(const YamlNode* node, ConfigDraft& draft) {
-  BelievabilityOptions& believability = draft.config.believability;
-  believability.check = node == nullptr || !is_word(*node, "none");
-  if (believability.check) read_keys(node, believability_keys(), believability, draft);
+std::string write_believability(const Config& config, const ConfigWriting& writing) {
+  if (!config.believability.check) return "none";
+  return block_map(write_keys(believability_keys(), config.believability, writing));
 }
 
 }  // namespace crowdface

@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "crowdface/cast/families.h"
-#include "crowdface/config/config_sections.h"
-#include "crowdface/core/text.h"
+#include "crowdface/config/config_keys.h"
 
 namespace crowdface {
 namespace {
+
+using Verdict = ReviewMark::Verdict;
 
 constexpr std::size_t kLongestNote = 2000;
 
@@ -62,31 +63,30 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   if (!names.empty() && mark.locked.size() == names.size()) {
     draft.complaints.about(node, "with every region locked nothing is left to draw anew");
   }
-  mark.verdict = ReviewMark::Verdict::kReject;
+  mark.verdict = Verdict::kReject;
+}
+
+void read_verdict(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
+  mark.verdict = word<Verdict>().read(node, draft).value_or(mark.verdict);
+  if (mark.verdict == Verdict::kKeep && !mark.locked.empty()) {
+    draft.complaints.about(node, "a face that is kept has nothing to lock");
+  }
+}
+
+void read_note(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
+  if (node.kind != YamlNode::Kind::kScalar || node.text.size() > kLongestNote) {
+    draft.complaints.expected(node, concat("a text of at most ", kLongestNote, " bytes"));
+  } else {
+    mark.note = node.text;
+  }
 }
 
 void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
-  using Verdict = ReviewMark::Verdict;
-  if (node.kind != YamlNode::Kind::kMap) {
-    read_choice_into(&node, mark.verdict, draft.complaints);
-    return;
-  }
-  const MapReader map(&node, {"mark", "lock", "note"}, draft.complaints);
+  if (node.kind != YamlNode::Kind::kMap) return read_verdict(node, mark, draft);
+  static const Keys<ReviewMark> keys = {
+      {"lock", read_lock, {}}, {"mark", read_verdict, {}}, {"note", read_note, {}}};
   if (node.entries.empty()) draft.complaints.about(node, "expected mark, lock or note");
-  if (const YamlNode* lock = map.find("lock")) read_lock(*lock, mark, draft);
-  if (const YamlNode* verdict = map.find("mark")) {
-    read_choice_into(verdict, mark.verdict, draft.complaints);
-    if (mark.verdict == Verdict::kKeep && !mark.locked.empty()) {
-      draft.complaints.about(*verdict, "a face that is kept has nothing to lock");
-    }
-  }
-  if (const YamlNode* note = map.find("note")) {
-    if (note->kind != YamlNode::Kind::kScalar || note->text.size() > kLongestNote) {
-      draft.complaints.expected(*note, concat("a text of at most ", kLongestNote, " bytes"));
-    } else {
-      mark.note = note->text;
-    }
-  }
+  read_keys(node, keys, mark, draft);
 }
 
 }  // namespace
@@ -94,11 +94,7 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 Review read_review_file(const std::filesystem::path& file, const YamlNode& where,
                         ConfigDraft& draft) {
   Review review;
-  if (!file_exists(file)) {
-    draft.complaints.about(where, concat("the file ", quoted(file.string()), " is missing"),
-                           ExitCode::kMissingInput);
-    return review;
-  }
+  if (!expect_file(where, file, draft)) return review;
   const auto root = read_yaml(file.string(), draft.complaints);
   if (!root) return review;
   const MapReader map(&*root, {"schema", "faces"}, draft.complaints);
@@ -120,7 +116,7 @@ Review read_review_file(const std::filesystem::path& file, const YamlNode& where
                            concat("no face of this crowd is called ", quoted(entry.key)));
     }
     read_mark(entry.value, mark, draft);
-    if (mark.verdict == ReviewMark::Verdict::kReject && is_recipe(entry.key, draft.config)) {
+    if (mark.verdict == Verdict::kReject && is_recipe(entry.key, draft.config)) {
       draft.complaints.add(entry.key_place,
                            concat(quoted(entry.key), " is written by hand; change ",
                                   "its recipe in place of rejecting it"));
@@ -130,18 +126,19 @@ Review read_review_file(const std::filesystem::path& file, const YamlNode& where
   return review;
 }
 
-void read_review(const YamlNode* node, ConfigDraft& draft) {
-  if (node == nullptr) return;
-  const bool is_list = node->kind == YamlNode::Kind::kList;
+void read_review(const YamlNode& node, Config& config, ConfigDraft& draft) {
   const auto read_one = [&](const YamlNode& item) {
-    const auto text = read_text(item, "a review file", draft.complaints);
-    if (!text) return;
-    draft.config.review.files.push_back(resolve(draft.folder, *text));
-    draft.config.review.reviews.push_back(
-        read_review_file(draft.config.review.files.back(), item, draft));
+    const auto file = path("a review file").read(item, draft);
+    if (!file) return;
+    config.review.files.push_back(*file);
+    config.review.reviews.push_back(read_review_file(*file, item, draft));
   };
-  if (!is_list) return read_one(*node);
-  for (const YamlNode& item : node->items) read_one(item);
+  if (node.kind != YamlNode::Kind::kList) return read_one(node);
+  for (const YamlNode& item : node.items) read_one(item);
+}
+
+std::string write_review(const Config& config, const ConfigWriting& writing) {
+  return list(path(""), "").write(config.review.files, writing);
 }
 
 }  // namespace crowdface

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/config/config_draft.h"
+#include "crowdface/config/config_values.h"
+
+namespace crowdface {
+
+/// What a value may need to know to be written.
+struct ConfigWriting {
+  const Config& config;
+  std::filesystem::path folder;  ///< absolute; paths are written relative to it
+
+  /// The name of a head, as YAML.
+  std::string head(Eigen::Index index) const;
+};
+
+/// How a value stands in YAML: reading it, which returns nothing after a complaint, and writing it
+/// as entry() takes it. Where the text is empty the key is left out.
+template <class Value>
+struct Codec {
+  std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;
+  std::function<std::string(const Value&, const ConfigWriting&)> write;
+};
+
+/// A number, bounds included.
+Codec<double> number(double low, double high);
+/// A whole number, bounds included.
+Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high);
+/// A length in millimetres from 0, or above it.
+Codec<double> length(double high_mm);
+Codec<double> positive_length(double high_mm);
+/// One value, or [low, high].
+Codec<Range> range(const Codec<double>& one);
+Codec<Range> age();            ///< from −1 to 1; needs heads that are tagged so
+Codec<Range> extrapolation();  ///< a factor
+/// A smoothness as fraction or size, or a range of either.
+Codec<SmoothnessDistribution> smoothness();
+/// Whole iterations or a range of them.
+Codec<SmoothnessDistribution> iterations();
+Codec<std::string> name();
+/// A text that is not empty; `expected` as in "an image file".
+Codec<std::string> text(const std::string& expected);
+Codec<Eigen::Index> head();
+Codec<PlanePoint> point();
+/// "{head: weight}".
+std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing);
+/// A path, relative to the config's folder; `expected` as in "a folder".
+Codec<std::filesystem::path> path(const std::string& expected);
+
+/// One of the words of the type.
+template <class Value>
+Codec<Value> word() {
+  return {[](const YamlNode& node, ConfigDraft& draft) {
+            return read_choice(node, words_of<Value>(), draft.complaints);
+          },
+          [](Value value, const ConfigWriting&) { return std::string(word_of(value)); }};
+}
+
+/// A list of values that each stand in one line.
+template <class Value>
+Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expected) {
+  return {[=](const YamlNode& node, ConfigDraft& draft) {
+            std::vector<Value> values;
+            draft.complaints.expect_list(node, expected);
+            for (const YamlNode& child : node.items) {
+              if (auto value = item.read(child, draft)) values.push_back(std::move(*value));
+            }
+            return std::optional(values);
+          },
+          [=](const std::vector<Value>& values, const ConfigWriting& writing) {
+            std::vector<std::string> items;
+            for (const Value& value : values) items.push_back(item.write(value, writing));
+            return flow_list(items);
+          }};
+}
+
+/// A list of words, each once. \param expected  "a list of views, [front, profile]".
+template <class Value>
+Codec<std::vector<Value>> words(const std::string& expected, std::size_t fewest = 1) {
+  auto codec = list(word<Value>(), expected);
+  codec.read = [=, read = codec.read](const YamlNode& node,
+                                      ConfigDraft& draft) -> std::optional<std::vector<Value>> {
+    if (node.kind != YamlNode::Kind::kList || node.items.size() < fewest) {
+      draft.complaints.expected(node, expected);
+      return std::nullopt;
+    }
+    refuse_repeated(node, draft.complaints);
+    return read(node, draft);
+  };
+  return codec;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/config_draft.h"
+
+#include <algorithm>
+
+#include "crowdface/config/config_values.h"
+
+namespace crowdface {
+
+std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path) {
+  std::filesystem::path resolved = (folder / path).lexically_normal();
+  return resolved.has_filename() ? resolved : resolved.parent_path();  // no '/' at the end
+}
+
+bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
+                 std::string_view what) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) return true;
+  draft.complaints.about(node, concat(what, quoted(file.string()), " is missing"),
+                         ExitCode::kMissingInput);
+  return false;
+}
+
+std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& place,
+                                      const std::string& path, ConfigDraft& draft) {
+  const auto& names = draft.config.faces.names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return found - names.begin();
+  if (draft.heads_known) {
+    draft.complaints.add(
+        place, concat(path, ": no head is called ", quoted(name), suggestion(name, names)));
+  }
+  return std::nullopt;
+}
+
+std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& place,
+                                     const std::string& path, ConfigDraft& draft) {
+  std::vector<Eigen::Index> heads;
+  std::vector<std::string> known = draft.config.faces.names;
+  const auto& tags = draft.config.faces.tags;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i] == name || std::find(tags[i].begin(), tags[i].end(), name) != tags[i].end()) {
+      heads.push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  if (heads.empty() && draft.heads_known && draft.tags_known) {
+    for (const auto& of_head : tags) known.insert(known.end(), of_head.begin(), of_head.end());
+    draft.complaints.add(place, concat(path, ": no head and no tag is called ", quoted(name),
+                                       suggestion(name, known)));
+  }
+  return heads;
+}
+
+}  // namespace crowdface

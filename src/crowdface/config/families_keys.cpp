@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `families`.
+#include <algorithm>
+
+#include "crowdface/cast/families.h"
+#include "crowdface/config/config_keys.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kMaxDistance = 1000;  // mm
+constexpr std::uint64_t kMostMembers = 1000;
+
+/// Whether a family before this one has a member of that id, with or without the crowd's name.
+bool is_member(const std::string& id, const ConfigDraft& draft) {
+  const std::string& crowd = draft.config.crowd.name;
+  for (const FamilyOptions& family : draft.config.families) {
+    for (int m = 1; m <= family.members; ++m) {
+      const std::string full = member_id(crowd, family.name, m);
+      if (id == full || full == concat(crowd, '_', id)) return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Parent> read_parent(const YamlNode& node, ConfigDraft& draft) {
+  const auto name = read_name(node, draft.complaints);
+  if (!name) return std::nullopt;
+  const auto& heads = draft.config.faces.names;
+  const auto head = std::find(heads.begin(), heads.end(), *name);
+  if (head != heads.end()) return Parent{head - heads.begin(), *name};
+  const auto& recipes = draft.config.recipes;
+  const bool known = std::any_of(recipes.begin(), recipes.end(),
+                                 [&](const HandRecipe& recipe) { return recipe.id == *name; }) ||
+                     is_member(*name, draft);
+  if (!known && draft.heads_known) {
+    draft.complaints.about(node, concat("expected a head, a recipe's id or a member of a family ",
+                                        "before this one (smith_01), found ", quoted(*name)));
+  }
+  return Parent{std::nullopt, *name};
+}
+
+void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
+  constexpr const char* kHint = "a head, a recipe or a member of another family";
+  const MapReader map(&node, {std::string(word_of(0)), std::string(word_of(1))}, draft.complaints);
+  const YamlNode* mother = map.require(word_of(0), kHint);
+  const YamlNode* father = map.require(word_of(1), kHint);
+  if (mother == nullptr || father == nullptr) return;
+  const auto first = read_parent(*mother, draft);
+  const auto second = read_parent(*father, draft);
+  if (first && second) family.parents = {*first, *second};
+}
+
+std::string write_parents(const FamilyOptions& family, const ConfigWriting&) {
+  if (family.parents.empty()) return "";
+  std::vector<std::string> entries;
+  for (int p = 0; p < 2; ++p) {
+    const Parent& parent = family.parents[static_cast<std::size_t>(p)];
+    entries.push_back(entry(word_of(p), write_scalar(parent.id)));
+  }
+  return flow_map(entries);
+}
+
+void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kMap && family.parents.empty()) {
+    draft.complaints.about(node, "only a family with parents inherits");
+  }
+  if (!draft.regions_known && node.kind == YamlNode::Kind::kMap) return;
+  const std::vector<std::string> names = draft.config.region_names();
+  const MapReader map(&node, names, draft.complaints);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (const YamlNode* from = map.find(names[k])) {
+      family.inherit[k] = word<int>().read(*from, draft).value_or(-1);
+    }
+  }
+}
+
+std::string write_inherit(const FamilyOptions& family, const ConfigWriting& writing) {
+  if (family.parents.empty()) return "";
+  const std::vector<std::string> names = writing.config.region_names();
+  std::vector<std::string> entries;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    entries.push_back(entry(write_scalar(names[k]), std::string(word_of(family.inherit[k]))));
+  }
+  return flow_map(entries);
+}
+
+void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
+  const auto& families = draft.config.families;
+  if (std::any_of(families.begin(), families.end(),
+                  [&](const FamilyOptions& other) { return other.name == family.name; })) {
+    draft.complaints.about(node, concat("two families are called ", quoted(family.name)));
+  }
+  if (family.name.find_first_not_of("0123456789") == std::string::npos) {
+    draft.complaints.about(node,
+                           "a family's name needs a letter, or its members would be called "
+                           "like sampled faces");
+  }
+}
+
+void refuse_taken_ids(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
+  for (int m = 1; m <= family.members; ++m) {
+    const std::string id = member_id(draft.config.crowd.name, family.name, m);
+    for (const HandRecipe& recipe : draft.config.recipes) {
+      if (recipe.id == id) {
+        draft.complaints.about(node, concat("the recipe ", quoted(id), " is called like a member"));
+      }
+    }
+  }
+}
+
+const Keys<FamilyOptions>& family_keys() {
+  using Family = FamilyOptions;
+  static const Keys<Family> keys = {
+      key("name", &Family::name, name(), "such as smith"),
+      key("members", &Family::members, whole(1, kMostMembers), "how many faces"),
+      key("target", &Family::target, head()),
+      {"parents", read_parents, write_parents},
+      {"inherit", read_inherit, write_inherit},
+      key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistance),
+          "how far members may be from their founder, such as \"2.5 mm\""),
+      key("min_distance", &Family::min_distance_mm, length(kMaxDistance)),
+      key("age", &Family::age, age())};
+  return keys;
+}
+
+}  // namespace
+
+void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  draft.complaints.expect_list(node, "a list of families, [{name: smith, members: 6, …}]");
+  for (const YamlNode& item : node.items) {
+    FamilyOptions family;
+    family.inherit.assign(config.region_names().size(), -1);
+    if (!read_keys(item, family_keys(), family, draft)) continue;
+    if (!family.name.empty()) check_name(item.find("name")->value, family, draft);
+    if (family.max_distance_mm > 0 && family.min_distance_mm > 2 * family.max_distance_mm) {
+      draft.complaints.about(item.find("min_distance")->value,
+                             "members that are all within max_distance of one founder cannot be "
+                             "more than twice that apart");
+    }
+    refuse_taken_ids(item, family, draft);
+    config.families.push_back(std::move(family));
+  }
+}
+
+std::string write_families(const Config& config, const ConfigWriting& writing) {
+  std::vector<std::string> items;
+  for (const FamilyOptions& family : config.families) {
+    items.push_back(block_map(write_keys(family_keys(), family, writing)));
+  }
+  return block_list(items);
+}
+
+}  // namespace crowdface

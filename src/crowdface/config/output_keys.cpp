@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `output`.
+#include <algorithm>
+
+#include "crowdface/config/config_keys.h"
+#include "crowdface/config/sheet_page_size.h"
+
+namespace crowdface {
+namespace {
+
+using Sheet = Config::ContactSheet;
+using Output = Config::Output;
+using With = Config::Comparison::With;
+
+constexpr double kLongestScaleMm = 1000;
+
+void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
+  const auto file = path("none, target, nearest, or a file or crowd folder").read(node, draft);
+  if (!file) return;
+  const auto& words = words_of<With>();
+  const auto word = std::find_if(words.begin(), words.end(),
+                                 [&](const Word<With>& known) { return known.text == node.text; });
+  if (word != words.end()) {
+    sheet.compare.with = word->value;
+  } else {
+    sheet.compare = {With::kFile, *file, sheet.compare.scale_mm};
+    expect_file(node, *file, draft, "expected none, target, nearest, or a file that is there; ");
+  }
+  if (sheet.compare.with != With::kNothing && draft.config.output.meshes.empty()) {
+    draft.complaints.about(node, "comparing needs meshes, and output.meshes asks for none");
+  }
+}
+
+std::string write_comparison(const Sheet& sheet, const ConfigWriting& writing) {
+  return sheet.compare.with == With::kFile ? path("").write(sheet.compare.file, writing)
+                                           : std::string(word_of(sheet.compare.with));
+}
+
+/// "#rrggbb".
+std::optional<std::array<std::uint8_t, 3>> parse_colour(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  if (text.size() != 7) return std::nullopt;
+  std::array<std::uint8_t, 3> colour{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const char c = text[i + 1];
+    const std::size_t digit =
+        kDigits.find(c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c);
+    if (digit == kDigits.npos) return std::nullopt;
+    colour[i / 2] = static_cast<std::uint8_t>(16 * colour[i / 2] + digit);
+  }
+  return colour;
+}
+
+std::string write_colour(const std::array<std::uint8_t, 3>& colour) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "\"#";
+  for (const std::uint8_t value : colour) text += {kDigits[value >> 4U], kDigits[value & 15U]};
+  return text + '"';
+}
+
+void read_surfaces(const YamlNode& node, Output& output, ConfigDraft& draft) {
+  draft.complaints.expect_map(node, "a mapping from materials to surfaces, {M_Lashes: hidden}");
+  for (const auto& [name, place, value] : node.entries) {
+    SurfaceChoice& surface = output.surfaces[name];
+    if (value.kind == YamlNode::Kind::kScalar && value.text.starts_with('#')) {
+      surface.colour = parse_colour(value.text);
+      if (!surface.colour) draft.complaints.expected(value, "a colour such as \"#c0a080\"");
+    } else {
+      surface.kind = word<SurfaceKind>().read(value, draft).value_or(surface.kind);
+    }
+  }
+}
+
+std::string write_surfaces(const Output& output, const ConfigWriting&) {
+  std::vector<std::string> entries;
+  for (const auto& [name, surface] : output.surfaces) {
+    entries.push_back(entry(write_scalar(name), surface.colour ? write_colour(*surface.colour)
+                                                               : word_of(surface.kind)));
+  }
+  return flow_map(entries);
+}
+
+const Keys<Sheet>& contact_sheet_keys() {
+  static const Keys<Sheet> keys = {
+      key("columns", &Sheet::columns, whole(1, 32)),
+      key("rows", &Sheet::rows, whole(1, 64)),
+      key("cell", &Sheet::cell, whole(32, 2048)),
+      key("views", &Sheet::views, words<View>("a list of views, [front, three_quarter, profile]")),
+      key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]")),
+      word_key("order", &Sheet::order),
+      {"compare", read_comparison, write_comparison},
+      {"compare_scale",
+       [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
+         const auto scale = positive_length(kLongestScaleMm).read(node, draft);
+         sheet.compare.scale_mm = scale.value_or(sheet.compare.scale_mm);
+       },
+       [](const Sheet& sheet, const ConfigWriting& writing) {
+         return length(kLongestScaleMm).write(sheet.compare.scale_mm, writing);
+       }},
+      key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]")),
+      word_key("texture", &Sheet::texture)};
+  return keys;
+}
+
+void read_contact_sheet(const YamlNode& node, Output& output, ConfigDraft& draft) {
+  if (is_word(node, "none")) return output.contact_sheet.reset();
+  if (!draft.complaints.expect_map(node,
+                                   "none or a mapping with the keys columns, rows, cell, views")) {
+    return;
+  }
+  read_keys(node, contact_sheet_keys(), *output.contact_sheet, draft);
+  if (!fits_on_a_page(*output.contact_sheet)) {
+    draft.complaints.about(node,
+                           "one page of so many cells, rows and columns is too large (at most "
+                           "65500 pixels a side and 5e8 in all)");
+  }
+}
+
+std::string write_contact_sheet(const Output& output, const ConfigWriting& writing) {
+  if (!output.contact_sheet) return "none";
+  return block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, writing));
+}
+
+}  // namespace
+
+const Keys<Output>& output_keys() {
+  static const Keys<Output> keys = {
+      key("directory", &Output::directory, path("a folder")),
+      key("meshes", &Output::meshes,
+          words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0)),
+      word_key("gallery", &Output::gallery),
+      {"surfaces", read_surfaces, write_surfaces},
+      {"contact_sheet", read_contact_sheet, write_contact_sheet}};
+  return keys;
+}
+
+}  // namespace crowdface

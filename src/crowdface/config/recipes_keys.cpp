@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `recipes`: faces spelled out by hand.
+#include <algorithm>
+#include <map>
+
+#include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/config/config_keys.h"
+
+namespace crowdface {
+namespace {
+
+using Region = HandRecipe::Region;
+using Unit = SmoothnessDistribution::Unit;
+
+void read_weights(const YamlNode& node, Region& region, ConfigDraft& draft) {
+  if (node.entries.empty()) {
+    draft.complaints.expected(node, "a mapping from heads to weights, {head: weight}");
+    return;
+  }
+  std::vector<WeightedHead>& weights = region.weights;
+  if (draft.config.blending.normalization == Normalization::kPrinted) {
+    draft.complaints.about(node, "blending.normalization: printed takes positions, no weights");
+  }
+  double sum = 0;
+  bool sound = true;
+  for (const YamlEntry& entry : node.entries) {
+    const auto head = find_head(entry.key, entry.key_place, node.path, draft);
+    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
+    sum += weight.value_or(0);
+    sound = sound && weight;
+    if (head && weight) weights.push_back({*head, *weight});
+  }
+  if (sound && sum <= 0) {
+    draft.complaints.about(node, "the weights sum to zero; at least one must be above 0");
+  }
+  std::sort(weights.begin(), weights.end(),
+            [](const WeightedHead& a, const WeightedHead& b) { return a.head < b.head; });
+}
+
+std::optional<Unit> unit_of(const Region& region) {
+  return region.smoothness ? std::optional(region.smoothness->unit) : std::nullopt;
+}
+
+const Keys<Region>& region_keys() {
+  /// Both smoothness and iterations stand in one member: its unit tells which is written.
+  Key<Region> by_size = key("smoothness", &Region::smoothness, smoothness());
+  by_size.write = [write = by_size.write](const Region& region, const ConfigWriting& writing) {
+    return unit_of(region) == Unit::kIterations ? "" : write(region, writing);
+  };
+  Key<Region> by_count = key("iterations", &Region::smoothness, iterations());
+  by_count.write = [write = by_count.write](const Region& region, const ConfigWriting& writing) {
+    return unit_of(region) == Unit::kIterations ? write(region, writing) : "";
+  };
+  static const Keys<Region> keys = {
+      key("position", &Region::position, point()),
+      {"weights", read_weights,
+       [](const Region& region, const ConfigWriting& writing) {
+         return region.weights.empty() ? "" : write_weights(region.weights, writing);
+       }},
+      by_size,
+      by_count,
+      key("extrapolation", &Region::extrapolation, extrapolation())};
+  return keys;
+}
+
+Region read_region(const YamlNode& node, ConfigDraft& draft) {
+  Region region;
+  read_keys(node, region_keys(), region, draft);
+  for (const auto& [one, other] :
+       {std::pair("position", "weights"), {"smoothness", "iterations"}}) {
+    if (node.find(one) == nullptr || node.find(other) == nullptr) continue;
+    draft.complaints.about(node, concat("either ", one, " or ", other, ", not both"));
+  }
+  return region;
+}
+
+/// Every region takes its own entry, or that of `all`, or is left to sampling.
+void read_regions_of(const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
+  if (!draft.complaints.expect_map(node, "a mapping from regions, or all, to their values")) return;
+  const std::vector<std::string>& names = draft.config.regions.names;
+  std::vector<std::string> keys = names;
+  keys.emplace_back("all");
+  if (!draft.regions_known) {
+    for (const YamlEntry& entry : node.entries) keys.push_back(entry.key);
+  }
+  const MapReader map(&node, keys, draft.complaints);
+  if (const YamlNode* all = map.find("all")) {
+    recipe.regions.assign(recipe.regions.size(), read_region(*all, draft));
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const YamlNode* own = map.find(names[i])) recipe.regions[i] = read_region(*own, draft);
+  }
+}
+
+std::string write_regions_of(const HandRecipe& recipe, const ConfigWriting& writing) {
+  const std::vector<std::string> names = writing.config.region_names();
+  std::vector<std::string> entries;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    entries.push_back(entry(write_scalar(names[i]),
+                            flow_map(write_keys(region_keys(), recipe.regions[i], writing))));
+  }
+  return block_map(entries);
+}
+
+/// Whether an id is one that a sampled face of this crowd could get: NAME_0001 and so on.
+bool looks_sampled(std::string_view id, std::string_view crowd) {
+  constexpr std::size_t kDigits = 4;
+  if (crowd.empty() || !id.starts_with(crowd)) return false;
+  id.remove_prefix(crowd.size());
+  return id.size() > kDigits && id.front() == '_' &&
+         id.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+/// \param places  of the ids before this one.
+void check_id(const YamlNode& node, const std::string& id, std::map<std::string, YamlPlace>& places,
+              ConfigDraft& draft) {
+  if (looks_sampled(id, draft.config.crowd.name)) {
+    draft.complaints.about(
+        node, concat("ids like ", quoted(id), " belong to the sampled faces; choose another"));
+  }
+  const auto [first, is_new] = places.emplace(id, node.place);
+  if (!is_new) {
+    draft.complaints.about(node, concat("the id ", quoted(id), " stands here a second time; first ",
+                                        "at ", first->second.text()));
+  }
+}
+
+const Keys<HandRecipe>& recipe_keys() {
+  static const Keys<HandRecipe> keys = {key("id", &HandRecipe::id, name(), "the name of the face"),
+                                        key("target", &HandRecipe::target, head()),
+                                        key("age", &HandRecipe::age, age()),
+                                        {"regions", read_regions_of, write_regions_of}};
+  return keys;
+}
+
+}  // namespace
+
+void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  draft.complaints.expect_list(node, "a list of recipes, [{id: …, target: …, regions: …}]");
+  std::map<std::string, YamlPlace> places;
+  for (const YamlNode& item : node.items) {
+    HandRecipe recipe;
+    recipe.regions.resize(config.region_names().size());
+    if (!read_keys(item, recipe_keys(), recipe, draft)) continue;
+    if (!recipe.id.empty()) check_id(item.find("id")->value, recipe.id, places, draft);
+    config.recipes.push_back(std::move(recipe));
+  }
+}
+
+std::string write_recipes(const Config& config, const ConfigWriting& writing) {
+  std::vector<std::string> items;
+  for (const HandRecipe& recipe : config.recipes) {
+    items.push_back(block_map(write_keys(recipe_keys(), recipe, writing)));
+  }
+  return block_list(items);
+}
+
+}  // namespace crowdface

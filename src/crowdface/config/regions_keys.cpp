@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `regions`.
+#include <algorithm>
+#include <set>
+
+#include "crowdface/config/config_keys.h"
+#include "crowdface/io/tile_files.h"
+
+namespace crowdface {
+namespace {
+
+using Regions = Config::Regions;
+
+constexpr std::size_t kMostRegions = 16;
+
+void read_mask(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
+  const auto mask = path("an image file").read(node, draft);
+  if (!mask) return;
+  const std::string text = mask->string();
+  const std::size_t tiles = text.find(kTileWord);
+  if (tiles == std::string::npos) {
+    expect_file(node, *mask, draft, "the mask ");
+  } else if (mask->filename().string().find(kTileWord) == std::string::npos ||
+             text.find(kTileWord, tiles + 1) != std::string::npos) {
+    draft.complaints.about(node, "<UDIM> can stand once, in the name of the file");
+  } else if (find_tiles(*mask).empty()) {
+    draft.complaints.about(
+        node, concat("no tile of the mask ", quoted(text), " is there, such as 1001 for <UDIM>"),
+        ExitCode::kMissingInput);
+  }
+  regions.mask.push_back(text);
+}
+
+void read_masks(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kScalar) return read_mask(node, regions, draft);
+  if (node.items.empty()) draft.complaints.expected(node, "an image file or a list of them");
+  for (const YamlNode& item : node.items) read_mask(item, regions, draft);
+}
+
+std::string write_masks(const Regions& regions, const ConfigWriting& writing) {
+  std::vector<std::string> masks;
+  for (const std::string& mask : regions.mask) masks.push_back(path("").write(mask, writing));
+  return block_list(masks);
+}
+
+/// Region names stand among keys of the config, and in the columns of crowd.csv.
+void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
+  static const std::set<std::string> reserved = {"all", "default", "none", "iterations"};
+  auto& names = regions.names;
+  const auto name = read_name(node, out);
+  if (!name) return;
+  if (reserved.contains(*name)) {
+    out.about(node,
+              concat("no region can be called ", quoted(*name), ", the word has its own meaning"));
+  } else if (std::find(names.begin(), names.end(), *name) != names.end()) {
+    out.about(node, concat("the region ", quoted(*name), " is named twice"));
+  }
+  names.push_back(*name);
+}
+
+void read_region_names(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
+  const std::size_t complaints_before = draft.complaints.size();
+  if (node.items.empty() || node.items.size() > kMostRegions) {
+    draft.complaints.expected(node, concat("a list of 1 to ", kMostRegions, " names"));
+  } else {
+    for (const YamlNode& item : node.items) read_region_name(item, regions, draft.complaints);
+  }
+  draft.regions_known = draft.complaints.size() == complaints_before;
+}
+
+const Keys<Regions>& regions_keys() {
+  static const Keys<Regions> keys = {
+      {"names", read_region_names,
+       [](const Regions& regions, const auto&) { return flow_names(regions.names); },
+       "such as [top, middle, bottom]"},
+      {"mask", read_masks, write_masks, "the image whose channels are the regions"}};
+  return keys;
+}
+
+}  // namespace
+
+void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  if (is_word(node, "none")) return;
+  draft.regions_known = false;
+  if (!draft.complaints.expect_map(node, "none or a mapping with the keys names, mask")) return;
+  read_keys(node, regions_keys(), config.regions, draft);
+  config.sampling.regions.resize(config.region_names().size());
+}
+
+std::string write_regions(const Config& config, const ConfigWriting& writing) {
+  if (config.regions.names.empty()) return "none";
+  return block_map(write_keys(regions_keys(), config.regions, writing));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sections of a config, and those with plain values: crowd, smoothing, blending, plane.
+#include <algorithm>
+
+#include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/config/config_keys.h"
+#include "crowdface/config/config_writer.h"
+
+namespace crowdface {
+namespace {
+
+const Keys<Config::Crowd>& crowd_keys() {
+  using Crowd = Config::Crowd;
+  constexpr std::uint64_t kMaxCount = 1'000'000;
+  static const Keys<Crowd> keys = {
+      key("name", &Crowd::name, name(), "what the faces' ids start with"),
+      key("count", &Crowd::count, whole(0, kMaxCount), "how many faces are sampled"),
+      key("seed", &Crowd::seed, whole(0, UINT64_MAX))};
+  return keys;
+}
+
+const Keys<Config::Smoothing>& smoothing_keys() {
+  using Smoothing = Config::Smoothing;
+  constexpr double kMaxSizeMm = 10'000;
+  constexpr double kLeastToleranceMm = 0.005;
+  Codec<double> tolerance = length(kMaxSizeMm);
+  tolerance.read = [=, length = tolerance.read](const YamlNode& node, ConfigDraft& draft) {
+    const auto value = length(node, draft);
+    if (value && *value < kLeastToleranceMm) {
+      draft.complaints.expected(node, concat("a length of at least ", kLeastToleranceMm,
+                                             " mm, what single precision can hold"));
+    }
+    return value;
+  };
+  static const Keys<Smoothing> keys = {
+      key("max_size", &Smoothing::max_size_mm, positive_length(kMaxSizeMm)),
+      key("max_iterations", &Smoothing::max_iterations, whole(1, kMaxIterations)),
+      word_key("boundary", &Smoothing::boundary),
+      word_key("operator", &Smoothing::operator_kind),
+      word_key("levels", &Smoothing::levels),
+      key("tolerance", &Smoothing::tolerance_mm, tolerance)};
+  return keys;
+}
+
+void check_smoothing(const YamlNode&, bool sound, ConfigDraft& draft) {
+  draft.smoothing_known = sound;
+}
+
+const Keys<Config::Blending>& blending_keys() {
+  static const Keys<Config::Blending> keys = {
+      word_key("normalization", &Config::Blending::normalization)};
+  return keys;
+}
+
+using Plane = Config::Plane;
+
+void read_anchors(const YamlNode& node, Plane& plane, ConfigDraft& draft) {
+  draft.complaints.expect_map(node, "a mapping from heads to points, {head: [x, y]}");
+  for (const YamlEntry& entry : node.entries) {
+    const auto head = find_head(entry.key, entry.key_place, node.path, draft);
+    const auto at = point().read(entry.value, draft);
+    if (head && at) plane.anchors[*head] = *at;
+  }
+}
+
+std::string write_anchors(const Plane& plane, const ConfigWriting& writing) {
+  std::vector<std::string> entries;
+  for (const auto& [head, at] : plane.anchors) {
+    entries.push_back(entry(writing.head(head), point().write(at, writing)));
+  }
+  return block_map(entries);
+}
+
+const Keys<Plane>& plane_keys() {
+  static const Keys<Plane> keys = {word_key("layout", &Plane::layout),
+                                   {"anchors", read_anchors, write_anchors}};
+  return keys;
+}
+
+/// A layout by hand leaves no head without its place.
+void check_plane(const YamlNode& node, bool sound, ConfigDraft& draft) {
+  const Config& config = draft.config;
+  if (config.plane.layout != Layout::kManual || !draft.heads_known || !sound) return;
+  std::vector<std::string> missing;
+  for (std::size_t h = 0; h < config.faces.names.size(); ++h) {
+    if (!config.plane.anchors.contains(static_cast<Eigen::Index>(h))) {
+      missing.push_back(config.faces.names[h]);
+    }
+  }
+  if (!missing.empty()) {
+    draft.complaints.about(
+        node.find("layout")->value,
+        concat("manual needs an anchor for every head; missing in plane.anchors: ", join(missing)));
+  }
+}
+
+void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kScalar && !node.quoted && parse_unsigned(node.text) == 1U)
+    return;
+  draft.complaints.about(node, concat("this crowdface reads schema 1, found ", describe(node)));
+}
+
+}  // namespace
+
+const Keys<Config>& root_keys() {
+  static const Keys<Config> keys = {
+      {"schema", read_schema, [](const auto&...) { return "1"; }, "write \"schema: 1\""},
+      section_key("crowd", &Config::crowd, crowd_keys(),
+                  "such as \"crowd: {name: market, count: 24}\""),
+      {"faces", read_faces, write_faces, "such as \"faces: {directory: heads, units: cm}\""},
+      {"regions", read_regions, write_regions},
+      section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
+      section_key("blending", &Config::blending, blending_keys()),
+      {"parts", read_parts, write_parts},
+      section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
+      section_key("sampling", &Config::sampling, sampling_keys()),
+      section_key("distance", &Config::distance, distance_keys()),
+      section_key("diversity", &Config::diversity, diversity_keys()),
+      {"believability", read_believability, write_believability},
+      {"recipes", read_recipes, write_recipes},
+      {"families", read_families, write_families},
+      {"review", read_review, write_review},
+      section_key("output", &Config::output, output_keys())};
+  return keys;
+}
+
+std::string effective_config(const Config& config, const std::filesystem::path& directory) {
+  const ConfigWriting writing = {config,
+                                 std::filesystem::absolute(directory / "").lexically_normal()};
+  return block_map(write_keys(root_keys(), config, writing)).substr(1) + '\n';
+}
+
+}  // namespace crowdface

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `sampling`.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/config/config_keys.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kMaxRadius = 1e6;
+constexpr std::uint64_t kMostSources = 50;
+
+using Names = std::vector<std::string>;
+using Kind = PositionDistribution::Kind;
+
+bool contains(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A value that may differ from region to region.
+struct PerRegion {
+  std::optional<YamlNode> whole;  ///< for every region that has no value of its own
+  std::vector<std::pair<std::size_t, const YamlNode*>> of_region;
+};
+
+/// Takes a value apart: one for all regions, or `{default: …, top: …}`, or both in one mapping.
+/// \param parameters  the keys of a value that is itself a mapping. A region may bear the name of
+/// one whose own values are never mappings: those then tell which is meant.
+PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
+  PerRegion split;
+  if (node.kind != YamlNode::Kind::kMap) {
+    split.whole = node;
+    return split;
+  }
+  const Names& regions = draft.config.regions.names;
+  YamlNode direct = node;
+  direct.entries.clear();
+  for (const YamlEntry& entry : node.entries) {
+    const auto region = std::find(regions.begin(), regions.end(), entry.key);
+    const bool is_region = region != regions.end() && (!contains(parameters, entry.key) ||
+                                                       entry.value.kind == YamlNode::Kind::kMap);
+    const bool empty = entry.value.kind == YamlNode::Kind::kNothing;
+    if (empty && (is_region || entry.key == "default")) {
+      draft.complaints.about(entry.value, "no value; write one, or leave the key out");
+    } else if (is_region) {
+      split.of_region.emplace_back(region - regions.begin(), &entry.value);
+    } else if (entry.key == "default") {
+      split.whole = entry.value;
+    } else if (contains(parameters, entry.key)) {
+      direct.entries.push_back(entry);
+    } else if (draft.regions_known) {
+      Names keys = parameters;
+      keys.insert(keys.end(), regions.begin(), regions.end());
+      keys.emplace_back("default");
+      const std::string hint = suggestion(entry.key, keys);
+      draft.complaints.add(entry.key_place,
+                           concat(node.path, ": no region is called ", quoted(entry.key),
+                                  hint.empty() ? concat("; expected one of ", join(keys)) : hint));
+    }
+  }
+  if (!direct.entries.empty() && split.whole) {
+    draft.complaints.about(node, "either default or the values directly, not both");
+  } else if (!direct.entries.empty()) {
+    split.whole = std::move(direct);
+  } else if (node.entries.empty()) {
+    draft.complaints.about(node, "expected a value, found an empty mapping");
+  }
+  return split;
+}
+
+/// A value for each region. \param parameters  as of split_by_region.
+template <class Value>
+Key<SamplingOptions> per_region_key(std::string_view name, Value RegionSampling::*member,
+                                    const Codec<Value>& codec, const Names& parameters = {}) {
+  return {name,
+          [=](const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
+            const PerRegion split = split_by_region(node, parameters, draft);
+            const auto whole = split.whole ? codec.read(*split.whole, draft) : std::nullopt;
+            for (RegionSampling& region : sampling.regions) {
+              if (whole) region.*member = *whole;
+            }
+            for (const auto& [region, own] : split.of_region) {
+              if (const auto value = codec.read(*own, draft)) {
+                sampling.regions[region].*member = *value;
+              }
+            }
+          },
+          [=](const SamplingOptions& sampling, const ConfigWriting& writing) {
+            const Names& names = writing.config.regions.names;
+            std::vector<std::string> entries;
+            for (std::size_t i = 0; i < sampling.regions.size(); ++i) {
+              entries.push_back(entry(names.empty() ? "default" : write_scalar(names[i]),
+                                      codec.write(sampling.regions[i].*member, writing)));
+            }
+            return block_map(entries);
+          }};
+}
+
+/// The head of that name, or the face's own target.
+const Key<PositionDistribution> kFaceKey = {
+    "face",
+    [](const YamlNode& node, PositionDistribution& position, ConfigDraft& draft) {
+      if (!is_word(node, "target")) position.head = head().read(node, draft);
+    },
+    [](const PositionDistribution& position, const ConfigWriting& writing) {
+      return position.head ? writing.head(*position.head) : "target";
+    }};
+
+const Keys<PositionDistribution>& position_keys() {
+  using Position = PositionDistribution;
+  Codec<double> radius = number(0, kMaxRadius);
+  radius.read = [read = radius.read](const YamlNode& node, ConfigDraft& draft) {
+    const auto value = read(node, draft);
+    if (value == 0.0) draft.complaints.expected(node, "a number above 0");
+    return value;
+  };
+  static const Keys<Position> keys = {
+      word_key("distribution", &Position::kind, "anchored, uniform, around or fixed"),
+      key("pull", &Position::pull, number(0, 1)), kFaceKey,
+      key("radius", &Position::radius, radius), key("position", &Position::at, point())};
+  return keys;
+}
+
+/// The keys that each distribution has, and of the last what must be there.
+struct KindKeys {
+  Kind kind;
+  Names keys;
+  std::string_view required = {};
+};
+const std::vector<KindKeys> kKindKeys = {
+    {Kind::kAnchored, {"distribution", "pull"}},
+    {Kind::kUniform, {"distribution"}},
+    {Kind::kAround,
+     {"distribution", "face", "radius"},
+     "how far from the face, in the plane's unit"},
+    {Kind::kFixed, {"distribution", "position"}, "a point of the plane, [x, y]"}};
+
+const KindKeys& keys_of(Kind kind) {
+  return *std::find_if(kKindKeys.begin(), kKindKeys.end(),
+                       [&](const KindKeys& keys) { return keys.kind == kind; });
+}
+
+std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDraft& draft) {
+  const std::size_t complaints_before = draft.complaints.size();
+  PositionDistribution position;
+  read_keys(node, position_keys(), position, draft);
+  if (draft.complaints.size() != complaints_before) return std::nullopt;
+  const KindKeys& own = keys_of(position.kind);
+  for (const YamlEntry& entry : node.entries) {
+    if (contains(own.keys, entry.key)) continue;
+    draft.complaints.add(entry.key_place, concat(entry.value.path, ": the distribution ",
+                                                 word_of(position.kind), " has no ", entry.key));
+  }
+  if (!own.required.empty() && node.find(own.keys.back()) == nullptr) {
+    draft.complaints.add(node.place,
+                         concat(node.path, '.', own.keys.back(), ": missing; ", own.required));
+  }
+  return position;
+}
+
+std::string write_position(const PositionDistribution& position, const ConfigWriting& writing) {
+  Keys<PositionDistribution> keys = position_keys();
+  std::erase_if(keys,
+                [&](const auto& key) { return !contains(keys_of(position.kind).keys, key.name); });
+  return flow_map(write_keys(keys, position, writing));
+}
+
+/// As everywhere, or `{iterations: …}`.
+Codec<SmoothnessDistribution> sampled_smoothness() {
+  return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
+            if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
+            const MapReader map(&node, {"iterations"}, draft.complaints);
+            const YamlNode* count = map.require("iterations", "a whole number or [low, high]");
+            return count == nullptr ? std::nullopt : iterations().read(*count, draft);
+          },
+          [](const SmoothnessDistribution& value, const ConfigWriting& writing) {
+            return value.unit == SmoothnessDistribution::Unit::kIterations
+                       ? flow_map({entry("iterations", iterations().write(value, writing))})
+                       : smoothness().write(value, writing);
+          }};
+}
+
+/// Heads by name or tag; all of them for `all`.
+std::vector<Eigen::Index> read_head_list(const YamlNode& node, ConfigDraft& draft) {
+  std::set<Eigen::Index> chosen;  // each once, ascending
+  if (is_word(node, "all")) {
+    for (std::size_t i = 0; i < draft.config.faces.names.size(); ++i) {
+      chosen.insert(static_cast<Eigen::Index>(i));
+    }
+  } else if (node.items.empty()) {
+    draft.complaints.expected(node, "all or a list of heads and tags");
+  }
+  for (const YamlNode& item : node.items) {
+    const auto name = read_name(item, draft.complaints);
+    if (!name) continue;
+    const auto heads = find_heads(*name, item.place, node.path, draft);
+    chosen.insert(heads.begin(), heads.end());
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+std::string write_head_list(const std::vector<Eigen::Index>& heads, const ConfigWriting& writing) {
+  if (heads.size() == writing.config.faces.names.size()) return "all";
+  std::vector<std::string> items;
+  for (const Eigen::Index head : heads) items.push_back(writing.head(head));
+  return flow_list(items);
+}
+
+/// `{name: weight}`: a head's own entry counts alone, the weights of several tags add up.
+std::vector<WeightedHead> read_weighted_targets(const YamlNode& node, ConfigDraft& draft) {
+  std::map<Eigen::Index, double> by_tag, by_name;
+  for (const YamlEntry& entry : node.entries) {
+    const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
+    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
+    if (weight == 0.0) {
+      draft.complaints.expected(entry.value, "a weight above 0 (leave the head out for none)");
+    }
+    for (const Eigen::Index head : heads) {
+      const bool named = draft.config.faces.names[static_cast<std::size_t>(head)] == entry.key;
+      (named ? by_name : by_tag)[head] += weight.value_or(1);
+    }
+  }
+  by_name.merge(by_tag);  // keeps what is there
+  std::vector<WeightedHead> targets;
+  for (const auto& [head, weight] : by_name) targets.push_back({head, weight});
+  return targets;
+}
+
+void read_targets(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
+  sampling.targets.clear();
+  if (node.kind == YamlNode::Kind::kMap && !node.entries.empty()) {
+    sampling.targets = read_weighted_targets(node, draft);
+    return;
+  }
+  for (const Eigen::Index head : read_head_list(node, draft)) sampling.targets.push_back({head, 1});
+}
+
+std::string write_targets(const SamplingOptions& sampling, const ConfigWriting& writing) {
+  const auto& targets = sampling.targets;
+  const bool weighted = std::any_of(targets.begin(), targets.end(),
+                                    [](const WeightedHead& t) { return t.weight != 1; });
+  if (weighted) return write_weights(targets, writing);
+  std::vector<Eigen::Index> heads;
+  for (const WeightedHead& target : targets) heads.push_back(target.head);
+  return write_head_list(heads, writing);
+}
+
+}  // namespace
+
+const Keys<SamplingOptions>& sampling_keys() {
+  using Sampling = SamplingOptions;
+  static const Keys<Sampling> keys = {
+      {"targets", read_targets, write_targets},
+      {"sources",
+       [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
+         sampling.sources = read_head_list(node, draft);
+       },
+       [](const Sampling& sampling, const ConfigWriting& writing) {
+         return write_head_list(sampling.sources, writing);
+       }},
+      per_region_key("position", &RegionSampling::position, {read_position, write_position},
+                     names_of(position_keys())),
+      per_region_key("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
+                     {"iterations"}),
+      per_region_key("extrapolation", &RegionSampling::extrapolation, extrapolation()),
+      {"max_sources",
+       [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
+         if (is_word(node, "all")) return;
+         const auto most = whole(1, kMostSources).read(node, draft);
+         if (most) sampling.max_sources = static_cast<int>(*most);
+       },
+       [](const Sampling& sampling, const ConfigWriting&) {
+         return sampling.max_sources ? concat(*sampling.max_sources) : "all";
+       }},
+      key("age", &Sampling::age, age())};
+  return keys;
+}
+
+}  // namespace crowdface
