@@ -32,7 +32,7 @@ for file in "$heads"/*.obj; do names+=("$(basename "$file" .obj)"); done
   echo "  directory: '$work/sheet'"
   echo "  meshes: []"
   echo "  contact_sheet: {columns: $columns, rows: $(((${#names[@]} + columns - 1) / columns))," \
-    "cell: $cell, views: [$views]}"
+    "cell: $cell, views: [$views], texture: true}"
 } >"$work/sheet.yaml"
 "$program" generate "$work/sheet.yaml" --quiet --cache "$work/cache"
 mkdir -p "$(dirname "$sheet")"

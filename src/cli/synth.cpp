@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "crowdface/core/log.h"
@@ -10,6 +11,7 @@
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/synth/identity.h"
 #include "crowdface/synth/synthetic_head.h"
+#include "crowdface/synth/synthetic_skin.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -24,10 +26,11 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostHeads = 1000;
 constexpr std::uint64_t kFewestVertices = 5000, kMostVertices = 1'200'000;
 constexpr int kMaskSize = 1024;
+constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
 
 struct Options {
   CommonOptions common;
-  std::string out, count = "8", vertices = "20000", seed = "1", mask;
+  std::string out, count = "8", vertices = "20000", seed = "1", mask, textures;
   bool tags = false, skin_only = false, force = false;
 };
 
@@ -36,6 +39,17 @@ bool same_folder(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::weakly_canonical(fs::absolute(a / "", error), error) ==
          fs::weakly_canonical(fs::absolute(b / "", error), error);
+}
+
+/// The skin in a picture's colours, the other pieces in their own.
+std::string material_file(const std::vector<MaterialRange>& materials, const std::string& picture) {
+  std::string text;
+  for (const MaterialRange& material : materials) {
+    const bool skin = material.name == "skin";
+    text += concat("newmtl ", material.name,
+                   skin ? "\nKd 1 1 1\nmap_Kd " + picture : "\nKd 0.8 0.77 0.72", '\n');
+  }
+  return text;
 }
 
 void synth(const Options& options) {
@@ -56,18 +70,34 @@ void synth(const Options& options) {
   if (!options.skin_only) {
     for (const auto& piece : heads.pieces()) materials.push_back({piece.name, piece.first_face});
   }
+  std::optional<SyntheticSkins> skins;
+  if (!options.textures.empty()) {
+    skins.emplace(static_cast<int>(
+        whole_number("--textures", options.textures, kLeastTexture, kMostTexture)));
+    if (materials.empty()) materials.push_back({"skin", 0});
+  }
   std::vector<HeadFile> files;
   std::vector<TaggedHead> tagged;
   for (std::uint64_t i = 1; i <= count; ++i) {
     const std::string name = head_name("synth", i);
-    files.push_back({directory / concat(name, ".obj"), [&heads, &materials, seed, i] {
+    const synth::Person person = synth::draw_person(seed, i);
+    tagged.push_back({name, person.male > 0, person.age});
+    const std::string library = skins ? concat(name, ".mtl") : std::string();
+    files.push_back({directory / concat(name, ".obj"), [&heads, &materials, library, seed, i] {
                        return encode_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},
                                          concat("synthetic head ", i, " of seed ", seed,
                                                 ", made by crowdface synth; cm"),
-                                         materials);
+                                         materials, library);
                      }});
-    const synth::Person person = synth::draw_person(seed, i);
-    tagged.push_back({name, person.male > 0, person.age});
+    if (!skins) continue;
+    const std::string picture = concat(name, "_albedo.png");
+    files.push_back(text_file(directory / library, material_file(materials, picture)));
+    files.push_back({directory / picture, [&skins, seed, i] {
+                       EncodedFile file;
+                       file.add(
+                           encode_png(skins->size(), skins->size(), 3, skins->albedo(seed, i)));
+                       return file;
+                     }});
   }
   if (options.tags) {
     files.push_back(text_file(directory / "tags.yaml",
@@ -102,6 +132,11 @@ Run add_synth(CLI::App& program) {
   command
       ->add_option("--mask", options->mask, "Where the region mask goes (default: DIR/regions.png)")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--textures", options->textures,
+          "Paint each head's skin, pictures of this side in texels: NAME_albedo.png, NAME.mtl")
+      ->type_name("SIZE");
   command->add_flag("--skin-only", options->skin_only,
                     "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
   command->add_flag("--tags", options->tags,

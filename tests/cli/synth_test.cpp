@@ -55,5 +55,31 @@ TEST(Synth, GoesOnAndKeepsWhatSomebodyChanged) {
   EXPECT_EQ(read_text(folder / "heads/synth_01.obj"), first);
 }
 
+TEST(Synth, PaintsSkinsThatSheetsShow) {
+  const TemporaryFolder folder;
+  const std::string heads = (folder / "heads").string();
+  crowdface(0, {"synth", "-o", heads, "--count", "2", "--vertices", "5000", "--textures", "64"});
+  EXPECT_TRUE(fs::exists(folder / "heads/synth_02_albedo.png"));
+  EXPECT_THAT(read_text(folder / "heads/synth_02.obj"), HasSubstr("mtllib synth_02.mtl"));
+  EXPECT_THAT(read_text(folder / "heads/synth_02.mtl"), HasSubstr("map_Kd synth_02_albedo.png"));
+  const auto sheet = [&](const std::string& name, const char* texture) {
+    const fs::path config = folder.write(
+        concat(name, ".yaml"),
+        concat("schema: 1\ncrowd: {name: mob, count: 1}\nfaces: {directory: heads, units: cm}\n",
+               "output: {directory: ", name,
+               ", contact_sheet: {columns: 1, rows: 1, cell: 64, texture: ", texture, "}}\n"));
+    crowdface(0, {"generate", config.string(), "--cache", (folder / "cache").string()});
+    return read_text(folder / concat(name, "/renders/mob_0001.png"));
+  };
+  EXPECT_NE(sheet("painted", "true"), sheet("plain", "false"));
+  EXPECT_TRUE(fs::exists(folder / "painted/meshes/synth_01_albedo.png") ||
+              fs::exists(folder / "painted/meshes/synth_02_albedo.png"))
+      << "the mesh brings its texture along";
+
+  for (const char* size : {"63", "9000", "big"}) {
+    crowdface(64, {"synth", "-o", heads, "--textures", size}, {"--textures"});
+  }
+}
+
 }  // namespace
 }  // namespace crowdface::testing

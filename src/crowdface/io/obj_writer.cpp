@@ -54,7 +54,7 @@ Digest write_obj_like(const ObjFile& target, const Topology& topology, const Pos
 }
 
 EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,
-                       const std::vector<MaterialRange>& materials) {
+                       const std::vector<MaterialRange>& materials, const std::string& library) {
   const Topology& topology = mesh.topology;
   std::map<Index, std::string> material_lines;
   for (const MaterialRange& range : materials) {
@@ -87,6 +87,7 @@ EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,
   });
   EncodedFile file;
   if (!comment.empty()) file.add(concat("# ", comment, '\n'));
+  if (!library.empty()) file.add(concat("mtllib ", library, '\n'));
   add_blocks(file, vertices);
   add_blocks(file, uvs);
   add_blocks(file, faces);

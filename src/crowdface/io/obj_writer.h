@@ -23,8 +23,10 @@ Digest write_obj_like(const ObjFile& target, const Topology& topology, const Pos
 /// A mesh of our own making as an OBJ file: positions, texture coordinates, faces.
 /// \param comment    one line for the file's head, may be empty.
 /// \param materials  of the faces, ascending; may be empty.
+/// \param library    the file's name where they are defined, or empty.
 /// \throws InvalidInput if positions are not #V by 3 or not finite.
 EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,
-                       const std::vector<MaterialRange>& materials = {});
+                       const std::vector<MaterialRange>& materials = {},
+                       const std::string& library = {});
 
 }  // namespace crowdface

@@ -22,6 +22,9 @@ class Relief {
   /// Height above the average skin in centimetres, along its normal.
   double height(const SkinPoint& mean) const;
 
+  /// The same of folds and lines alone, at a place of the average head.
+  double folds(const Eigen::Vector3d& position) const;
+
  private:
   /// A curve drawn on the face from the front, pressed in (depth > 0) or raised.
   struct Stroke {
@@ -30,7 +33,6 @@ class Relief {
     double width, depth, bulge;
     Eigen::Vector2d low, high;  ///< where it has any effect
   };
-  double folds(const Eigen::Vector3d& position) const;
   double grain(const Eigen::Vector3d& position) const;
   static double press(const Stroke& stroke, const Eigen::Vector2d& place);
   void add_stroke(std::size_t which, double side, double depth);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "crowdface/synth/identity.h"
+
+namespace crowdface::synth {
+
+/// A colour as it is chosen on a screen (sRGB), each in [0, 1].
+using ScreenColour = Eigen::Array3d;
+
+/// What a synthetic person's skin and hair look like.
+struct Complexion {
+  double tone = 0;       ///< 0 the lightest skin … 1 the darkest
+  ScreenColour skin;     ///< where nothing else colours it
+  ScreenColour hair;     ///< grey with the years
+  double ruddy = 0;      ///< 0 … 1: how red cheeks, nose and ears are
+  double freckles = 0;   ///< 0 … 1
+  double age_spots = 0;  ///< 0 … 1
+  double brows = 1;      ///< how dense they are
+  double brow_width = 1;
+  double beard = 0;     ///< 0 none, 0.2 shaven, 0.6 stubble, 1 a short beard
+  double receding = 0;  ///< 0 a full hairline … 1 bald on top
+};
+
+/// Of five successive heads (from 5k on) each has a tone of another fifth.
+Complexion draw_complexion(std::uint64_t seed, std::uint64_t index);
+
+}  // namespace crowdface::synth

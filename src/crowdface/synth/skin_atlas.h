@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/synth/mean_head.h"
+
+namespace crowdface::synth {
+
+/// What of the skin a texel of the texture shows.
+struct SkinPlace {
+  SkinPoint skin;  ///< on the average head
+  double eye = 0;  ///< ring address around an eye: 0 … 1 up to the lid's edge, beyond it 1 … 2
+  double mouth = 0;      ///< the same around the mouth
+  double nostril = 0;    ///< and around a nostril
+  bool covered = false;  ///< whether any skin is shown here
+};
+
+/// size × size places, row by row, first row at v = 1. Those that show no skin hold the place of the nearest
+/// covered texel that was found, so that colours run on beyond the skin's edges.
+std::vector<SkinPlace> skin_atlas(int size);
+
+}  // namespace crowdface::synth

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/synth/complexion.h"
+#include "crowdface/synth/noise.h"
+#include "crowdface/synth/relief.h"
+#include "crowdface/synth/skin_atlas.h"
+
+namespace crowdface::synth {
+
+/// Colours the skin of one person.
+class SkinPaint {
+ public:
+  SkinPaint(std::uint64_t seed, std::uint64_t index);
+
+  ScreenColour at(const SkinPlace& place) const;
+
+ private:
+  using Vector = Eigen::Vector3d;
+
+  ScreenColour bare_skin(const Vector& p) const;
+  void paint_spots(const Vector& p, ScreenColour& colour) const;
+  void paint_lips(const SkinPlace& place, ScreenColour& colour) const;
+  void paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const;
+  void paint_openings(const SkinPlace& place, ScreenColour& colour) const;
+  double strands(const Vector& p) const;
+  double brow_cover(const Vector& p) const;
+  double beard_cover(const Vector& p, double strand) const;
+  double scalp_cover(const Vector& p, double strand) const;
+  SmoothNoise noise(std::uint64_t lane, double spacing) const;
+
+  std::uint64_t seed_, index_;
+  Person person_;
+  Complexion look_;
+  Relief relief_;
+  SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_;
+};
+
+}  // namespace crowdface::synth

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/synth/synthetic_skin.h"
+
+#include <cmath>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
+#include "crowdface/synth/skin_atlas.h"
+#include "crowdface/synth/skin_paint.h"
+
+namespace crowdface {
+struct SyntheticSkins::State {
+  int size;
+  std::vector<synth::SkinPlace> atlas;
+};
+
+SyntheticSkins::SyntheticSkins(int size) {
+  require(size >= 64 && size <= 8192, "textures of ", size, " texels");
+  state_ = std::make_unique<State>(State{size, synth::skin_atlas(size)});
+}
+SyntheticSkins::~SyntheticSkins() = default;
+SyntheticSkins::SyntheticSkins(SyntheticSkins&&) noexcept = default;
+SyntheticSkins& SyntheticSkins::operator=(SyntheticSkins&&) noexcept = default;
+
+int SyntheticSkins::size() const {
+  return state_->size;
+}
+
+std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
+  const synth::SkinPaint paint(seed, index);
+  const auto texels = static_cast<std::ptrdiff_t>(state_->atlas.size());
+  std::vector<std::uint8_t> bytes(3 * state_->atlas.size());
+  parallel_blocks(texels, 4096, [&](auto begin, auto end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const synth::ScreenColour colour = paint.at(state_->atlas[i]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double value = std::floor(255 * colour[static_cast<Eigen::Index>(c)] + 0.5);
+        bytes[3 * i + c] = static_cast<std::uint8_t>(value);
+      }
+    }
+  });
+  return bytes;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace crowdface {
+
+/// Colours of synthetic heads' skin, painted from who each of them is: tone, redness, brows, lips, stubble,
+/// cropped hair, lines and spots of age.
+class SyntheticSkins {
+ public:
+  /// \param size  side of the pictures in texels, 64 … 8,192. \throws BrokenPrecondition
+  explicit SyntheticSkins(int size);
+  ~SyntheticSkins();
+  SyntheticSkins(SyntheticSkins&&) noexcept;
+  SyntheticSkins& operator=(SyntheticSkins&&) noexcept;
+
+  int size() const;
+  /// The colours (sRGB) of head `index` of a seed, for the texture coordinates of SyntheticHeads: size ×
+  /// size × 3 bytes, row by row, first row at v = 1. The same bytes on every machine.
+  std::vector<std::uint8_t> albedo(std::uint64_t seed, std::uint64_t index) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace crowdface

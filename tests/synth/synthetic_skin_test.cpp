@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/synth/synthetic_skin.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/core/require.h"
+#include "crowdface/synth/complexion.h"
+#include "crowdface/synth/skin_atlas.h"
+#include "crowdface/synth/synthetic_head.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kSize = 256;
+using Colour = Eigen::Array3d;
+
+const SyntheticSkins& skins() {
+  static const SyntheticSkins only(kSize);
+  return only;
+}
+
+/// The mean colour of the texels that show the average head within `radius` cm of a place.
+Colour colour_near(const std::vector<std::uint8_t>& albedo, const Eigen::Vector3d& place,
+                   double radius) {
+  static const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kSize);
+  Colour sum = Colour::Zero();
+  double count = 0;
+  for (std::size_t i = 0; i < atlas.size(); ++i) {
+    if (!atlas[i].covered || (atlas[i].skin.position - place).norm() > radius) continue;
+    sum += Colour(albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2]);
+    count += 1;
+  }
+  EXPECT_GT(count, 3);
+  return sum / count;
+}
+
+const Eigen::Vector3d kForehead(0, 5, 9), kCheek(4.6, -3, 8), kLowerLip(0, -7.45, 10.2),
+    kChin(0, -10, 9.5), kCrown(0, 13, -1);
+
+TEST(SyntheticSkins, SameSeedSameBytesOnEveryMachine) {
+  const SyntheticSkins small(64);
+  const std::vector<std::uint8_t> albedo = small.albedo(3, 2);
+  EXPECT_EQ(albedo.size(), 64U * 64U * 3U);
+  EXPECT_EQ(albedo, small.albedo(3, 2));
+  EXPECT_NE(albedo, small.albedo(3, 3));
+  EXPECT_NE(albedo, small.albedo(4, 2));
+  EXPECT_EQ(Hasher().add_array(std::span(albedo)).digest().hex(),
+            "455b0647d56f923b2004a16e914d4866");
+}
+
+TEST(SyntheticSkins, EveryToneOccursAndShows) {
+  std::array<bool, 5> seen{};
+  double lightest = 0, darkest = 255;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const double tone = synth::draw_complexion(1, i).tone;
+    seen[static_cast<std::size_t>(5 * tone)] = true;
+    const double light = colour_near(skins().albedo(1, i), kForehead, 1.5).mean();
+    lightest = std::max(lightest, light);
+    darkest = std::min(darkest, light);
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), true), 5);
+  EXPECT_GT(lightest, 2 * darkest);
+}
+
+TEST(SyntheticSkins, LipsAreRedderThanTheForeheadAndCheeksAreNotGrey) {
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const std::vector<std::uint8_t> albedo = skins().albedo(1, i);
+    const auto redness = [&](const Eigen::Vector3d& place) {
+      const Colour colour = colour_near(albedo, place, 0.4);
+      return colour[0] / colour[1];
+    };
+    EXPECT_GT(redness(kLowerLip), redness(kForehead) + 0.05) << i;
+    EXPECT_GT(redness(kCheek), 1.1) << i;
+  }
+}
+
+/// The first head of seed 1 of this sex within these ages.
+std::uint64_t head_of(bool male, double from, double to) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const synth::Person person = synth::draw_person(1, i);
+    if ((person.male > 0) == male && person.age >= from && person.age < to) return i;
+  }
+  ADD_FAILURE() << "no such head";
+  return 0;
+}
+
+TEST(SyntheticSkins, MenHaveBeardsAndWomenHaveNone) {
+  const auto chin_against_forehead = [](std::uint64_t index) {
+    const std::vector<std::uint8_t> albedo = skins().albedo(1, index);
+    return colour_near(albedo, kChin, 0.8).mean() / colour_near(albedo, kForehead, 1.5).mean();
+  };
+  std::optional<std::uint64_t> bearded;
+  for (std::uint64_t i = 0; i < 100 && !bearded; ++i) {
+    if (synth::draw_complexion(1, i).beard == 1 && synth::draw_complexion(1, i).tone < 0.5)
+      bearded = i;
+  }
+  ASSERT_TRUE(bearded);
+  EXPECT_LT(chin_against_forehead(*bearded), 0.8);
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    if (synth::draw_person(1, i).male > 0) continue;
+    EXPECT_EQ(synth::draw_complexion(1, i).beard, 0) << i;
+  }
+  EXPECT_GT(chin_against_forehead(head_of(false, 18, 40)), 0.85);
+}
+
+TEST(SyntheticSkins, HairGoesGreyAndRecedesWithTheYears) {
+  double young = 0, old = 0, receding_young = 0, receding_old = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const synth::Person person = synth::draw_person(1, i);
+    const synth::Complexion look = synth::draw_complexion(1, i);
+    if (person.age < 35) young = std::max(young, look.hair.minCoeff());
+    if (person.age > 72) old = std::max(old, look.hair.minCoeff());
+    if (person.male > 0 && person.age < 30)
+      receding_young = std::max(receding_young, look.receding);
+    if (person.male > 0 && person.age > 70) receding_old = std::max(receding_old, look.receding);
+  }
+  EXPECT_GT(old, young + 0.1) << "blue of the hair";
+  EXPECT_GT(receding_old, receding_young + 0.3);
+}
+
+TEST(SyntheticSkins, ScalpHasHairInItsColour) {
+  const std::uint64_t woman = head_of(false, 18, 35);
+  const Colour hair = 255 * synth::draw_complexion(1, woman).hair;
+  const Colour crown = colour_near(skins().albedo(1, woman), kCrown, 2.5);
+  EXPECT_LT((crown - hair).abs().maxCoeff(), 25);
+}
+
+TEST(SkinAtlas, HoldsTheAverageHeadWhereItsVerticesLie) {
+  const SyntheticHeads heads(20'000);
+  const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kSize);
+  std::size_t covered = 0;
+  for (const synth::SkinPlace& place : atlas) {
+    covered += place.covered ? 1 : 0;
+    EXPECT_LT(place.skin.position.norm(), 30);
+    EXPECT_NEAR(place.skin.normal.norm(), 1, 1e-6);
+  }
+  EXPECT_GT(covered, atlas.size() / 2);
+  // Any head of any seed lies near the average one: compare through the texture coordinates.
+  const Positions head = heads.positions(1, 1);
+  const Topology& topology = heads.topology();
+  double sum = 0;
+  for (Index c = 0; c < topology.corner_count(); ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    const auto uv = heads.uvs().row(topology.corner_uvs[k]);
+    const auto x = static_cast<std::size_t>(std::min(uv.x() * kSize, kSize - 1.0));
+    const auto y = static_cast<std::size_t>(std::min((1 - uv.y()) * kSize, kSize - 1.0));
+    sum += (atlas[y * kSize + x].skin.position.transpose() - head.row(topology.corner_vertices[k]))
+               .norm();
+  }
+  EXPECT_LT(sum / static_cast<double>(topology.corner_count()), 1.2) << "centimetres";
+}
+
+TEST(SyntheticSkins, RefusesSizesOutOfRange) {
+  EXPECT_THROW(SyntheticSkins(63), BrokenPrecondition);
+  EXPECT_THROW(SyntheticSkins(8193), BrokenPrecondition);
+}
+
+}  // namespace
+}  // namespace crowdface
