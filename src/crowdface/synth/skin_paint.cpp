@@ -113,8 +113,8 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
 void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
   if (look_.freckles > 0) {
     const double where = patch(p, {2.6, -2.6}, {5.2, 3.6}) + 0.5 * patch(p, {0, 4}, {6, 4});
-    const double spot = smooth_step(0.35, 0.75, freckles_.at(p) + 0.25 * blotch_.at(p));
-    tint(colour, {0.80, 0.68, 0.58}, 0.8 * look_.freckles * std::min(1.0, 1.6 * where) * spot);
+    const double spot = smooth_step(0.42, 0.8, freckles_.at(p) + 0.25 * blotch_.at(p));
+    tint(colour, {0.80, 0.68, 0.58}, 0.5 * look_.freckles * std::min(1.0, 1.6 * where) * spot);
   }
   if (look_.age_spots > 0) {
     const double where = smooth_step(2.5, 6, p.y()) + 0.8 * patch(p, {6, -2}, {4, 5});
