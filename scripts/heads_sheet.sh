@@ -14,6 +14,8 @@ program=$(cd "$(dirname "$0")/.." && pwd)/build/release/bin/crowdface
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+texture=false
+if grep -qs '^map_Kd' "$heads"/*.mtl; then texture=true; fi
 names=()
 for file in "$heads"/*.obj; do names+=("$(basename "$file" .obj)"); done
 
@@ -32,7 +34,7 @@ for file in "$heads"/*.obj; do names+=("$(basename "$file" .obj)"); done
   echo "  directory: '$work/sheet'"
   echo "  meshes: []"
   echo "  contact_sheet: {columns: $columns, rows: $(((${#names[@]} + columns - 1) / columns))," \
-    "cell: $cell, views: [$views], texture: true}"
+    "cell: $cell, views: [$views], texture: $texture}"
 } >"$work/sheet.yaml"
 "$program" generate "$work/sheet.yaml" --quiet --cache "$work/cache"
 mkdir -p "$(dirname "$sheet")"

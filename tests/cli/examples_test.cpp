@@ -20,7 +20,10 @@ class Examples : public ::testing::Test {
     fs::copy(kSource / "configs", folder_ / "configs");
     fs::copy(kSource / "masks", folder_ / "masks");
     const fs::path heads = folder_ / "out/demo_heads";
-    crowdface(0, {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "8"}, {});
+    crowdface(
+        0,
+        {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "8", "--textures", "64"},
+        {});
     // Stand-ins for the heads that scripts/get_heads.sh brings; one UDIM tile is all they touch.
     for (const char* model : {"ict", "makehuman"}) {
       fs::create_directories(folder_ / "heads" / model);
