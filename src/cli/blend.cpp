@@ -8,6 +8,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/mesh_writers.h"
+#include "crowdface/run/pipeline.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -44,65 +45,63 @@ void check_levels(const Recipe& recipe, const Job& job, const std::string& refer
   }
 }
 
-void blend(const ConfigOptions& options, const std::string& reference, const std::string& out,
-           bool any_settings) {
-  const auto format = mesh_format_of(out);
+struct Options : CommonOptions {
+  ConfigOptions config;
+  std::string recipe, out;
+  bool any_settings = false;
+};
+
+void declare(CLI::App& command, Options& options) {
+  options.config.add_to(command);
+  add_option(command, "--recipe", options.recipe, "PLAN.jsonl#ID",
+             "Which: the plan's file, #, the face's id")
+      ->required();
+  add_option(command, "-o,--output", options.out, "OUT.obj|ply|glb|npy",
+             "The mesh to write; its ending says the format")
+      ->required();
+  command.add_flag("--any-settings", options.any_settings,
+                   "Blend even if heads, masks or smoothing differ from the plan's");
+}
+
+void blend(const Options& options) {
+  const auto format = mesh_format_of(options.out);
   if (!format) {
     throw UsageError(
         concat("--output: expected a file name that ends in .obj, .ply, .glb or .npy, "
                "found ",
-               quoted(out)));
+               quoted(options.out)));
   }
-  const std::filesystem::path file = output_file(out);
-  const Job job = load_job(options.config, options.overrides);
+  const std::filesystem::path file = output_file(options.out);
+  const Job job = load_job(options.config.config, options.config.overrides);
   refuse_to_write_over(input_files(job.config), file);
-  const PlanLine line = find_recipe(reference, job.names);
-  if (line.settings != job.settings.hex() && !any_settings) {
-    throw InvalidInput(concat(reference, ": was cast under other settings: expected ",
+  const PlanLine line = find_recipe(options.recipe, job.names);
+  if (line.settings != job.settings.hex() && !options.any_settings) {
+    throw InvalidInput(concat(options.recipe, ": was cast under other settings: expected ",
                               job.settings.hex(), " (heads, masks and smoothing of ",
-                              options.config, "), found ", line.settings,
+                              options.config.config, "), found ", line.settings,
                               "; --any-settings blends it all the same"));
   }
-  if (job.config.smoothing.levels != Levels::kExact) check_levels(line.face.recipe, job, reference);
+  if (job.config.smoothing.levels != Levels::kExact)
+    check_levels(line.face.recipe, job, options.recipe);
   Prepared prepared;
   if (job.config.smoothing.levels == Levels::kExact) {  // one face needs no prepared heads
     prepared.filter.emplace(job.smoothing, job.inputs.faces.heads.front().positions);
   } else {
-    prepared = prepare(job.config, job.inputs, job.smoothing, options.cache_path());
+    prepared = prepare(job.config, job.inputs, job.smoothing, options.config.cache_path());
   }
   const Recipe* recipe = &line.face.recipe;
   Positions positions;
-  FaceBuilder(job, prepared).build(std::span(&recipe, 1), std::span(&positions, 1));
+  FaceBuilder(job.config, job.inputs, prepared)
+      .build(std::span(&recipe, 1), std::span(&positions, 1));
   const MeshWriters writers(job.config, job.inputs, {*format}, {&line.face, 1});
   write_mesh(writers.encode(line.face, positions).front(), file);
-  log_info(concat(line.face.id, " written to ", out));
+  log_info(concat(line.face.id, " written to ", options.out));
 }
 
 }  // namespace
 
 Run add_blend(CLI::App& program) {
-  struct Options {
-    CommonOptions common;
-    ConfigOptions config;
-    std::string recipe, out;
-    bool any_settings = false;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("blend", "One face from its recipe in a plan");
-  options->config.add_to(*command);
-  command->add_option("--recipe", options->recipe, "Which: the plan's file, #, the face's id")
-      ->required()
-      ->type_name("PLAN.jsonl#ID");
-  command->add_option("-o,--output", options->out, "The mesh to write; its ending says the format")
-      ->required()
-      ->type_name("OUT.obj|ply|glb|npy");
-  command->add_flag("--any-settings", options->any_settings,
-                    "Blend even if heads, masks or smoothing differ from the plan's");
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    blend(options->config, options->recipe, options->out, options->any_settings);
-  };
+  return add_command(program, "blend", "One face from its recipe in a plan", declare, blend);
 }
 
 }  // namespace crowdface::cli

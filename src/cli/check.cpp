@@ -63,24 +63,22 @@ void write_masks(const Job& job, const std::filesystem::path& directory) {
 }  // namespace
 
 Run add_check(CLI::App& program) {
-  struct Options {
-    CommonOptions common;
+  struct Options : CommonOptions {
     ConfigOptions config;
     std::string masks;
   };
-  auto options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add_subcommand("check", "Validate config, heads and masks: every problem at once");
-  options->config.add_to(*command);
-  command->add_option("--masks", options->masks, "Render each region's mask on the mean head here")
-      ->type_name("DIR");
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    const Job job = load_job(options->config.config, options->config.overrides);
-    describe(job);
-    if (!options->masks.empty()) write_masks(job, options->masks);
-  };
+  return add_command<Options>(
+      program, "check", "Validate config, heads and masks: every problem at once",
+      [](CLI::App& command, Options& options) {
+        options.config.add_to(command);
+        add_option(command, "--masks", options.masks, "DIR",
+                   "Render each region's mask on the mean head here");
+      },
+      [](const Options& options) {
+        const Job job = load_job(options.config.config, options.config.overrides);
+        describe(job);
+        if (!options.masks.empty()) write_masks(job, options.masks);
+      });
 }
 
 }  // namespace crowdface::cli

@@ -17,13 +17,11 @@
 namespace crowdface::cli {
 namespace {
 
-/// Adds an option whose value is kept only if it was given.
+/// An option whose value is kept only if it was given.
 void add_optional(CLI::App& command, const std::string& name, std::optional<std::string>& value,
-                  const std::string& help, const std::string& type) {
-  command
-      .add_option_function<std::string>(
-          name, [&value](const std::string& text) { value = text; }, help)
-      ->type_name(type);
+                  const std::string& type, const std::string& help) {
+  const auto keep = [&value](const std::string& text) { value = text; };
+  command.add_option_function<std::string>(name, keep, help)->type_name(type);
 }
 
 /// Lines of a log begin with the date, 2026-11-22T: whatever does not is no log.
@@ -49,19 +47,27 @@ void open_log(const std::string& path) {
 
 }  // namespace
 
-void CommonOptions::add_to(CLI::App& command) {
-  command.add_option("--threads", threads, "Threads to use (default: all the machine has)")
-      ->type_name("N");
-  auto* quiet_flag = command.add_flag("-q,--quiet", quiet, "Only warnings and errors");
-  command.add_flag("-v,--verbose", verbose, "More about what happens")->excludes(quiet_flag);
-  command.add_option("--log-file", log_file, "Also write everything to this file")
-      ->type_name("FILE");
-  command
-      .add_option("--limit", limits,
-                  "How large inputs may be; may be repeated: " + describe_input_limits())
-      ->type_name("NAME=NUMBER")
+CLI::Option* add_option(CLI::App& command, const std::string& name, std::string& value,
+                        const std::string& type, const std::string& help) {
+  CLI::Option* option = command.add_option(name, value, help)->type_name(type);
+  return value.empty() ? option : option->capture_default_str();
+}
+
+void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                  const std::string& type, const std::string& help) {
+  command.add_option(name, values, help + "; may be repeated")
+      ->type_name(type)
       ->expected(1)
       ->take_all();
+}
+
+void CommonOptions::add_to(CLI::App& command) {
+  add_option(command, "--threads", threads, "N", "Threads to use (default: all the machine has)");
+  auto* quiet_flag = command.add_flag("-q,--quiet", quiet, "Only warnings and errors");
+  command.add_flag("-v,--verbose", verbose, "More about what happens")->excludes(quiet_flag);
+  add_option(command, "--log-file", log_file, "FILE", "Also write everything to this file");
+  add_repeated(command, "--limit", limits, "NAME=NUMBER",
+               "How large inputs may be: " + describe_input_limits());
 }
 
 std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
@@ -75,61 +81,41 @@ std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   return std::make_unique<ThreadLimit>(static_cast<int>(limit));
 }
 
+void CacheOption::add_to(CLI::App& command) {
+  add_option(command, "--cache", cache, "DIR", "Folder of prepared heads");
+}
+
+std::filesystem::path CacheOption::cache_path() const {
+  return cache.empty() ? cache_directory() : std::filesystem::path(cache);
+}
+
 void ConfigOptions::add_to(CLI::App& command) {
-  command.add_option("config", config, "The config file (docs/config.md)")
-      ->required()
-      ->type_name("CONFIG");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [this](const std::vector<std::string>& values) {
-            overrides.set.insert(overrides.set.end(), values.begin(), values.end());
-          },
-          "Override one config value, such as smoothing.boundary=free; may be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->expected(1)
-      ->take_all()
-      ->trigger_on_parse();
-  add_optional(command, "--seed", overrides.seed, "Override crowd.seed", "N");
-  add_optional(command, "--count", overrides.count, "Override crowd.count", "N");
-  add_optional(command, "--out", overrides.out, "Override output.directory", "DIR");
-  command.add_option("--cache", cache, "Folder of prepared heads")->type_name("DIR");
+  add_option(command, "config", config, "CONFIG", "The config file (docs/config.md)")->required();
+  add_repeated(command, "--set", overrides.set, "KEY.PATH=VALUE",
+               "Override one config value, such as smoothing.boundary=free");
+  add_optional(command, "--seed", overrides.seed, "N", "Override crowd.seed");
+  add_optional(command, "--count", overrides.count, "N", "Override crowd.count");
+  add_optional(command, "--out", overrides.out, "DIR", "Override output.directory");
+  CacheOption::add_to(command);
 }
 
 void ConfigOptions::add_review_to(CLI::App& command) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--review",
-          [this](const std::vector<std::string>& files) {
-            overrides.review.insert(overrides.review.end(), files.begin(), files.end());
-          },
-          "Draw the faces anew that this review rejects; may be repeated, in order")
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all()
-      ->trigger_on_parse();
-}
-
-std::filesystem::path ConfigOptions::cache_path() const {
-  return cache.empty() ? cache_directory() : std::filesystem::path(cache);
+  add_repeated(command, "--review", overrides.review, "FILE",
+               "Draw the faces anew that this review rejects, in order");
 }
 
 void WriteOptions::add_to(CLI::App& command) {
   command.add_flag("--force", force, "Replace another config's crowd in the output folder");
   command.add_flag("--dry-run", dry_run,
                    "Check everything, say what would be written, write nothing");
-  command
-      .add_option("--memory", memory,
-                  "How much the run may take, such as \"4 GiB\" (default: three quarters of what "
-                  "there is): sets how many faces are in flight; images take at most half of it")
-      ->type_name("SIZE");
+  add_option(command, "--memory", memory, "SIZE",
+             "How much the run may take, such as \"4 GiB\" (default: three quarters of what there "
+             "is): sets how many faces are in flight; images take at most half of it");
 }
 
 void WriteOptions::add_shard_to(CLI::App& command) {
-  command
-      .add_option("--shard", shard,
-                  "Only part I of N of the faces; `crowdface gather` puts the parts together")
-      ->type_name("I/N");
+  add_option(command, "--shard", shard, "I/N",
+             "Only part I of N of the faces; `crowdface gather` puts the parts together");
 }
 
 GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {

@@ -13,6 +13,8 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/run/generate.h"
 
+#include "cli/commands.h"
+
 namespace crowdface::cli {
 
 /// `--threads`, `--quiet`, `--verbose`, `--log-file`: every command has them. Numbers are taken as
@@ -29,16 +31,23 @@ struct CommonOptions {
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
 };
 
+/// `--cache`, the folder of prepared heads.
+struct CacheOption {
+  std::string cache;
+
+  void add_to(CLI::App& command);
+  /// That folder, or the usual one.
+  std::filesystem::path cache_path() const;
+};
+
 /// The config file and what the command line changes in it.
-struct ConfigOptions {
+struct ConfigOptions : CacheOption {
   std::string config;
   ConfigOverrides overrides;
-  std::string cache;
 
   void add_to(CLI::App& command);
   /// `--review`, of commands that cast.
   void add_review_to(CLI::App& command);
-  std::filesystem::path cache_path() const;
 };
 
 /// `--force` and `--dry-run`, of commands that fill a crowd's folder.
@@ -54,8 +63,33 @@ struct WriteOptions {
   GenerateOptions with_cache(const std::filesystem::path& cache) const;
 };
 
+/// An option with a value, "-o,--output", or an argument, "config". A default that stands in `value`
+/// is shown. \param type  "DIR", what help calls the value.
+CLI::Option* add_option(CLI::App& command, const std::string& name, std::string& value,
+                        const std::string& type, const std::string& help);
+
+/// An option that may be repeated; its values come one after the other.
+void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                  const std::string& type, const std::string& help);
+
 /// A whole number between the two, or \throws UsageError naming the option.
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
                            std::uint64_t most);
+
+/// Adds a command.
+/// \tparam Options  CommonOptions, which every command has, and its own.
+/// \param declare   adds its own options, which are read into these Options.
+template <class Options>
+Run add_command(CLI::App& program, const char* name, const char* description,
+                void (*declare)(CLI::App&, Options&), void (*work)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(name, description);
+  declare(*command, *options);
+  options->CommonOptions::add_to(*command);
+  return [options, work] {
+    const auto threads = options->apply();
+    work(*options);
+  };
+}
 
 }  // namespace crowdface::cli

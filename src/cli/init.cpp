@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <memory>
 #include <system_error>
 
 #include "crowdface/config/input_files.h"
@@ -72,7 +71,19 @@ std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
   return found;
 }
 
-void init(const fs::path& heads, const fs::path& out, bool force) {
+struct Options : CommonOptions {
+  std::string heads, out = "crowd.yaml";
+  bool force = false;
+};
+
+void declare(CLI::App& command, Options& options) {
+  add_option(command, "heads", options.heads, "HEADS_DIR", "The folder")->required();
+  add_option(command, "-o,--output", options.out, "CONFIG", "The config to write");
+  command.add_flag("--force", options.force, "Replace an existing file");
+}
+
+void init(const Options& options) {
+  const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
   if (files.size() < kFewestHeads || files.size() > kMostHeads) {
     throw MissingInput(concat(heads.string(), ": expected ", kFewestHeads, " to ", kMostHeads,
@@ -86,7 +97,7 @@ void init(const fs::path& heads, const fs::path& out, bool force) {
   beside.push_back(heads / mask);
   beside.push_back(heads / "tags.yaml");
   refuse_to_write_over(beside, file);
-  if (fs::exists(file, ignored) && !force) {
+  if (fs::exists(file, ignored) && !options.force) {
     throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
   }
   const Positions first = read_obj(files[0]).positions;
@@ -113,24 +124,8 @@ void init(const fs::path& heads, const fs::path& out, bool force) {
 }  // namespace
 
 Run add_init(CLI::App& program) {
-  struct Options {
-    CommonOptions common;
-    std::string heads, out = "crowd.yaml";
-    bool force = false;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add_subcommand("init", "Write a commented starter config for a folder of heads");
-  command->add_option("heads", options->heads, "The folder")->required()->type_name("HEADS_DIR");
-  command->add_option("-o,--output", options->out, "The config to write")
-      ->type_name("CONFIG")
-      ->capture_default_str();
-  command->add_flag("--force", options->force, "Replace an existing file");
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    init(options->heads, options->out, options->force);
-  };
+  return add_command(program, "init", "Write a commented starter config for a folder of heads",
+                     declare, init);
 }
 
 }  // namespace crowdface::cli

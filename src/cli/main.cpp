@@ -23,9 +23,8 @@
 
 #include "cli/commands.h"
 
+namespace crowdface::cli {
 namespace {
-
-using crowdface::ExitCode;
 
 constexpr const char* kDescription =
     "Crowds of believable faces from a handful of scanned heads.\n"
@@ -42,25 +41,25 @@ constexpr const char* kFooter =
     "`crowdface COMMAND --help` explains a command; docs/config.md explains every config key.";
 
 /// The one place where errors become messages and exit codes.
-int run(const crowdface::cli::Run& command) {
+int run(const Run& command) {
   try {
     command();
-    if (const auto failed = crowdface::log_failure()) {
-      throw crowdface::IoError(crowdface::concat("the log is not whole: ", *failed));
+    if (const auto failed = log_failure()) {
+      throw IoError(concat("the log is not whole: ", *failed));
     }
-    if (!std::cout.flush()) throw crowdface::IoError("standard output: writing failed");
+    if (!std::cout.flush()) throw IoError("standard output: writing failed");
     return static_cast<int>(ExitCode::kDone);
-  } catch (const crowdface::Error& error) {
-    crowdface::log_error(error.what());
+  } catch (const Error& error) {
+    log_error(error.what());
     return static_cast<int>(error.code());
   } catch (const std::filesystem::filesystem_error& error) {
-    crowdface::log_error(error.what());
+    log_error(error.what());
     return static_cast<int>(ExitCode::kIoError);
   } catch (const std::bad_alloc&) {
-    crowdface::log_error("out of memory; fewer threads (--threads) need less");
+    log_error("out of memory; fewer threads (--threads) need less");
     return static_cast<int>(ExitCode::kIoError);
   } catch (const std::exception& error) {
-    crowdface::log_error(crowdface::concat("internal error, please report it: ", error.what()));
+    log_error(concat("internal error, please report it: ", error.what()));
     return static_cast<int>(ExitCode::kBug);
   }
 }
@@ -71,11 +70,10 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  const auto nearest = crowdface::nearest_word(argv[1], names);
-  throw crowdface::UsageError(
-      crowdface::concat("there is no command ", crowdface::quoted(argv[1]),
-                        nearest ? crowdface::concat("; did you mean ", *nearest, "?")
-                                : crowdface::concat("; expected one of ", crowdface::join(names))));
+  const auto nearest = nearest_word(argv[1], names);
+  throw UsageError(concat("there is no command ", quoted(argv[1]),
+                          nearest ? concat("; did you mean ", *nearest, "?")
+                                  : concat("; expected one of ", join(names))));
 }
 
 /// A file opened while one of them is closed would get its number, and then what is said to a user.
@@ -87,26 +85,20 @@ void open_standard_streams() {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   open_standard_streams();
   // A file beyond the limit and a closed pipe are failed writes, with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  crowdface::give_back_large_blocks();
+  give_back_large_blocks();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
-  program.set_version_flag("--version", std::string("crowdface ") + crowdface::kVersion);
+  program.set_version_flag("--version", std::string("crowdface ") + kVersion);
   program.require_subcommand(1);
-  crowdface::cli::Run chosen;
-  using crowdface::cli::Run;
+  Run chosen;
   for (Run (*add)(CLI::App&) :
-       {crowdface::cli::add_generate, crowdface::cli::add_check, crowdface::cli::add_init,
-        crowdface::cli::add_plan, crowdface::cli::add_prepare, crowdface::cli::add_blend,
-        crowdface::cli::add_smooth, crowdface::cli::add_gather, crowdface::cli::add_verify,
-        crowdface::cli::add_sheet, crowdface::cli::add_synth, crowdface::cli::add_import,
-        crowdface::cli::add_cache, crowdface::cli::add_wrap}) {
+       {add_generate, add_check, add_init, add_plan, add_prepare, add_blend, add_smooth, add_gather,
+        add_verify, add_sheet, add_synth, add_import, add_cache, add_wrap}) {
     const std::size_t before = program.get_subcommands({}).size();
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(
@@ -122,12 +114,19 @@ int main(int argc, char** argv) {
     if (program.exit(error) != 0) return static_cast<int>(ExitCode::kUsage);
     return run([] {});
   }
-  crowdface::catch_interrupts();
+  catch_interrupts();
   return run([&] {
     if (const char* set =
             std::getenv("CROWDFACE_INSTRUCTION_SET")) {  // NOLINT(concurrency-mt-unsafe): at start
-      crowdface::use_instruction_set(set);
+      use_instruction_set(set);
     }
     chosen();
   });
+}
+
+}  // namespace
+}  // namespace crowdface::cli
+
+int main(int argc, char** argv) {
+  return crowdface::cli::run_program(argc, argv);
 }

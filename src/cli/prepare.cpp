@@ -41,29 +41,25 @@ void refuse_heads_not_kept(const Prepared& prepared, const std::vector<std::stri
 }  // namespace
 
 Run add_prepare(CLI::App& program) {
-  struct Options {
-    CommonOptions common;
+  struct Options : CommonOptions {
     ConfigOptions config;
   };
-  auto options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add_subcommand("prepare", "Smooth and fit the heads only, into the cache");
-  options->config.add_to(*command);
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    const Job job = load_job(options->config.config, options->config.overrides);
-    const std::filesystem::path cache = options->config.cache_path();
-    make_directories(cache);
-    const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
-    refuse_heads_not_kept(prepared, job.names.heads, cache);
-    const double size =
-        size_of_iterations(job.smoothing.kind(), job.inputs.max_level, job.inputs.edge_length_mm);
-    log_info(concat("L_max is ", job.inputs.max_level, " iterations, a size of ",
-                    format_fixed(size, 1), " mm on edges of ",
-                    format_fixed(job.inputs.edge_length_mm, 2), " mm"));
-    if (job.config.smoothing.levels == Levels::kBasis) tell_errors(job, prepared);
-  };
+  return add_command<Options>(
+      program, "prepare", "Smooth and fit the heads only, into the cache",
+      [](CLI::App& command, Options& options) { options.config.add_to(command); },
+      [](const Options& options) {
+        const Job job = load_job(options.config.config, options.config.overrides);
+        const std::filesystem::path cache = options.config.cache_path();
+        make_directories(cache);
+        const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+        refuse_heads_not_kept(prepared, job.names.heads, cache);
+        const double size = size_of_iterations(job.smoothing.kind(), job.inputs.max_level,
+                                               job.inputs.edge_length_mm);
+        log_info(concat("L_max is ", job.inputs.max_level, " iterations, a size of ",
+                        format_fixed(size, 1), " mm on edges of ",
+                        format_fixed(job.inputs.edge_length_mm, 2), " mm"));
+        if (job.config.smoothing.levels == Levels::kBasis) tell_errors(job, prepared);
+      });
 }
 
 }  // namespace crowdface::cli

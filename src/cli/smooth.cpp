@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <vector>
 
 #include "crowdface/blend/recipe_bounds.h"
@@ -22,8 +21,7 @@
 namespace crowdface::cli {
 namespace {
 
-struct Options {
-  CommonOptions common;
+struct Options : CommonOptions {
   std::string in, out, iterations;
   Boundary boundary = Boundary::kFixed;
   OperatorKind operator_kind = OperatorKind::kUmbrella;
@@ -91,34 +89,25 @@ void add_word_option(CLI::App& command, const char* name, Value& value, const ch
       ->default_str(std::string(word_of(value)));
 }
 
+void declare(CLI::App& command, Options& options) {
+  add_option(command, "input", options.in, "IN.obj", "The mesh")->required();
+  add_option(command, "--iterations", options.iterations, "L[,L...]",
+             "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
+             "and go to OUT_500.obj, OUT_2500.obj")
+      ->required();
+  add_option(command, "-o,--output", options.out, "OUT.obj", "The mesh to write")->required();
+  add_word_option(command, "--boundary", options.boundary, "Open rims stay (fixed) or move (free)");
+  add_word_option(command, "--operator", options.operator_kind,
+                  "The mean of the neighbours (umbrella), or half-way to it (lazy)");
+  command.add_flag("--plain", options.plain,
+                   "Iterate one by one instead of filtering: slow, for comparison");
+}
+
 }  // namespace
 
 Run add_smooth(CLI::App& program) {
-  auto options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add_subcommand("smooth", "Laplacian smoothing on its own: S_L of one mesh (Eq. 1)");
-  command->add_option("input", options->in, "The mesh")->required()->type_name("IN.obj");
-  command
-      ->add_option(
-          "--iterations", options->iterations,
-          "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
-          "and go to OUT_500.obj, OUT_2500.obj")
-      ->required()
-      ->type_name("L[,L...]");
-  command->add_option("-o,--output", options->out, "The mesh to write")
-      ->required()
-      ->type_name("OUT.obj");
-  add_word_option(*command, "--boundary", options->boundary,
-                  "Open rims stay (fixed) or move (free)");
-  add_word_option(*command, "--operator", options->operator_kind,
-                  "The mean of the neighbours (umbrella), or half-way to it (lazy)");
-  command->add_flag("--plain", options->plain,
-                    "Iterate one by one instead of filtering: slow, for comparison");
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    smooth_file(*options);
-  };
+  return add_command(program, "smooth", "Laplacian smoothing on its own: S_L of one mesh (Eq. 1)",
+                     declare, smooth_file);
 }
 
 }  // namespace crowdface::cli

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <system_error>
 
@@ -28,8 +27,7 @@ constexpr std::uint64_t kFewestVertices = 5000, kMostVertices = 1'200'000;
 constexpr int kMaskSize = 1024;
 constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
 
-struct Options {
-  CommonOptions common;
+struct Options : CommonOptions {
   std::string out, count = "8", vertices = "20000", seed = "1", mask, textures;
   bool tags = false, skin_only = false, force = false;
 };
@@ -110,43 +108,29 @@ void synth(const Options& options) {
                   directory.string(), ", their regions in ", mask.string()));
 }
 
+void declare(CLI::App& command, Options& options) {
+  add_option(command, "-o,--output", options.out, "DIR", "The folder to write to")->required();
+  add_option(command, "--count", options.count, "N", "How many heads");
+  add_option(command, "--vertices", options.vertices, "V",
+             "About how many vertices each, 5000 to 1200000");
+  add_option(command, "--seed", options.seed, "S",
+             "Which heads; the same seed gives the same heads");
+  add_option(command, "--mask", options.mask, "FILE",
+             "Where the region mask goes (default: DIR/regions.png)");
+  add_option(command, "--textures", options.textures, "SIZE",
+             "Paint each head's skin, pictures of this side in texels: NAME_albedo.png, NAME.mtl");
+  command.add_flag("--skin-only", options.skin_only,
+                   "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
+  command.add_flag("--tags", options.tags,
+                   "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
+  command.add_flag("--force", options.force, "Replace files that hold something else");
+}
+
 }  // namespace
 
 Run add_synth(CLI::App& program) {
-  auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "synth", "Synthetic heads in one topology, with UVs and a region mask");
-  command->add_option("-o,--output", options->out, "The folder to write to")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--count", options->count, "How many heads")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      ->add_option("--vertices", options->vertices, "About how many vertices each, 5000 to 1200000")
-      ->type_name("V")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Which heads; the same seed gives the same heads")
-      ->type_name("S")
-      ->capture_default_str();
-  command
-      ->add_option("--mask", options->mask, "Where the region mask goes (default: DIR/regions.png)")
-      ->type_name("FILE");
-  command
-      ->add_option(
-          "--textures", options->textures,
-          "Paint each head's skin, pictures of this side in texels: NAME_albedo.png, NAME.mtl")
-      ->type_name("SIZE");
-  command->add_flag("--skin-only", options->skin_only,
-                    "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
-  command->add_flag("--tags", options->tags,
-                    "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
-  command->add_flag("--force", options->force, "Replace files that hold something else");
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    synth(*options);
-  };
+  return add_command(program, "synth",
+                     "Synthetic heads in one topology, with UVs and a region mask", declare, synth);
 }
 
 }  // namespace crowdface::cli

@@ -21,38 +21,38 @@ std::string count(std::size_t number, const char* what) {
   return concat(number, ' ', what);
 }
 
+struct Options : CommonOptions {
+  std::string directory;
+};
+
+void declare(CLI::App& command, Options& options) {
+  add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder")
+      ->required();
+}
+
+void verify(const Options& options) {
+  const CrowdCheck check = verify_crowd(options.directory);
+  tell("missing: ", check.missing);
+  tell("altered: ", check.altered);
+  tell("not finished: ", check.unfinished);
+  tell("", check.remarks);
+  if (!check.good()) {
+    throw InvalidInput(concat(options.directory, ": of ", check.files, " files ",
+                              count(check.missing.size(), "missing, "),
+                              count(check.altered.size(), "altered; "),
+                              count(check.unfinished.size(), "not finished"),
+                              check.remarks.empty() ? "" : "; " + join(check.remarks, "; "),
+                              "; crowdface generate with the crowd's config mends that"));
+  }
+  std::cout << options.directory << ": all " << check.files << " files are as they were written\n";
+}
+
 }  // namespace
 
 Run add_verify(CLI::App& program) {
-  struct Options {
-    CommonOptions common;
-    std::string directory;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "verify", "A finished crowd against its ledger: what is missing, what is altered");
-  command->add_option("directory", options->directory, "The crowd's folder")
-      ->required()
-      ->type_name("CROWD_DIR");
-  options->common.add_to(*command);
-  return [options] {
-    const auto threads = options->common.apply();
-    const CrowdCheck check = verify_crowd(options->directory);
-    tell("missing: ", check.missing);
-    tell("altered: ", check.altered);
-    tell("not finished: ", check.unfinished);
-    tell("", check.remarks);
-    if (!check.good()) {
-      throw InvalidInput(concat(options->directory, ": of ", check.files, " files ",
-                                count(check.missing.size(), "missing, "),
-                                count(check.altered.size(), "altered; "),
-                                count(check.unfinished.size(), "not finished"),
-                                check.remarks.empty() ? "" : "; " + join(check.remarks, "; "),
-                                "; crowdface generate with the crowd's config mends that"));
-    }
-    std::cout << options->directory << ": all " << check.files
-              << " files are as they were written\n";
-  };
+  return add_command(program, "verify",
+                     "A finished crowd against its ledger: what is missing, what is altered",
+                     declare, verify);
 }
 
 }  // namespace crowdface::cli

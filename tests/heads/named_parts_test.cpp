@@ -11,6 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/generate.h"
+#include "crowdface/run/pipeline.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
@@ -83,7 +84,7 @@ TEST(PartsOfAJob, HaveTheSameBytesOnAnyThreadsAndAlone) {
     }
     const Job job = load_job(folder.config(), {});
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, folder.cache());
-    const FaceBuilder builder(job, prepared);
+    const FaceBuilder builder(job.config, job.inputs, prepared);
     const auto plan = read_plan(folder / "many/plan.jsonl", job.names);
     std::vector<const Recipe*> recipes;
     for (const PlanLine& line : plan) recipes.push_back(&line.face.recipe);

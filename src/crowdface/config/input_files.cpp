@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/utf8.h"
 #include "crowdface/io/mesh_format.h"
@@ -37,18 +38,10 @@ bool is_plain_text(std::string_view text) {
 
 std::vector<fs::path> list_heads(const fs::path& folder) {
   std::error_code error;
-  std::vector<fs::path> files;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (is_head(it->path())) files.push_back(it->path());
-  }
-  if (error) {
-    throw MissingInput(
-        concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
-  }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return a.filename().string() < b.filename().string();
-  });
-  return files;
+  std::vector<fs::path> files = list_files(folder, is_head, &error);
+  if (!error) return files;
+  throw MissingInput(
+      concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
 }
 
 std::vector<fs::path> input_files(const Config& config) {

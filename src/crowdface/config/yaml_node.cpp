@@ -7,6 +7,10 @@
 
 namespace crowdface {
 
+std::string YamlPlace::text() const {
+  return line == 0 ? *source : concat(*source, ':', line, ':', column);
+}
+
 const YamlEntry* YamlNode::find(std::string_view key) const {
   const auto found =
       std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.key == key; });

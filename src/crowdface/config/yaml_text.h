@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/config/yaml_place.h"
+#include "crowdface/config/yaml_node.h"
 
 namespace crowdface {
 

@@ -8,6 +8,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/list_files.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/ledger.h"
@@ -24,61 +25,6 @@ void remove_file(const fs::path& path) {
   fs::remove(path, error);  // a file that is not there is no error; a folder goes only if empty
   if (error && error != std::errc::directory_not_empty) {
     throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
-  }
-}
-
-void remove_all_with(const fs::path& folder, const char* extension) {
-  std::error_code ignored;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == extension) files.push_back(entry.path());
-  }
-  for (const fs::path& file : files) remove_file(file);
-}
-
-/// Pictures of heads and the gallery: folders that hold nothing but what we write.
-void remove_pictures(const CrowdDirectory& directory) {
-  for (const fs::path& folder :
-       {directory.head_render("").parent_path(), directory.founder_render("").parent_path()}) {
-    remove_all_with(folder, ".png");
-    remove_file(folder);
-  }
-  for (const fs::path& folder :
-       {directory.gallery_face("").parent_path(), directory.gallery_head("").parent_path(),
-        directory.gallery() / "data"}) {
-    remove_all_with(folder, ".js");
-    remove_file(folder);
-  }
-  for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);
-  remove_file(directory.gallery());
-  remove_file(directory.likeness());
-}
-
-/// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
-/// stay: they are the input's own, and written anew if they are needed.)
-void remove_crowd(const CrowdDirectory& directory) {
-  std::error_code ignored;
-  if (fs::exists(directory.plan(), ignored)) {
-    for (const std::string& id : ids_in_plan(read_file(directory.plan()))) {
-      for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
-      remove_file(directory.render(id));
-    }
-  }
-  std::vector<fs::path> sheets;
-  for (const auto& entry : fs::directory_iterator(directory.sheets(), ignored)) {
-    if (is_sheet_file(entry.path())) sheets.push_back(entry.path());
-  }
-  for (const fs::path& sheet : sheets) remove_file(sheet);
-  for (const char* array : kTopologyArrays) remove_file(directory.topology() / array);
-  for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
-  for (const fs::path& path : directory.shard_logs()) remove_file(path);
-  remove_pictures(directory);
-  for (const fs::path& path :
-       {directory.topology(), directory.sheets(), directory.renders(), directory.meshes(),
-        directory.report(), directory.casting(), directory.timings(), directory.table(),
-        directory.founders(), directory.plan(), directory.ledger(), directory.log(),
-        directory.config()}) {
-    remove_file(path);
   }
 }
 
@@ -100,6 +46,38 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
 std::vector<fs::path> record_files(const CrowdDirectory& directory) {
   return {directory.plan(),   directory.founders(), directory.table(),    directory.casting(),
           directory.report(), directory.ledger(),   directory.likeness(), directory.timings()};
+}
+
+/// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
+/// stay: they are the input's own, and written anew if they are needed.)
+void remove_crowd(const CrowdDirectory& directory) {
+  std::error_code ignored;
+  if (fs::exists(directory.plan(), ignored)) {
+    for (const std::string& id : ids_in_plan(read_file(directory.plan()))) {
+      for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
+      remove_file(directory.render(id));
+    }
+  }
+  const auto remove_files = [](const fs::path& folder, const auto& is_ours) {
+    for (const fs::path& file : list_files(folder, is_ours)) remove_file(file);
+  };
+  remove_files(directory.sheets(), is_sheet_file);
+  remove_files(directory.head_render("").parent_path(), has_ending(".png"));
+  remove_files(directory.founder_render("").parent_path(), has_ending(".png"));
+  for (const fs::path& folder :
+       {directory.gallery_face("").parent_path(), directory.gallery_head("").parent_path(),
+        directory.gallery() / "data"}) {
+    remove_files(folder, has_ending(".js"));
+  }
+  for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);
+  for (const char* array : kTopologyArrays) remove_file(directory.topology() / array);
+  const std::vector<fs::path> folders = crowd_folders(directory);
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) remove_file(*folder);
+  for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
+  for (const fs::path& path : directory.shard_logs()) remove_file(path);
+  for (const fs::path& path : record_files(directory)) remove_file(path);
+  remove_file(directory.log());
+  remove_file(directory.config());
 }
 
 /// \throws CannotCreate if something stands in the way of a folder or file of the crowd.
@@ -158,20 +136,16 @@ fs::path of_shard(const fs::path& path, const Shard& shard) {
 
 std::vector<fs::path> of_all_shards(const fs::path& path) {
   const std::string start = path.stem().string() + "-", end = path.extension().string();
-  std::vector<fs::path> found;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(path.parent_path(), ignored)) {
-    std::string name = entry.path().filename().string();
+  return list_files(path.parent_path(), [&](const fs::path& file) {
+    std::string name = file.filename().string();
     if (name.size() <= start.size() + end.size() || !name.starts_with(start) ||
         !name.ends_with(end)) {
-      continue;
+      return false;
     }
     name = name.substr(start.size(), name.size() - start.size() - end.size());
     const std::size_t of = name.find("of");
-    if (of != name.npos && parse_shard(name.replace(of, 2, "/"))) found.push_back(entry.path());
-  }
-  std::sort(found.begin(), found.end());
-  return found;
+    return of != name.npos && parse_shard(name.replace(of, 2, "/"));
+  });
 }
 
 /// Nothing that a run writes, appends to or removes is reached by a link that leads elsewhere.

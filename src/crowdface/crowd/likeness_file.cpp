@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/crowd/likeness_file.h"
 
+#include <stdexcept>
 #include <unordered_map>
 
 #include <nlohmann/json.hpp>
@@ -12,60 +13,8 @@
 #include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
-namespace {
 
 using Json = nlohmann::ordered_json;
-
-class LikenessReader {
- public:
-  LikenessReader(const std::filesystem::path& path, const PlanNames& names,
-                 const std::vector<std::string>& ids)
-      : path_(path), names_(names), ids_(ids) {
-    for (std::size_t i = 0; i < ids.size(); ++i) rows_.emplace(ids[i], i);
-  }
-
-  CrowdLikeness read() const {
-    const Json json = parse_shallow_json(read_file(path_));
-    CrowdLikeness result;
-    try {
-      for (const std::string& head : names_.heads) {
-        const Json& anchor = json.at("heads").at(head);
-        result.anchors.emplace_back(anchor.at(0).get<double>(), anchor.at(1).get<double>());
-      }
-      for (const Json& id : json.at("order")) result.likeness.order.push_back(row(id));
-      for (const std::string& id : ids_) {
-        std::vector<Neighbour>& near = result.likeness.near.emplace_back();
-        for (const auto& [other, mm] : json.at("nearest").at(id).items()) {
-          near.push_back({row(other), mm.get<double>()});
-        }
-      }
-    } catch (const Json::exception&) {
-      fail();
-    }
-    if (result.likeness.order.size() != ids_.size()) fail();
-    return result;
-  }
-
- private:
-  std::size_t row(const std::string& id) const {
-    const auto found = rows_.find(id);
-    if (found == rows_.end()) fail();
-    return found->second;
-  }
-
-  [[noreturn]] void fail() const {
-    throw InvalidInput(concat(path_.string(),
-                              ": expected the likeness of the faces in plan.jsonl, ",
-                              "found something else; crowdface generate writes it anew"));
-  }
-
-  const std::filesystem::path& path_;
-  const PlanNames& names_;
-  const std::vector<std::string>& ids_;
-  std::unordered_map<std::string, std::size_t> rows_;
-};
-
-}  // namespace
 
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points) {
@@ -98,7 +47,28 @@ std::string format_likeness(const CrowdLikeness& likeness, const PlanNames& name
 
 CrowdLikeness read_likeness(const std::filesystem::path& path, const PlanNames& names,
                             const std::vector<std::string>& ids) {
-  return LikenessReader(path, names, ids).read();
+  std::unordered_map<std::string, std::size_t> rows;
+  for (std::size_t i = 0; i < ids.size(); ++i) rows.emplace(ids[i], i);
+  const Json json = parse_shallow_json(read_file(path));
+  CrowdLikeness result;
+  try {
+    for (const std::string& head : names.heads) {
+      const Json& anchor = json.at("heads").at(head);
+      result.anchors.emplace_back(anchor.at(0).get<double>(), anchor.at(1).get<double>());
+    }
+    for (const Json& id : json.at("order")) result.likeness.order.push_back(rows.at(id));
+    for (const std::string& id : ids) {
+      std::vector<Neighbour>& near = result.likeness.near.emplace_back();
+      for (const auto& [other, mm] : json.at("nearest").at(id).items()) {
+        near.push_back({rows.at(other), mm.get<double>()});
+      }
+    }
+    if (result.likeness.order.size() == ids.size()) return result;
+  } catch (const Json::exception&) {    // of another shape
+  } catch (const std::out_of_range&) {  // names another crowd's face
+  }
+  throw InvalidInput(concat(path.string(), ": expected the likeness of the faces in plan.jsonl, ",
+                            "found something else; crowdface generate writes it anew"));
 }
 
 }  // namespace crowdface

@@ -10,6 +10,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/smooth/cubic_fit.h"
 
@@ -181,17 +182,18 @@ void write_cached_head(const fs::path& cache, const Digest& key, const HeadCache
 }
 
 CacheContents list_cache(const fs::path& cache) {
-  CacheContents contents;
   std::error_code error, ignored;
-  for (const auto& entry : fs::directory_iterator(cache, error)) {
-    if (entry.path().extension() != kEnding || !entry.is_regular_file(ignored)) continue;
-    contents.entries.push_back(entry.path());
-    contents.bytes += entry.file_size(ignored);
-  }
+  CacheContents contents;
+  contents.entries = list_files(
+      cache,
+      [&](const fs::path& path) {
+        return path.extension() == kEnding && fs::is_regular_file(path, ignored);
+      },
+      &error);
   if (error && error != std::errc::no_such_file_or_directory) {
     throw MissingInput(concat(cache.string(), ": cannot be read as a folder: ", error.message()));
   }
-  std::sort(contents.entries.begin(), contents.entries.end());
+  for (const fs::path& entry : contents.entries) contents.bytes += fs::file_size(entry, ignored);
   return contents;
 }
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/face_json.h"
@@ -107,15 +108,12 @@ void add_eyes(const Config& config, const Inputs& inputs, const ReducedMesh& mes
                   {"colour", colour(SurfaceKind::kIris)}};
 }
 
-/// Scripts of faces that the crowd no longer has.
+/// Removes scripts of faces that the crowd no longer has.
 void remove_others(const fs::path& folder, const std::set<std::string>& names) {
   std::error_code ignored;
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const fs::path& path = entry.path();
-    if (path.extension() == ".js" && !names.contains(path.stem().string())) old.push_back(path);
+  for (const fs::path& path : list_files(folder, has_ending(".js"))) {
+    if (!names.contains(path.stem().string())) fs::remove(path, ignored);
   }
-  for (const fs::path& path : old) fs::remove(path, ignored);
 }
 
 }  // namespace

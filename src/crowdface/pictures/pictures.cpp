@@ -6,6 +6,7 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
+#include "crowdface/core/list_files.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
@@ -88,20 +89,16 @@ std::size_t CrowdPictures::finish(const std::vector<CastFace>& crowd,
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory) {
   std::vector<std::filesystem::path> files = {directory.likeness()};
   const auto add = [&](const std::filesystem::path& folder, const auto& is_ours) {
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-      if (entry.is_regular_file() && is_ours(entry.path())) files.push_back(entry.path());
+    for (std::filesystem::path& file : list_files(folder, is_ours)) {
+      if (std::filesystem::is_regular_file(file)) files.push_back(std::move(file));
     }
   };
-  const auto ends_in = [](const char* ending) {
-    return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
-  };
   add(directory.sheets(), is_sheet_file);
-  add(directory.head_render("").parent_path(), ends_in(".png"));
-  add(directory.founder_render("").parent_path(), ends_in(".png"));
+  add(directory.head_render("").parent_path(), has_ending(".png"));
+  add(directory.founder_render("").parent_path(), has_ending(".png"));
   add(directory.gallery(), is_gallery_page_file);
-  add(directory.gallery() / "data", ends_in(".js"));
-  add(directory.gallery_head("").parent_path(), ends_in(".js"));
+  add(directory.gallery() / "data", has_ending(".js"));
+  add(directory.gallery_head("").parent_path(), has_ending(".js"));
   std::sort(files.begin(), files.end());
   return files;
 }

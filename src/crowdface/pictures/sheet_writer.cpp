@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/image.h"
@@ -93,16 +94,12 @@ void SheetWriter::finish_volume(bool is_last) {
 
 void SheetWriter::finish() {
   finish_volume(true);
-  std::error_code ignored;
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (is_sheet_file(entry.path()) &&
-        std::find(written_.begin(), written_.end(), name) == written_.end()) {
-      old.push_back(entry.path());
-    }
+  for (const std::filesystem::path& path : list_files(folder_, is_sheet_file)) {
+    const std::string name = path.filename().string();
+    if (std::find(written_.begin(), written_.end(), name) != written_.end()) continue;
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
   }
-  for (const std::filesystem::path& path : old) std::filesystem::remove(path, ignored);
 }
 
 }  // namespace crowdface

@@ -10,7 +10,6 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
-#include "crowdface/run/mesh_judge.h"
 
 namespace crowdface {
 namespace {
@@ -152,8 +151,8 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   return advice;
 }
 
-[[noreturn]] void tell_shortfall(const Job& job, const Remedy& remedy, const Shortfall& shortfall) {
-  const Config& config = job.config;
+[[noreturn]] void tell_shortfall(const Config& config, const Remedy& remedy,
+                                 const Shortfall& shortfall) {
   const std::uint64_t thrown = shortfall.rejections.total();
   const std::uint64_t by_main =
       shortfall.rejections.count[static_cast<std::size_t>(remedy.binding)];
@@ -185,9 +184,7 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
 
 }  // namespace
 
-CastingSpace casting_space(const Job& job, const Prepared& prepared) {
-  const Inputs& inputs = job.inputs;
-  const Config& config = job.config;
+CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   const Positions mean = mean_head(inputs.faces);
   const std::vector<double> areas =
       face_areas(inputs.faces.topology, inputs.skin, mean, config.distance.area, config.faces.front,
@@ -201,28 +198,37 @@ CastingSpace casting_space(const Job& job, const Prepared& prepared) {
   return {std::move(space), std::move(skin)};
 }
 
-Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances) {
-  const Config& config = job.config;
-  return {config.crowd.name, config.crowd.count, config.crowd.seed, lay_out(config, head_distances),
-          job.names.regions, config.sampling,    config.recipes,    config.blending.normalization,
-          level_scale(job),  config.diversity,   config.families,   config.review.reviews};
+Casting casting_of(const Config& config, const Inputs& inputs,
+                   const Eigen::MatrixXd& head_distances) {
+  return {config.crowd.name,
+          config.crowd.count,
+          config.crowd.seed,
+          lay_out(config, head_distances),
+          config.region_names(),
+          config.sampling,
+          config.recipes,
+          config.blending.normalization,
+          level_scale(config, inputs),
+          config.diversity,
+          config.families,
+          config.review.reviews};
 }
 
-Cast cast(const Job& job, const Prepared& prepared) {
-  const CastingSpace judged_in = casting_space(job, prepared);
+Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
+          const MeshDefects& defects) {
+  const CastingSpace judged_in = casting_space(config, inputs, prepared);
   const FaceSpace& space = judged_in.space;
   const Eigen::MatrixXd head_distances = space.head_distances();
-  const Casting casting = casting_of(job, head_distances);
-  const BelievabilityOptions& believability = job.config.believability;
-  const FaceJudge judge(space, casting.diversity, believability, &judged_in.skin,
-                        mesh_defects(job, prepared));
+  const Casting casting = casting_of(config, inputs, head_distances);
+  const BelievabilityOptions& believability = config.believability;
+  const FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
   CrowdCast crowd;
   {
     Progress progress("casting", casting.count);
     crowd = cast_crowd(casting, judge, [&] { progress.step(); });
   }
   if (crowd.shortfall) {
-    tell_shortfall(job,
+    tell_shortfall(config,
                    find_remedy(casting, space, believability, &judged_in.skin, *crowd.shortfall),
                    *crowd.shortfall);
   }

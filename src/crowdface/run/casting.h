@@ -10,15 +10,16 @@
 
 namespace crowdface {
 
-/// Where this job's faces are compared and judged.
+/// Where faces are compared and judged.
 struct CastingSpace {
   FaceSpace space;
   ProxySkin skin;
 };
-CastingSpace casting_space(const Job& job, const Prepared& prepared);
+CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared);
 
 /// What casting is to do, from the config.
-Casting casting_of(const Job& job, const Eigen::MatrixXd& head_distances);
+Casting casting_of(const Config& config, const Inputs& inputs,
+                   const Eigen::MatrixXd& head_distances);
 
 /// The distances of a crowd beside those of its heads.
 struct CrowdDistances {
@@ -57,8 +58,11 @@ struct Cast {
   std::vector<FaceSpace::Point> points;  ///< of each face of the crowd
 };
 
-/// Casts the crowd. \throws Unsatisfiable if the constraints cannot be met: which one binds, how far
-/// it went, and what would help.
-Cast cast(const Job& job, const Prepared& prepared);
+/// Casts the crowd.
+/// \param defects  what is wrong with a candidate's whole mesh; none: meshes are not judged.
+/// \throws Unsatisfiable if the constraints cannot be met: which one binds, how far it went, and what
+/// would help.
+Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
+          const MeshDefects& defects);
 
 }  // namespace crowdface

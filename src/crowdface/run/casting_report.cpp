@@ -27,13 +27,13 @@ Json nearest_to_json(const Quartiles& q) {
   return json;
 }
 
-Json distances_to_json(const Job& job, const CrowdDistances& distances) {
+Json distances_to_json(const std::vector<std::string>& regions, const CrowdDistances& distances) {
   Json json;
   json["between_heads_mm"] = to_json(distances.heads);
   json["between_faces_mm"] = to_json(distances.crowd);
   json["median_ratio"] = distances.ratio > 0 ? Json(rounded(distances.ratio)) : Json();
   for (std::size_t k = 0; k < distances.regions.size(); ++k) {
-    json["between_faces_by_region_mm"][job.names.regions[k]] = to_json(distances.regions[k]);
+    json["between_faces_by_region_mm"][regions[k]] = to_json(distances.regions[k]);
   }
   json["to_nearest_head_mm"] = nearest_to_json(distances.to_nearest_head);
   json["to_nearest_earlier_face_mm"] = nearest_to_json(distances.to_nearest_face);
@@ -47,9 +47,8 @@ Json asked_to_json(const DiversityOptions& diversity) {
           {"max_weight", diversity.max_weight}};
 }
 
-Json quotas_to_json(const Job& job, const Cast& cast) {
+Json quotas_to_json(const std::vector<Quota>& quotas, const Cast& cast) {
   Json json = Json::object();
-  const auto& quotas = job.config.diversity.quotas;
   for (std::size_t q = 0; q < quotas.size(); ++q) {
     std::uint64_t faces = 0;
     for (const int quota : cast.quotas) faces += quota == static_cast<int>(q) ? 1U : 0U;
@@ -93,19 +92,15 @@ std::string format_founders(const Job& job, const std::vector<FamilyFounder>& fo
   return format_plan(job, faces);
 }
 
-Json casting_to_json(const Job& job, const Cast& cast) {
+Json casting_to_json(const Config& config, const Cast& cast) {
   Json json;
-  json["asked"] = asked_to_json(job.config.diversity);
+  json["asked"] = asked_to_json(config.diversity);
   json["faces"] = cast.crowd.size();
-  json["distances"] = distances_to_json(job, cast.distances);
-  json["quotas"] = quotas_to_json(job, cast);
+  json["distances"] = distances_to_json(config.region_names(), cast.distances);
+  json["quotas"] = quotas_to_json(config.diversity.quotas, cast);
   json["families"] = families_to_json(cast);
   json["thrown_away"] = rejections_to_json(cast.rejections);
   return json;
-}
-
-std::string format_casting(const Job& job, const Cast& cast) {
-  return casting_to_json(job, cast).dump(2) + "\n";
 }
 
 }  // namespace crowdface

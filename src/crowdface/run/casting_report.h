@@ -16,8 +16,6 @@ namespace crowdface {
 std::string format_founders(const Job& job, const std::vector<FamilyFounder>& founders);
 
 /// What was asked, what was reached, what was thrown away.
-nlohmann::ordered_json casting_to_json(const Job& job, const Cast& cast);
-/// The same as it stands in casting.json.
-std::string format_casting(const Job& job, const Cast& cast);
+nlohmann::ordered_json casting_to_json(const Config& config, const Cast& cast);
 
 }  // namespace crowdface

@@ -73,9 +73,9 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
 
 }  // namespace
 
-std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
-                        const Cast& cast, const std::vector<FaceFiles>& files,
-                        LazyPictures& pictures, Ledger& ledger) {
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+                        const std::vector<FaceFiles>& files, Lazy<FaceBuilder>& builder,
+                        Lazy<CrowdPictures>& pictures, Ledger& ledger) {
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
   const std::vector<CastFace>& crowd = cast.crowd;
   const Digest key = key_of_sheets(job, directory, cast, files);
@@ -84,8 +84,9 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const P
   if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
   if (!cast.founders.empty()) {
-    write_founders(cast.founders, FaceBuilder(job, prepared), pictures.get());
+    write_founders(cast.founders, builder.get(), pictures.get());
   }
+  builder.release();  // sheets need the memory
   const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast.anchors, cast.points));
   ledger.record(kItem, key, sheet_files(directory));
   return pages;
@@ -108,7 +109,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             ": this crowd has no contact sheet; ask for one with --set "
                             "output.contact_sheet='{columns: 6}'"));
   }
-  check_crowd_directory(directory, crowd_config(job, directory), Replace::kForce);
+  check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   std::vector<CastFace> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {
@@ -123,7 +124,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const std::vector<FamilyFounder> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
-    write_founders(founders, FaceBuilder(job, prepared), pictures);
+    write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
   const std::size_t pages = pictures.finish(crowd, likeness);
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());

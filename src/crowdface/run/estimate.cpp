@@ -137,10 +137,10 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   const Job job = load_job(config_file, overrides);
   const CrowdDirectory directory{job.config.output.directory};
   // Beside whatever crowd is there: two files of its own.
-  check_crowd_directory(directory, crowd_config(job, directory), Replace::kForce);
+  check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
-  const CastingSpace judged_in = casting_space(job, prepared);
-  const Casting casting = casting_of(job, judged_in.space.head_distances());
+  const CastingSpace judged_in = casting_space(job.config, job.inputs, prepared);
+  const Casting casting = casting_of(job.config, job.inputs, judged_in.space.head_distances());
   const FaceJudge judge(judged_in.space, casting.diversity, job.config.believability,
                         &judged_in.skin);
   const std::uint64_t asked = job.config.crowd.count;

@@ -7,19 +7,18 @@
 
 namespace crowdface {
 
-FaceBuilder::FaceBuilder(const Job& job, const Prepared& prepared)
-    : job_(job), prepared_(prepared), regions_(job.inputs.regions) {
-  if (job.config.parts.shape == PartShape::kTarget) {
-    for (const Part& part : job.inputs.parts.parts) {
+FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared)
+    : inputs_(inputs), prepared_(prepared), regions_(inputs.regions) {
+  if (config.parts.shape == PartShape::kTarget) {
+    for (const Part& part : inputs.parts.parts) {
       for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
     }
   }
-  if (job.config.smoothing.levels != Levels::kExact) {
-    blender_.emplace(job.inputs.faces, head_levels(job.config, prepared), regions_);
+  if (config.smoothing.levels != Levels::kExact) {
+    blender_.emplace(inputs.faces, head_levels(config, prepared), regions_);
   }
-  if (!job.inputs.parts.parts.empty()) {
-    follower_.emplace(job.inputs.faces, job.inputs.parts, head_axes(job.config),
-                      job.config.parts.shape);
+  if (!inputs.parts.parts.empty()) {
+    follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
   }
 }
 
@@ -28,7 +27,7 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
   if (blender_) {
     blender_->blend(recipes, results);
   } else {
-    blend_exact(job_.inputs.faces, *prepared_.filter, regions_, recipes, results);
+    blend_exact(inputs_.faces, *prepared_.filter, regions_, recipes, results);
   }
   if (!follower_) return;
   parallel_for_each(static_cast<Index>(recipes.size()), [&](Index f) {
@@ -38,11 +37,11 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
 }
 
 std::uint64_t FaceBuilder::bytes(std::size_t faces) const {
-  const auto vertices = static_cast<std::uint64_t>(job_.inputs.faces.topology.vertex_count);
+  const auto vertices = static_cast<std::uint64_t>(inputs_.faces.topology.vertex_count);
   std::uint64_t of_face = 3 * sizeof(double) * vertices;
   if (!blender_) {
     // Per region the difference, its rows, four vectors of the recurrence and one sum.
-    const auto regions = static_cast<std::uint64_t>(job_.inputs.regions.alpha.cols());
+    const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
     of_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }
   return faces * of_face;

@@ -5,8 +5,9 @@
 #include <span>
 
 #include "crowdface/blend/crowd_blender.h"
+#include "crowdface/config/config.h"
+#include "crowdface/heads/prepare.h"
 #include "crowdface/parts/follower.h"
-#include "crowdface/run/pipeline.h"
 
 namespace crowdface {
 
@@ -14,8 +15,8 @@ namespace crowdface {
 /// one by one and have the same bytes.
 class FaceBuilder {
  public:
-  /// Both must outlive the builder.
-  FaceBuilder(const Job& job, const Prepared& prepared);
+  /// \param inputs, prepared  must outlive the builder.
+  FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared);
   FaceBuilder(const FaceBuilder&) = delete;
   FaceBuilder& operator=(const FaceBuilder&) = delete;
 
@@ -26,7 +27,7 @@ class FaceBuilder {
   std::uint64_t bytes(std::size_t faces) const;
 
  private:
-  const Job& job_;
+  const Inputs& inputs_;
   const Prepared& prepared_;
   /// The masks, without those vertices of parts that get other positions anyway.
   RegionWeights regions_;

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <set>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -43,27 +44,25 @@ class Busy {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::uint64_t vertex_count(const Job& job) {
-  return static_cast<std::uint64_t>(job.inputs.faces.topology.vertex_count);
+std::uint64_t vertex_count(const Inputs& inputs) {
+  return static_cast<std::uint64_t>(inputs.faces.topology.vertex_count);
 }
 
-/// What the inputs take.
-std::uint64_t input_bytes(const Job& job) {
-  return job.inputs.faces.heads.size() * vertex_count(job) * 3 * sizeof(double) +
-         static_cast<std::uint64_t>(job.inputs.regions.alpha.size()) * sizeof(double) +
-         kMeshBytesAVertex * vertex_count(job);
+std::uint64_t input_bytes(const Inputs& inputs) {
+  return inputs.faces.heads.size() * vertex_count(inputs) * 3 * sizeof(double) +
+         static_cast<std::uint64_t>(inputs.regions.alpha.size()) * sizeof(double) +
+         kMeshBytesAVertex * vertex_count(inputs);
 }
 
 /// What all threads take while they make pictures.
-std::uint64_t render_bytes(const Job& job) {
-  if (!job.config.output.contact_sheet) return 0;
-  return static_cast<std::uint64_t>(thread_count()) * kRenderBytesAVertex * vertex_count(job);
+std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
+  if (!config.output.contact_sheet) return 0;
+  return static_cast<std::uint64_t>(thread_count()) * kRenderBytesAVertex * vertex_count(inputs);
 }
 
-/// What the process holds whatever the number of faces at once.
-std::uint64_t standing_bytes(const Job& job, const Prepared& prepared, const MeshWriters& writers) {
-  std::uint64_t bytes = input_bytes(job);
-  bytes += writers.memory_bytes();
+/// What fitted levels take that lie in memory of ours.
+std::uint64_t level_bytes(const Prepared& prepared) {
+  std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
     if (!levels.mapped) bytes += levels.fields.size_bytes();
   }
@@ -76,21 +75,12 @@ std::uint64_t standing_bytes(const Job& job, const Prepared& prepared, const Mes
 }
 
 /// How many faces are blended together within the memory.
-std::size_t faces_at_once(const Job& job, const Prepared& prepared, const FaceBuilder& builder,
-                          const MeshWriters& writers, const SkinCheck* check,
-                          std::uint64_t memory) {
-  const auto threads = static_cast<std::uint64_t>(thread_count());
-  const std::uint64_t work =
-      render_bytes(job) +
-      threads * (writers.encode_bytes() + (check != nullptr ? check->compare_bytes() : 0));
-  const std::uint64_t standing = standing_bytes(job, prepared, writers) + work +
-                                 (check != nullptr ? check->memory_bytes() : 0);
-  const std::uint64_t least = standing + 2 * builder.bytes(1);
-  if (least > memory) {
-    refuse_memory(format_bytes(least), memory);
-  }
-  const std::uint64_t fit = (memory - standing) / (2 * builder.bytes(1));
-  return static_cast<std::size_t>(std::min<std::uint64_t>(fit, kMostAtOnce));
+/// \param standing  what the process holds whatever their number.
+std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::uint64_t memory) {
+  const std::uint64_t least = standing + 2 * one_face;  // two groups of faces are in memory
+  if (least > memory) refuse_memory(format_bytes(least), memory);
+  return static_cast<std::size_t>(
+      std::min<std::uint64_t>((memory - standing) / (2 * one_face), kMostAtOnce));
 }
 
 /// Encodes, writes and renders one face after the other, on any thread.
@@ -157,18 +147,30 @@ struct Slot {
 
 }  // namespace
 
-void refuse_too_little_memory(const Job& job, std::uint64_t memory) {
-  const std::uint64_t least = input_bytes(job) + render_bytes(job);
+void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::uint64_t memory) {
+  const std::uint64_t least = input_bytes(inputs) + render_bytes(config, inputs);
   if (least > memory) refuse_memory(concat("more than ", format_bytes(least)), memory);
 }
 
-FaceStages::FaceStages(const Job& job, const Prepared& prepared, const std::vector<CastFace>& crowd,
+FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
+                       const FaceBuilder& builder, const std::vector<CastFace>& crowd,
                        std::uint64_t memory)
-    : writes_meshes_(!job.config.output.meshes.empty()),
-      writers_(job.config, job.inputs, job.config.output.meshes, crowd),
-      builder_(job, prepared),
-      check_(skin_check(job, crowd)),
-      at_once_(faces_at_once(job, prepared, builder_, writers_, check_.get(), memory)) {}
+    : writes_meshes_(!config.output.meshes.empty()),
+      writers_(config, inputs, config.output.meshes, crowd),
+      builder_(builder) {
+  std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
+                           level_bytes(prepared) + writers_.memory_bytes();
+  std::uint64_t of_thread = writers_.encode_bytes();
+  if (skin_is_judged(config, inputs)) {
+    std::set<Index> targets;
+    for (const CastFace& face : crowd) targets.insert(face.recipe.target);
+    check_.emplace(skin_check(inputs, targets));
+    standing += check_->memory_bytes();
+    of_thread += check_->compare_bytes();
+  }
+  standing += static_cast<std::uint64_t>(thread_count()) * of_thread;
+  at_once_ = faces_at_once(standing, builder.bytes(1), memory);
+}
 
 BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders* renders,
                              const FaceLedger& ledger, const std::vector<CastFace>& faces) const {
@@ -177,7 +179,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (writes_meshes_) make_directories(directory.meshes());
   if (renders != nullptr) renders->make_folders(directory);
 
-  FaceOutput output(writers_, directory, renders, check_.get(), ledger);
+  FaceOutput output(writers_, directory, renders, check_ ? &*check_ : nullptr, ledger);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "crowdface/crowd/crowd_directory.h"
@@ -24,16 +24,17 @@ struct BuiltFaces {
 
 /// What is known before heads are prepared and faces cast: a job that cannot fit need not begin.
 /// \throws UsageError if inputs and pictures alone take more than `memory` bytes.
-void refuse_too_little_memory(const Job& job, std::uint64_t memory);
+void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::uint64_t memory);
 
 /// Makes faces: blends them, judges them, writes and renders them.
 class FaceStages {
  public:
-  /// \param crowd   recipes of all faces that may be made.
+  /// \param builder  must outlive this object, as inputs and prepared heads must.
+  /// \param crowd    recipes of all faces that may be made.
   /// \param memory  bytes that the whole process may take; sets how many faces are blended together.
   /// \throws UsageError if one face at a time does not fit.
-  FaceStages(const Job& job, const Prepared& prepared, const std::vector<CastFace>& crowd,
-             std::uint64_t memory);
+  FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
+             const FaceBuilder& builder, const std::vector<CastFace>& crowd, std::uint64_t memory);
 
   /// Each face is recorded when all its files are there. While one group of faces is written and
   /// rendered the next is blended: two groups at most are in memory.
@@ -44,8 +45,8 @@ class FaceStages {
  private:
   bool writes_meshes_;
   MeshWriters writers_;
-  FaceBuilder builder_;
-  std::unique_ptr<SkinCheck> check_;  ///< null: no mesh is judged
+  const FaceBuilder& builder_;
+  std::optional<SkinCheck> check_;  ///< none: no mesh is judged
   std::size_t at_once_;
 };
 

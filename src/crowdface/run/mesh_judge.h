@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/face_judge.h"
+#include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_files.h"
-#include "crowdface/run/pipeline.h"
 
 namespace crowdface {
 
 /// Whether whole meshes are judged once they are built, as the config asks.
-bool skin_is_judged(const Job& job);
+bool skin_is_judged(const Config& config, const Inputs& inputs);
 
-/// Judges the whole meshes of these recipes. \return none if skin_is_judged says no.
-std::unique_ptr<SkinCheck> skin_check(const Job& job, const std::vector<CastFace>& crowd);
+/// Judges whole meshes against those of the targets.
+SkinCheck skin_check(const Inputs& inputs, const std::set<Index>& targets);
 
-/// Builds candidates and judges their meshes while casting; none if the config does not ask for it.
-/// Both must outlive it.
-MeshDefects mesh_defects(const Job& job, const Prepared& prepared);
+/// Whether candidates are built and their meshes judged while casting.
+bool candidates_are_built(const Config& config);
+
+/// Builds candidates and judges their meshes. \param builder  must outlive it.
+MeshDefects mesh_defects(const Inputs& inputs, const FaceBuilder& builder);
 
 /// Warns of faces whose whole mesh goes beyond a limit that their samples kept. \return the warning.
-std::vector<std::string> judge_meshes(const Job& job, const std::vector<CastFace>& crowd,
+std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
+                                      const std::vector<CastFace>& crowd,
                                       const std::vector<FaceFiles>& files);
 
 }  // namespace crowdface

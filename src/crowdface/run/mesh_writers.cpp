@@ -120,13 +120,6 @@ std::size_t MeshWriters::encode_bytes() const {
   return bytes;
 }
 
-std::vector<std::filesystem::path> write_shared(const Inputs& inputs,
-                                                const std::vector<MeshFormat>& formats,
-                                                const CrowdDirectory& directory) {
-  if (std::find(formats.begin(), formats.end(), MeshFormat::kPoints) == formats.end()) return {};
-  return write_topology_arrays(inputs.faces.topology, inputs.faces.uvs, directory.topology());
-}
-
 MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path) {
   mesh.file.write(path);
   return {mesh.format, mesh.file.digest(), mesh.file.size()};

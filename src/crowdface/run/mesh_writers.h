@@ -59,11 +59,6 @@ class MeshWriters {
   std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
 };
 
-/// Writes what stands once beside all faces: with `points`, the topology. \return the files.
-std::vector<std::filesystem::path> write_shared(const Inputs& inputs,
-                                                const std::vector<MeshFormat>& formats,
-                                                const CrowdDirectory& directory);
-
 /// Writes what `encode` made and tells what it was.
 MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path);
 

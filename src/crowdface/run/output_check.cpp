@@ -24,9 +24,9 @@ bool lies_below(const fs::path& path, const fs::path& folder) {
 
 /// \throws UsageError if an input lies where this run writes files and removes those of an old
 /// crowd.
-void refuse_to_write_over_inputs(const Job& job, const CrowdDirectory& directory) {
-  const auto& sheet = job.config.output.contact_sheet;
-  for (const fs::path& input : input_files(job.config)) {
+void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& directory) {
+  const auto& sheet = config.output.contact_sheet;
+  for (const fs::path& input : input_files(config)) {
     if (sheet && input == sheet->compare.file) continue;  // may be one of this crowd's own
     for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
       if (!lies_below(input, folder)) continue;
@@ -38,24 +38,24 @@ void refuse_to_write_over_inputs(const Job& job, const CrowdDirectory& directory
 }
 
 /// With `output.directory: .` beside a config.yaml of the user's, that would be replaced.
-void refuse_to_write_over_config(const Job& job, const CrowdDirectory& directory) {
+void refuse_to_write_over_config(const Config& config, const CrowdDirectory& directory) {
   std::error_code ignored;
-  if (!fs::equivalent(job.config.file, directory.config(), ignored)) return;
+  if (!fs::equivalent(config.file, directory.config(), ignored)) return;
   if (fs::exists(directory.plan(), ignored)) return;  // it is a crowd's own
-  if (read_file(job.config.file) == effective_config(job.config, directory.root)) return;
-  throw UsageError(concat(job.config.file.string(),
+  if (read_file(config.file) == effective_config(config, directory.root)) return;
+  throw UsageError(concat(config.file.string(),
                           ": stands where the crowd's own config would be written; choose another "
                           "folder with --out, or rename it"));
 }
 
 }  // namespace
 
-void refuse_other_heads(const Job& job, const CrowdDirectory& directory, Replace replace) {
+void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace) {
   std::error_code ignored;
   if (replace == Replace::kForce || !fs::exists(directory.plan(), ignored)) return;
   const std::string plan = read_file(directory.plan());
   // Of a plan that is damaged some line tells.
-  if (plan.find(job.settings.hex()) != plan.npos) return;
+  if (plan.find(settings.hex()) != plan.npos) return;
   const auto first = parse_shallow_json(std::string_view(plan).substr(0, plan.find('\n')));
   if (!first.is_object() || !first.contains("settings")) return;
   throw UsageError(
@@ -68,10 +68,10 @@ void refuse_other_heads(const Job& job, const CrowdDirectory& directory, Replace
 
 void check_output(const Job& job, Replace replace) {
   const CrowdDirectory directory{job.config.output.directory};
-  refuse_to_write_over_inputs(job, directory);
-  refuse_to_write_over_config(job, directory);
-  check_crowd_directory(directory, crowd_config(job, directory), replace);
-  refuse_other_heads(job, directory, replace);
+  refuse_to_write_over_inputs(job.config, directory);
+  refuse_to_write_over_config(job.config, directory);
+  check_crowd_directory(directory, crowd_config(job.config, directory), replace);
+  refuse_other_heads(job.settings, directory, replace);
 }
 
 }  // namespace crowdface

@@ -11,6 +11,7 @@ namespace crowdface {
 void check_output(const Job& job, Replace replace);
 
 /// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
-void refuse_other_heads(const Job& job, const CrowdDirectory& directory, Replace replace);
+/// \param settings  of the heads as they are now, see settings_digest.
+void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
 
 }  // namespace crowdface

@@ -13,10 +13,6 @@
 namespace crowdface {
 namespace {
 
-LevelScale level_scale(const Config& config, const Inputs& inputs) {
-  return {config.smoothing.operator_kind, inputs.max_level, inputs.edge_length_mm};
-}
-
 /// A smoothness must not ask for more than L_max, which is known only once the heads are read.
 void check_smoothness(const SmoothnessDistribution& distribution, const std::string& where,
                       const Config& config, const Inputs& inputs, Problems& problems) {
@@ -82,13 +78,13 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
   return std::move(*job);
 }
 
-CrowdConfig crowd_config(const Job& job, const CrowdDirectory& directory) {
-  std::string text = effective_config(job.config, directory.root);
+CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) {
+  std::string text = effective_config(config, directory.root);
   return {text, [text](const std::string& other) { return config_difference(other, text); }};
 }
 
-LevelScale level_scale(const Job& job) {
-  return level_scale(job.config, job.inputs);
+LevelScale level_scale(const Config& config, const Inputs& inputs) {
+  return {config.smoothing.operator_kind, inputs.max_level, inputs.edge_length_mm};
 }
 
 std::string format_plan(const Job& job, const std::vector<CastFace>& crowd) {

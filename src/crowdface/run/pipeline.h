@@ -30,11 +30,11 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
 /// \throws Error with all problems.
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides);
 
-/// The job's config as it will stand in that folder.
-CrowdConfig crowd_config(const Job& job, const CrowdDirectory& directory);
+/// The config as it will stand in that folder.
+CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
 /// What turns a smoothness into iterations on these heads.
-LevelScale level_scale(const Job& job);
+LevelScale level_scale(const Config& config, const Inputs& inputs);
 
 /// The plan as it stands in plan.jsonl.
 std::string format_plan(const Job& job, const std::vector<CastFace>& crowd);

@@ -126,7 +126,7 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
   report["distances"] = distances_to_json(cast.distances);
-  report["casting"] = casting_to_json(job, cast);
+  report["casting"] = casting_to_json(job.config, cast);
   report["warnings"] = warnings;
   report["faces"] = faces_to_json(cast, files);
   // Warnings may name files whose names are not UTF-8.

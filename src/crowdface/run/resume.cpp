@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/resume.h"
 
+#include <algorithm>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
-#include "crowdface/run/mesh_writers.h"
+#include "crowdface/io/npy.h"
 
 namespace crowdface {
 
@@ -60,19 +61,22 @@ void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Cas
                             "; run their shards again, or generate without --shard"));
 }
 
-void write_shared_arrays(const Job& job, const CrowdDirectory& directory, Ledger& ledger) {
+void write_shared_arrays(const Inputs& inputs, const std::vector<MeshFormat>& formats,
+                         const CrowdDirectory& directory, Ledger& ledger) {
   constexpr const char* kItem = "topology";
-  const TextureCoordinates& uvs = job.inputs.faces.uvs;
+  if (std::find(formats.begin(), formats.end(), MeshFormat::kPoints) == formats.end()) return;
+  const TextureCoordinates& uvs = inputs.faces.uvs;
   Hasher key;
-  key.add(job.inputs.topology_digest)
-      .add_array(std::span(job.inputs.faces.topology.corner_uvs))
+  key.add(inputs.topology_digest)
+      .add_array(std::span(inputs.faces.topology.corner_uvs))
       .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
   if (ledger.proven(kItem, key.digest())) return;
   std::vector<std::string> names;
-  for (const fs::path& file : write_shared(job.inputs, job.config.output.meshes, directory)) {
+  for (const fs::path& file :
+       write_topology_arrays(inputs.faces.topology, uvs, directory.topology())) {
     names.push_back(directory.relative(file));
   }
-  if (!names.empty()) ledger.record(kItem, key.digest(), names);
+  ledger.record(kItem, key.digest(), names);
 }
 
 void gather_logs(const CrowdDirectory& directory) {

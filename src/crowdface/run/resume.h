@@ -29,7 +29,8 @@ void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Cas
                           const std::vector<std::size_t>& todo);
 
 /// Writes the arrays beside all faces, if a format needs them and they are not there.
-void write_shared_arrays(const Job& job, const CrowdDirectory& directory, Ledger& ledger);
+void write_shared_arrays(const Inputs& inputs, const std::vector<MeshFormat>& formats,
+                         const CrowdDirectory& directory, Ledger& ledger);
 
 /// What the shards said becomes part of the crowd's log.
 void gather_logs(const CrowdDirectory& directory);

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/wrap_inputs.h"
+
+#include <algorithm>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/length_units.h"
+#include "crowdface/core/list_files.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/core/text.h"
+#include "crowdface/region/region_weights.h"
+
+namespace crowdface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Raised whenever a change of the code gives other heads: finished ones are then made anew.
+constexpr int kWrapVersion = 1;
+
+Axis axis_of(const std::string& option, const std::string& text) {
+  const auto axis = parse_axis(text);
+  if (!axis) {
+    throw UsageError(concat(option, ": expected an axis such as +Y, found ", quoted(text)));
+  }
+  return *axis;
+}
+
+Eigen::Vector3d vector_of(Axis axis) {
+  return axis.sign * Eigen::Vector3d::Unit(axis.index);
+}
+
+/// The unit in which the mesh is as large as a head with its neck.
+LengthUnit guess_unit(const Positions& positions) {
+  constexpr double kTypicalDiagonalMm = 430;
+  return nearest_unit((positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm(),
+                      kTypicalDiagonalMm);
+}
+
+/// The heads of the model, and with them where the template's vertices are on average.
+void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& positions,
+                Hasher& digest) {
+  const std::vector<fs::path> files = files_of(options.model, {".obj"});
+  if (files.size() < 2) {
+    throw InvalidInput(concat(options.model,
+                              ": expected two heads or more in the template's "
+                              "topology (.obj), found ",
+                              files.size()));
+  }
+  std::vector<Positions> heads;
+  Problems problems;
+  for (const fs::path& path : files) {
+    const ObjFile head = read_obj(path);
+    if (const std::string other = first_difference(inputs.file.topology, head.topology);
+        !other.empty()) {
+      problems.add(ExitCode::kBadData, concat(path.string(), ": is no head in the topology of ",
+                                              options.shape, ": ", other));
+      continue;
+    }
+    digest.add(hash_file(path).digest);
+    heads.emplace_back(head.positions * inputs.mm);
+  }
+  problems.throw_if_any();
+  inputs.model = make_model(heads);
+  inputs.model_heads = heads.size();
+  positions = inputs.model->mean;
+}
+
+/// The model at the rows of the template that are skin.
+ShapeModel skin_model(const ShapeModel& model, const WrapTemplate& shape) {
+  ShapeModel of_skin{shape.skin.of(model.mean), {}};
+  for (const Positions& mode : model.modes) of_skin.modes.push_back(shape.skin.of(mode));
+  return of_skin;
+}
+
+/// What is white in the mask is left alone.
+void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& shape, Hasher& digest) {
+  const std::vector<double> ignored = mask_values(file.topology, file.uvs, MaskSource(mask));
+  for (std::size_t v = 0; v < shape.skin.vertices.size(); ++v) {
+    const double left = 1 - std::clamp(ignored[shape.skin.vertices[v]], 0.0, 1.0);
+    shape.skin.openness[v] *= left;
+    digest.add(left);
+  }
+}
+
+std::optional<PoseHint> pose_hint(const WrapOptions& options) {
+  if (options.scan_up.empty() && options.scan_front.empty()) return std::nullopt;
+  if (options.scan_up.empty() || options.scan_front.empty()) {
+    throw UsageError("--scan-up and --scan-front belong together: expected both or none");
+  }
+  const PoseHint hint = {vector_of(axis_of("--scan-up", options.scan_up)),
+                         vector_of(axis_of("--scan-front", options.scan_front))};
+  if (hint.up.dot(hint.front) != 0) {
+    throw UsageError("--scan-up and --scan-front: expected two axes, found one");
+  }
+  return hint;
+}
+
+}  // namespace
+
+LengthUnit unit_of(const std::string& option, const std::string& text) {
+  const auto unit = parse_length_unit(text);
+  if (!unit) throw UsageError(concat(option, ": expected mm, cm, m or in, found ", quoted(text)));
+  return *unit;
+}
+
+std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::string>& endings) {
+  std::error_code error;
+  std::vector<fs::path> files = list_files(
+      folder,
+      [&](const fs::path& path) {
+        const std::string ending = lower_case(path.extension().string());
+        return std::find(endings.begin(), endings.end(), ending) != endings.end();
+      },
+      &error);
+  if (error) throw MissingInput(concat(folder.string(), ": cannot be read: ", error.message()));
+  return files;
+}
+
+WrapInputs read_wrap_inputs(const WrapOptions& options) {
+  WrapInputs inputs;
+  inputs.file = read_obj(options.shape);
+  Hasher digest;
+  digest.add(kWrapVersion).add(hash_file(options.shape).digest);
+  const LengthUnit unit =
+      options.units.empty() ? guess_unit(inputs.file.positions) : unit_of("--units", options.units);
+  inputs.mm = mm_per(unit);
+  inputs.frame = {axis_of("--up", options.up), axis_of("--front", options.front)};
+  Positions positions = inputs.file.positions * inputs.mm;
+  if (!options.model.empty()) read_model(options, inputs, positions, digest);
+  inputs.shape =
+      make_template(inputs.file.topology, positions,
+                    {.front = vector_of(inputs.frame.front), .up = vector_of(inputs.frame.up)});
+  if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.shape);
+  if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.shape, digest);
+  inputs.hint = pose_hint(options);
+  if (!options.landmarks.empty()) {
+    inputs.landmarks = read_landmarks(options.landmarks);
+    digest.add(hash_file(options.landmarks).digest);
+  }
+  for (const std::string& text : {options.units, options.scan_units, options.up, options.front,
+                                  options.scan_up, options.scan_front}) {
+    digest.add(text);
+  }
+  inputs.digest = digest.digest();
+  log_info(concat(options.shape, ": ", inputs.shape.skin.vertex_count(), " of ",
+                  inputs.file.topology.vertex_count, " vertices are skin; one unit is taken for 1 ",
+                  name_of(unit)));
+  return inputs;
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/copy_materials.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/material_files.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Copies each file once: heads of one folder mostly share theirs.
+class MaterialCopies {
+ public:
+  MaterialCopies(const CrowdDirectory& directory, Ledger& ledger)
+      : directory_(directory), ledger_(ledger) {}
+
+  void add(const ObjFile& file, const std::string& head) {
+    const auto [found, is_unknown] =
+        known_.try_emplace({file.path.parent_path(), file.material_libraries});
+    if (is_unknown) found->second = find_material_files(file.path, file.material_libraries);
+    for (const std::string& warning : found->second.warnings) {
+      heads_of_warning_[warning].push_back(head);
+    }
+    for (const MaterialFile& material : found->second.files) copy(material, head);
+  }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> warnings;
+    for (const auto& [warning, heads] : heads_of_warning_) {
+      warnings.push_back(concat(warning, " (", join(heads), ")"));
+    }
+    return warnings;
+  }
+
+ private:
+  void copy(const MaterialFile& material, const std::string& head) {
+    throw_if_interrupted();
+    const auto [digest, is_unread] = read_.try_emplace(material.from);
+    if (is_unread) digest->second = hash_file(material.from).digest;
+    const auto [first, is_new] = copied_.emplace(material.relative, digest->second);
+    if (is_new) {
+      const fs::path to = directory_.meshes() / material.relative;
+      refuse_folder_elsewhere(directory_, to.parent_path());
+      make_directories(to.parent_path());
+      ledger_.write(directory_.relative(to), MappedFile(material.from).bytes());
+    } else if (first->second != digest->second) {
+      heads_of_warning_[concat(material.relative.string(),
+                               " is not the same file for all heads; the first head's is kept")]
+          .push_back(head);
+    }
+  }
+
+  const CrowdDirectory& directory_;
+  Ledger& ledger_;
+  std::map<std::pair<fs::path, std::vector<std::string>>, MaterialFiles> known_;
+  std::map<fs::path, Digest> read_, copied_;
+  std::map<std::string, std::vector<std::string>> heads_of_warning_;
+};
+
+}  // namespace
+
+std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirectory& directory,
+                                        const std::vector<CastFace>& crowd, Ledger& ledger) {
+  std::set<Index> targets;
+  for (const CastFace& face : crowd) targets.insert(face.recipe.target);
+  MaterialCopies copies(directory, ledger);
+  for (const Index target : targets) {
+    const auto head = static_cast<std::size_t>(target);
+    copies.add(inputs.files[head], inputs.faces.heads[head].name);
+  }
+  std::vector<std::string> warnings = copies.warnings();
+  for (const std::string& warning : warnings) log_warning(warning);
+  return warnings;
+}
+
+}  // namespace crowdface
