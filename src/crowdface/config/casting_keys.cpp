@@ -14,6 +14,7 @@ constexpr std::uint64_t kMostCandidates = 1000;
 constexpr std::uint64_t kLargestPool = 1000;
 constexpr std::uint64_t kMostAttempts = 1'000'000;
 constexpr double kShareRounding = 1e-9;
+constexpr Eigen::Index kMostJudged = 200'000;  // vertices of heads whose meshes a starter judges
 
 /// One image, or a set of UDIM tiles.
 void read_mask(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {
@@ -111,7 +112,13 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_stretch", &Believability::max_stretch, number(1, 1000)),
       key("max_flipped", &Believability::max_flipped, number(0, 1)),
       key("max_intersecting", &Believability::max_intersecting, number(0, 1)),
-      word_key("meshes", &Believability::meshes)};
+      word_key("meshes", &Believability::meshes)
+          .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
+            if (facts.vertices > kMostJudged) return std::nullopt;
+            return StarterLines{std::string(word_of(Believability::Meshes::kJudge)), "",
+                                "Casting builds each face and drops it if too much skin passes "
+                                "through other skin: lips, lids."};
+          })};
   return keys;
 }
 
@@ -128,7 +135,10 @@ const Keys<DiversityOptions>& diversity_keys() {
   static const Keys<Diversity> keys = {
       word_key("mode", &Diversity::mode),
       key("min_distance", &Diversity::min_distance_mm, length(kMaxDistance)),
-      key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistance)),
+      key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistance))
+          .in_starter({"0.8 mm", "",
+                       "No face comes nearer to one of the heads: below half a millimetre it is "
+                       "that person."}),
       key("max_weight", &Diversity::max_weight, max_weight()),
       {"quotas", read_quotas, write_quotas},
       key("candidates", &Diversity::candidates, whole(1, kMostCandidates)),
@@ -142,6 +152,10 @@ void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft
   if (config.believability.check) {
     read_keys(node, believability_keys(), config.believability, draft);
   }
+}
+
+Starter believability_starter() {
+  return starter_section(believability_keys());
 }
 
 std::string write_believability(const Config& config, const ConfigWriting& writing) {

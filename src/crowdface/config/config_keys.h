@@ -7,8 +7,17 @@
 #include <vector>
 
 #include "crowdface/config/codec.h"
+#include "crowdface/config/starter_facts.h"
 
 namespace crowdface {
+
+/// A key in a starter config.
+struct StarterLines {
+  std::string value;        ///< as entry() takes it; empty: only the comment above stands there
+  std::string beside = {};  ///< a comment behind it
+  std::string above = {};   ///< one before it, of one or more lines
+};
+using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
 /// One key of a section: a row from which it is known, read and written.
 template <class Section>
@@ -19,6 +28,16 @@ struct Key {
   /// Likewise as entry() takes it; empty: the key is left out.
   std::function<std::string(const Section&, const ConfigWriting&)> write;
   std::string_view required = {};  ///< for a key that must be there: what would do
+  Starter starter = {};            ///< none: it is not in a starter config
+
+  Key in_starter(Starter lines) const {
+    Key key = *this;
+    key.starter = std::move(lines);
+    return key;
+  }
+  Key in_starter(const StarterLines& lines) const {
+    return in_starter([=](const StarterFacts&) { return lines; });
+  }
 };
 
 /// The keys of a section, in the order in which they are read and written.
@@ -34,6 +53,9 @@ std::vector<std::string> names_of(const Keys<Section>& keys) {
   for (const Key<Section>& key : keys) names.emplace_back(key.name);
   return names;
 }
+
+/// "key: value   # beside" under its comment, each line after an '\n'.
+std::string starter_lines(std::string_view key, const StarterLines& lines);
 
 /// Reads a mapping with these keys. \return whether it is one.
 template <class Section>
@@ -60,6 +82,27 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
   return entries;
 }
 
+/// The keys that a starter config has, as the value of their section; empty if it has none.
+template <class Section>
+std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
+  std::string text;
+  for (const Key<Section>& key : keys) {
+    const auto lines = key.starter ? key.starter(facts) : std::nullopt;
+    if (lines) text += starter_lines(key.name, *lines);
+  }
+  return text;
+}
+
+/// Of a section whose keys are these.
+template <class Section>
+Starter starter_section(const Keys<Section>& keys, const std::string& above = {}) {
+  return [=, &keys](const StarterFacts& facts) -> std::optional<StarterLines> {
+    const std::string lines = starter_keys(keys, facts);
+    if (lines.empty()) return std::nullopt;
+    return StarterLines{lines, {}, above};
+  };
+}
+
 /// A key whose value stands in one member. A member that is an empty optional is not written.
 template <class Section, class Member, class Value>
 Key<Section> key(std::string_view name, Member Section::*member, const Codec<Value>& codec,
@@ -77,7 +120,8 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
               return codec.write(static_cast<Value>(section.*member), writing);
             }
           },
-          required};
+          required,
+          {}};
 }
 
 /// What is looked at once a section is read. \param sound  whether it had no complaint.
@@ -96,7 +140,7 @@ Key<Section> section_key(std::string_view name, Member Section::*member, const K
           [=, &keys](const Section& section, const ConfigWriting& writing) {
             return block_map(write_keys(keys, section.*member, writing));
           },
-          required};
+          required, starter_section(keys)};
 }
 
 template <class Section, class Value>
@@ -113,12 +157,15 @@ const Keys<SamplingOptions>& sampling_keys();
 const Keys<Config::Output>& output_keys();
 void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_faces(const Config& config, const ConfigWriting& writing);
+Starter faces_starter();
 void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_regions(const Config& config, const ConfigWriting& writing);
+std::optional<StarterLines> regions_starter(const StarterFacts& facts);
 void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_parts(const Config& config, const ConfigWriting& writing);
 void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_believability(const Config& config, const ConfigWriting& writing);
+Starter believability_starter();
 void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_recipes(const Config& config, const ConfigWriting& writing);
 void read_families(const YamlNode& node, Config& config, ConfigDraft& draft);

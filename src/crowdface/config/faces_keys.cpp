@@ -146,15 +146,58 @@ std::vector<Eigen::Index> heads_tagged(const std::string& tag, const Faces& face
   return heads;
 }
 
+/// In a comment: what is no head's name might end the line.
+std::string shown(const std::string& name) {
+  return is_name(name) ? name : quoted(name);
+}
+
+std::string name_some(std::vector<std::string> names) {
+  std::transform(names.begin(), names.end(), names.begin(), shown);
+  if (names.empty()) return "none yet";
+  if (names.size() < 3) return join(names, " and ");
+  return concat(names.front(), ", ", names[1], ", … ", names.back());
+}
+
+StarterLines starter_units(const StarterFacts& facts) {
+  const double height_cm = facts.head_height * mm_per(facts.units) / 10;
+  return {std::string(name_of(facts.units)), "",
+          concat("What one unit of the OBJ files is: mm, cm, m or in. Guessed, because the first "
+                 "mesh is ",
+                 format_fixed(facts.head_height, 2), " units\nhigh, which makes ",
+                 format_fixed(height_cm, 1), " cm. PLEASE CHECK: every size below rests on it.")};
+}
+
+StarterLines starter_tags(const StarterFacts& facts) {
+  if (facts.tags.empty()) {
+    return {
+        "", "",
+        "tags: {head_a: [old], head_b: [young]}   # groups of heads, to be named under sampling"};
+  }
+  std::vector<std::string> heads;
+  for (const auto& [head, tags] : facts.tags) heads.push_back(entry(head, flow_list(tags)));
+  return {block_map(heads), "", "Groups of heads, to be named under sampling."};
+}
+
 const Keys<Faces>& faces_keys() {
   static const Keys<Faces> keys = {
-      {"directory", read_directory, [](const auto&...) { return ""; }},
+      {"directory",
+       read_directory,
+       [](const auto&...) { return ""; },
+       {},
+       [](const StarterFacts& facts) { return StarterLines{write_scalar(facts.heads.string())}; }},
       {"files", read_files, write_files},
-      word_key("units", &Faces::units, "what is one unit of the OBJ files: mm, cm, m or in?"),
-      key("up", &Faces::up, axis()),
-      key("front", &Faces::front, axis()),
-      word_key("align", &Faces::align),
-      {"tags", read_tags, write_tags}};
+      word_key("units", &Faces::units, "what is one unit of the OBJ files: mm, cm, m or in?")
+          .in_starter(starter_units),
+      key("up", &Faces::up, axis()).in_starter([](const StarterFacts& facts) {
+        return StarterLines{name_of(facts.up), "the axis that points to the top of the head"};
+      }),
+      key("front", &Faces::front, axis()).in_starter([](const StarterFacts& facts) {
+        return StarterLines{name_of(facts.front), "the axis along which the faces look"};
+      }),
+      word_key("align", &Faces::align)
+          .in_starter({std::string(word_of(Align::kCheck)),
+                       "warn about heads that do not stand like the others; rigid moves them"}),
+      {"tags", read_tags, write_tags, {}, starter_tags}};
   return keys;
 }
 
@@ -185,6 +228,14 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   }
   config.sampling.old_heads = heads_tagged("old", faces);
   config.sampling.young_heads = heads_tagged("young", faces);
+}
+
+Starter faces_starter() {
+  return [](const StarterFacts& facts) -> std::optional<StarterLines> {
+    return StarterLines{starter_keys(faces_keys(), facts), "",
+                        concat("The heads: OBJ files that share one topology. This folder holds ",
+                               facts.names.size(), ": ", name_some(facts.names), ".")};
+  };
 }
 
 std::string write_faces(const Config& config, const ConfigWriting& writing) {

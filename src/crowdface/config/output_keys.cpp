@@ -121,16 +121,27 @@ std::string write_contact_sheet(const Output& output, const ConfigWriting& writi
   return block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, writing));
 }
 
+/// The keys that one changes first, at their defaults.
+StarterLines starter_sheet(const StarterFacts&) {
+  std::vector<std::string> entries = write_keys(contact_sheet_keys(), Sheet{}, {Config{}, {}});
+  entries.resize(4);
+  return {flow_map(entries)};
+}
+
 }  // namespace
 
 const Keys<Output>& output_keys() {
   static const Keys<Output> keys = {
-      key("directory", &Output::directory, path("a folder")),
+      key("directory", &Output::directory, path("a folder"))
+          .in_starter([](const StarterFacts& facts) {
+            return StarterLines{write_scalar(concat("out/", facts.crowd_name))};
+          }),
       key("meshes", &Output::meshes,
-          words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0)),
+          words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
+          .in_starter({"[obj]", "and ply, glb, points; [] for pictures only"}),
       word_key("gallery", &Output::gallery),
       {"surfaces", read_surfaces, write_surfaces},
-      {"contact_sheet", read_contact_sheet, write_contact_sheet}};
+      {"contact_sheet", read_contact_sheet, write_contact_sheet, {}, starter_sheet}};
   return keys;
 }
 

@@ -87,6 +87,20 @@ void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft) {
   config.sampling.regions.resize(config.region_names().size());
 }
 
+std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
+  if (facts.mask.empty()) {
+    return StarterLines{
+        "none", "",
+        "Parts of the face that are blended on their own need an image that tells them apart: one\n"
+        "colour channel a region, read at the meshes' UVs. Until then the head is one piece.\n"
+        "regions: {names: [top, middle, bottom], mask: bands.png}"};
+  }
+  return StarterLines{
+      block_map({"names: [top, middle, bottom]", entry("mask", write_scalar(facts.mask))}), "",
+      "Parts of the face that are blended on their own: the image beside the heads tells them "
+      "apart,\none colour channel a region. \"regions: none\" makes the head one piece."};
+}
+
 std::string write_regions(const Config& config, const ConfigWriting& writing) {
   if (config.regions.names.empty()) return "none";
   return block_map(write_keys(regions_keys(), config.regions, writing));

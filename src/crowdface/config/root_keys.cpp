@@ -13,9 +13,15 @@ const Keys<Config::Crowd>& crowd_keys() {
   using Crowd = Config::Crowd;
   constexpr std::uint64_t kMaxCount = 1'000'000;
   static const Keys<Crowd> keys = {
-      key("name", &Crowd::name, name(), "what the faces' ids start with"),
-      key("count", &Crowd::count, whole(0, kMaxCount), "how many faces are sampled"),
-      key("seed", &Crowd::seed, whole(0, UINT64_MAX))};
+      key("name", &Crowd::name, name(), "what the faces' ids start with")
+          .in_starter([](const StarterFacts& facts) {
+            return StarterLines{write_scalar(facts.crowd_name),
+                                concat("ids start with it: ", facts.crowd_name, "_0001, …")};
+          }),
+      key("count", &Crowd::count, whole(0, kMaxCount), "how many faces are sampled")
+          .in_starter({"24", "how many faces; a larger crowd starts with the same ones"}),
+      key("seed", &Crowd::seed, whole(0, UINT64_MAX))
+          .in_starter({"1", "another number, another crowd"})};
   return keys;
 }
 
@@ -104,11 +110,13 @@ void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
 
 const Keys<Config>& root_keys() {
   static const Keys<Config> keys = {
-      {"schema", read_schema, [](const auto&...) { return "1"; }, "write \"schema: 1\""},
+      Key<Config>{"schema", read_schema, [](const auto&...) { return "1"; }, "write \"schema: 1\""}
+          .in_starter({"1"}),
       section_key("crowd", &Config::crowd, crowd_keys(),
                   "such as \"crowd: {name: market, count: 24}\""),
-      {"faces", read_faces, write_faces, "such as \"faces: {directory: heads, units: cm}\""},
-      {"regions", read_regions, write_regions},
+      {"faces", read_faces, write_faces, "such as \"faces: {directory: heads, units: cm}\"",
+       faces_starter()},
+      {"regions", read_regions, write_regions, {}, regions_starter},
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
       {"parts", read_parts, write_parts},
@@ -116,7 +124,7 @@ const Keys<Config>& root_keys() {
       section_key("sampling", &Config::sampling, sampling_keys()),
       section_key("distance", &Config::distance, distance_keys()),
       section_key("diversity", &Config::diversity, diversity_keys()),
-      {"believability", read_believability, write_believability},
+      {"believability", read_believability, write_believability, {}, believability_starter()},
       {"recipes", read_recipes, write_recipes},
       {"families", read_families, write_families},
       {"review", read_review, write_review},

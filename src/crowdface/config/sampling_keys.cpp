@@ -264,17 +264,23 @@ const Keys<SamplingOptions>& sampling_keys() {
       per_region_key("position", &RegionSampling::position, {read_position, write_position},
                      names_of(position_keys())),
       per_region_key("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
-                     {"iterations"}),
-      per_region_key("extrapolation", &RegionSampling::extrapolation, extrapolation()),
-      {"max_sources",
-       [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
-         if (is_word(node, "all")) return;
-         const auto most = whole(1, kMostSources).read(node, draft);
-         if (most) sampling.max_sources = static_cast<int>(*most);
-       },
-       [](const Sampling& sampling, const ConfigWriting&) {
-         return sampling.max_sources ? concat(*sampling.max_sources) : "all";
-       }},
+                     {"iterations"})
+          .in_starter({"[0.15, 0.7]", "",
+                       "How much of the target's own relief gives way to that of the others: 0 "
+                       "nothing, 1 all of\nit up to 240 mm. Or a size: [4 mm, 30 mm]."}),
+      per_region_key("extrapolation", &RegionSampling::extrapolation, extrapolation())
+          .in_starter(
+              {"[0.9, 1.2]", "", "Above 1 features are stronger than scanned, below 1 weaker."}),
+      Key<Sampling>{"max_sources",
+                    [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
+                      if (is_word(node, "all")) return;
+                      const auto most = whole(1, kMostSources).read(node, draft);
+                      if (most) sampling.max_sources = static_cast<int>(*most);
+                    },
+                    [](const Sampling& sampling, const ConfigWriting&) {
+                      return sampling.max_sources ? concat(*sampling.max_sources) : "all";
+                    }}
+          .in_starter({"3", "", "How many heads lend their features to one face."}),
       key("age", &Sampling::age, age())};
   return keys;
 }

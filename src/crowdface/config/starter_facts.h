@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/core/units.h"
+
+namespace crowdface {
+
+/// What `crowdface init` knows about a folder of heads.
+struct StarterFacts {
+  std::filesystem::path heads;     ///< the folder, relative to where the config will be written
+  std::vector<std::string> names;  ///< of the heads
+  LengthUnit units = LengthUnit::kCentimetre;  ///< a guess, from the height
+  double head_height = 0;                      ///< of the first head, in its own units
+  Eigen::Index vertices = 0;                   ///< of each head
+  Axis up = {1, 1};
+  Axis front = {2, 1};
+  std::string crowd_name = "crowd";
+  std::string mask;  ///< of three bands, top, middle, bottom, from the config's folder; empty: none
+  std::vector<std::pair<std::string, std::vector<std::string>>> tags = {};  ///< heads and theirs
+};
+
+}  // namespace crowdface
