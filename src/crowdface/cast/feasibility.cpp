@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/feasibility.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace crowdface {
@@ -8,6 +9,8 @@ namespace {
 
 /// Draws that all tries together may take; one that has begun is finished.
 constexpr std::uint64_t kMostDraws = 100'000;
+/// Faces of one trial.
+constexpr std::uint64_t kMostTried = 1000;
 /// Near enough: what fails is at most this many times what works.
 constexpr double kNearEnough = 1.12;
 
@@ -19,13 +22,15 @@ double whole_hundredths(double mm) {
 
 Remedy find_remedy(const Casting& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
-                   const Shortfall& shortfall) {
+                   const Shortfall& shortfall, const std::function<void()>& tried) {
   Remedy remedy;
   remedy.binding = shortfall.rejections.most_frequent();
   Casting easier = casting;
   double* distance = nullptr;
   if (!shortfall.family.empty() || !shortfall.reviewed.empty()) return remedy;
   easier.reviews.clear();
+  easier.count = std::min(casting.count, kMostTried);
+  remedy.tried = easier.count;
   if (remedy.binding == Reason::kMinDistance) {
     distance = &easier.diversity.min_distance_mm;
   } else if (remedy.binding == Reason::kMinDistanceToFaces) {
@@ -39,14 +44,16 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
   // Faces fill a space of about five dimensions, so that many more fit at a little less distance.
   double works = 0, fails = *distance;
   double next = fails * std::pow((static_cast<double>(shortfall.reached) + 0.5) /
-                                     (static_cast<double>(casting.count) + 1),
+                                     (static_cast<double>(easier.count) + 1),
                                  0.2);
+  next = std::min(next, fails);
   for (std::uint64_t draws = 0; draws < kMostDraws || works == 0;) {
     *distance = whole_hundredths(next);
     if (*distance <= works) break;
     const FaceJudge judge(space, easier.diversity, believability, skin);
     const CrowdCast cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() + cast.crowd.size();
+    if (tried) tried();
     if (cast.shortfall) {
       fails = *distance;
       next = works > 0 ? std::sqrt(works * fails) : 0.7 * fails;
@@ -58,6 +65,21 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
     if (works > 0 && fails < kNearEnough * works) break;
   }
   return remedy;
+}
+
+std::optional<Shortfall> hopeless_spread(const Casting& casting, const FaceJudge& judge) {
+  constexpr std::uint64_t kBetter = 8;  // than one after the other, which comes to a half or more
+  const bool is_large = casting.count > kBetter * kMostTried;
+  if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
+      !(casting.diversity.min_distance_mm > 0)) {
+    return std::nullopt;
+  }
+  Casting first_fit = casting;
+  first_fit.diversity.mode = DiversityOptions::Mode::kFirstFit;
+  first_fit.diversity.candidates = 1;
+  first_fit.reviews.clear();
+  first_fit.count = kMostTried;
+  return cast_crowd(first_fit, judge).shortfall;
 }
 
 }  // namespace crowdface

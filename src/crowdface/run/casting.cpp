@@ -119,9 +119,10 @@ std::string asked_of(const Config& config, Reason reason) {
 std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   std::vector<std::string> advice;
   if (remedy.largest_mm) {
-    advice.push_back(concat("the largest ", name_of(remedy.binding), " with which all ",
-                            config.crowd.count, " were cast in a trial: ", *remedy.largest_mm,
-                            " mm"));
+    const bool all = remedy.tried == config.crowd.count;
+    advice.push_back(concat("the largest ", name_of(remedy.binding), " with which ",
+                            all ? "all " : "the first ", remedy.tried, " were cast in a trial: ",
+                            *remedy.largest_mm, " mm", all ? "" : "; so many more need less"));
   }
   if (remedy.binding == Reason::kMinDistance) {
     if (config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
@@ -223,14 +224,17 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   const BelievabilityOptions& believability = config.believability;
   const FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
   CrowdCast crowd;
-  {
+  crowd.shortfall = hopeless_spread(casting, judge);
+  if (!crowd.shortfall) {
     Progress progress("casting", casting.count);
     crowd = cast_crowd(casting, judge, [&] { progress.step(); });
   }
   if (crowd.shortfall) {
-    tell_shortfall(config,
-                   find_remedy(casting, space, believability, &judged_in.skin, *crowd.shortfall),
-                   *crowd.shortfall);
+    constexpr std::size_t kMostTrials = 20;
+    Progress progress("looking for what would help", kMostTrials);
+    const Remedy remedy = find_remedy(casting, space, believability, &judged_in.skin,
+                                      *crowd.shortfall, [&] { progress.step(); });
+    tell_shortfall(config, remedy, *crowd.shortfall);
   }
   Cast result;
   result.distances = measure(space, head_distances, crowd);
