@@ -10,6 +10,11 @@ function quoted(text) {
   return `"${escaped}"`;
 }
 
+/// A face's id as a key: of letters, digits, '_', '-' and '.', and `null` would be none.
+function key(id) {
+  return id.toLowerCase() === 'null' ? quoted(id) : id;
+}
+
 function formatMark(mark, regions) {
   if (!mark.note && !mark.lock?.length) return mark.verdict;
   const parts = [];
@@ -91,7 +96,7 @@ export class Review {
     const lines = this.crowd.faces
       .map((face) => [face, this.of(face)])
       .filter(([, mark]) => mark)
-      .map(([face, mark]) => `  ${face.id}: ${formatMark(mark, this.crowd.regions)}`);
+      .map(([face, mark]) => `  ${key(face.id)}: ${formatMark(mark, this.crowd.regions)}`);
     const faces = lines.length > 0 ? `faces:\n${lines.join('\n')}` : 'faces: {}';
     return `# Marks of the crowd ${this.crowd.name}, seed ${this.crowd.seed}: ` +
       `crowdface plan CONFIG --review THIS_FILE\nschema: 1\n${faces}\n`;

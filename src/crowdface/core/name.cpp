@@ -4,7 +4,7 @@
 namespace crowdface {
 
 bool is_name(std::string_view text, std::size_t longest) {
-  return !text.empty() && text.size() <= longest && text.front() != '.' &&
+  return !text.empty() && text.size() <= longest && text.front() != '.' && text != "__proto__" &&
          text.find_first_not_of(
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
              std::string_view::npos;
