@@ -64,6 +64,27 @@ TEST(Intersections, AreThoseOfTryingAllPairs) {
                   .empty());
 }
 
+// Of 60,000 at one vertex the pairs of boxes took a minute and a half for each face.
+TEST(Intersections, TrianglesAtAVertexOfVeryManyAreLeftOut) {
+  constexpr std::uint32_t kAround = 1001;
+  Positions positions(kAround + 4, 3);
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i <= kAround; ++i) {
+    positions.row(i) << std::cos(0.006 * i), std::sin(0.006 * i), 0;
+    if (i > 1) triangles.push_back({0, i - 1, i});
+  }
+  triangles.push_back({0, 1, kAround});
+  positions.row(0).setZero();
+  // Two that cross each other, and many of the others.
+  positions.row(kAround + 1) << -2, -2, -1;
+  positions.row(kAround + 2) << 2, -2, 1;
+  positions.row(kAround + 3) << 0, 2, 0.1;
+  triangles.push_back({kAround + 1, kAround + 2, kAround + 3});
+  EXPECT_TRUE(near_pairs(triangles, positions, 0).empty());
+  triangles.erase(triangles.begin(), triangles.begin() + 2);
+  EXPECT_FALSE(near_pairs(triangles, positions, 0).empty());
+}
+
 TEST(Intersections, NearPairsGrowWithTheMargin) {
   const Sheet sheet;
   const Positions positions = sheet.lie(flat);

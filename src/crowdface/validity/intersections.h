@@ -13,7 +13,8 @@ namespace crowdface {
 using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Pairs of triangles without a common vertex whose boxes, grown by `margin` on all sides, overlap;
-/// ascending. The broad phase is Embree's (rtcCollide).
+/// ascending. The broad phase is Embree's (rtcCollide). Triangles at a vertex of more than a thousand
+/// are left out.
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin);
 
