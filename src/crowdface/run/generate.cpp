@@ -155,6 +155,19 @@ StageBusy build_missing(const CrowdDirectory& directory, const std::vector<CastF
   return built.busy;
 }
 
+/// Copies what meshes name. \return all warnings so far, for the report.
+std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& directory,
+                                         const Cast& cast, Ledger& ledger) {
+  std::vector<std::string> warnings = job.inputs.warnings;
+  if (auto text = near_heads(cast, job.names.heads)) warnings.push_back(std::move(*text));
+  const auto& formats = job.config.output.meshes;
+  if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) == formats.end()) return warnings;
+  for (std::string& text : copy_materials(job.inputs, directory, cast.crowd, ledger)) {
+    warnings.push_back(std::move(text));
+  }
+  return warnings;
+}
+
 /// Everything after the crowd is cast and the folder is ready.
 void fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& cast_job,
                     const GenerateOptions& options, Purpose purpose, Lazy<FaceStages>& face_stages,
@@ -168,7 +181,6 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& ca
   write(directory.config(), effective_config(job.config, directory.root));
   write_plan(job, directory, cast, write);
 
-  const auto& formats = job.config.output.meshes;
   const auto& sheet = job.config.output.contact_sheet;
   const bool judged = skin_is_judged(job.config, job.inputs);
   const FaceLedger face_ledger(ledger, job, directory,
@@ -177,14 +189,8 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& ca
   const std::size_t built = so_far.todo.size();
   if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);
 
-  std::vector<std::string> warnings = job.inputs.warnings;
-  if (auto text = near_heads(cast, job.names.heads)) warnings.push_back(std::move(*text));
-  if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) != formats.end()) {
-    for (std::string& text : copy_materials(job.inputs, directory, crowd, ledger)) {
-      warnings.push_back(std::move(text));
-    }
-  }
-  write_shared_arrays(job.inputs, formats, directory, ledger);
+  std::vector<std::string> warnings = write_materials(job, directory, cast, ledger);
+  write_shared_arrays(job.inputs, job.config.output.meshes, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory);
   });
