@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "crowdface/core/log.h"
@@ -29,8 +28,8 @@ Run add_cache(CLI::App& program) {
           return;
         }
         const CacheContents contents = list_cache(folder);
-        std::cout << concat(folder.string(), "\n", contents.entries.size(), " prepared heads, ",
-                            format_fixed(static_cast<double>(contents.bytes) / 1e6, 1), " MB\n");
+        print(concat(folder.string(), "\n", contents.entries.size(), " prepared heads, ",
+                     format_fixed(static_cast<double>(contents.bytes) / 1e6, 1), " MB\n"));
       });
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "crowdface/config/input_files.h"
@@ -21,7 +20,7 @@ namespace {
 void describe(const Job& job) {
   const Inputs& inputs = job.inputs;
   const auto& boundary = inputs.adjacency.boundary;
-  std::cout << concat(
+  print(concat(
       job.config.file.string(), " is fine\n", "heads       ", job.names.heads.size(), ": ",
       join(job.names.heads), "\ntopology    ", inputs.faces.topology.vertex_count, " vertices, ",
       inputs.faces.topology.face_count(), " faces, ", inputs.components.count(), " components, ",
@@ -33,7 +32,7 @@ void describe(const Job& job) {
       " mm\n", "parts       ", describe_parts(job.config, inputs), "\nregions     ",
       join(job.names.regions), "\n", "faces       ", job.config.crowd.count, " sampled, ",
       job.config.recipes.size(), " by hand\n", "output      ", job.config.output.directory.string(),
-      "\n");
+      "\n"));
 }
 
 /// One picture a region, its mask on the mean head.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <system_error>
 
 #include "crowdface/core/error.h"
@@ -141,6 +142,10 @@ GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) con
     part = *given;
   }
   return {cache, force ? Replace::kForce : Replace::kRefuse, dry_run, bytes, part};
+}
+
+void print(std::string_view text) {
+  std::cout << printable(text);
 }
 
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,

@@ -72,6 +72,9 @@ CLI::Option* add_option(CLI::App& command, const std::string& name, std::string&
 void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values,
                   const std::string& type, const std::string& help);
 
+/// What a command is asked for, on standard output: made printable, as logs are.
+void print(std::string_view text);
+
 /// A whole number between the two, or \throws UsageError naming the option.
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
                            std::uint64_t most);

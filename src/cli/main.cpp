@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -40,6 +42,20 @@ constexpr const char* kFooter =
     "66 input missing, 70 a bug, 73/74 output failed, 75 interrupted (run again to go on).\n"
     "`crowdface COMMAND --help` explains a command; docs/config.md explains every config key.";
 
+constexpr const char* kLack =
+    "the system gives no more of what the run needs (threads, memory, open files); fewer threads "
+    "(--threads) need less: ";
+
+/// TBB tells of a thread that cannot be started by the system's words alone.
+bool is_lack_of_resources(const std::exception& error) {
+  const std::string_view what = error.what();
+  for (const std::errc lack : {std::errc::resource_unavailable_try_again,
+                               std::errc::not_enough_memory, std::errc::too_many_files_open}) {
+    if (what.find(std::make_error_code(lack).message()) != what.npos) return true;
+  }
+  return false;
+}
+
 /// The one place where errors become messages and exit codes.
 int run(const Run& command) {
   try {
@@ -55,13 +71,37 @@ int run(const Run& command) {
   } catch (const std::filesystem::filesystem_error& error) {
     log_error(error.what());
     return static_cast<int>(ExitCode::kIoError);
+  } catch (const std::system_error& error) {
+    log_error(concat(kLack, error.what()));
+    return static_cast<int>(ExitCode::kIoError);
   } catch (const std::bad_alloc&) {
     log_error("out of memory; fewer threads (--threads) need less");
     return static_cast<int>(ExitCode::kIoError);
   } catch (const std::exception& error) {
+    if (is_lack_of_resources(error)) {
+      log_error(concat(kLack, error.what()));
+      return static_cast<int>(ExitCode::kIoError);
+    }
     log_error(concat("internal error, please report it: ", error.what()));
     return static_cast<int>(ExitCode::kBug);
   }
+}
+
+/// Where memory runs out within a destructor or a thread of a library, nothing can be caught.
+[[noreturn]] void end_at_once() {
+  std::string_view text =
+      "error: out of memory where nothing can be undone; run the same command again, with fewer "
+      "threads (--threads)\n";
+  auto code = ExitCode::kIoError;
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+  } catch (...) {
+    text = "error: internal error, please report it\n";
+    code = ExitCode::kBug;
+  }
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  ::_exit(static_cast<int>(code));
 }
 
 /// CLI11 says of a command it does not know only that one is required.
@@ -76,6 +116,19 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
                                   : concat("; expected one of ", join(names))));
 }
 
+/// No option and no argument means anything if it is empty, as `--shard "$PART"` is when nobody has set
+/// PART. (CLI11 takes it.)
+void refuse_empty_values(const CLI::App& program) {
+  for (const CLI::App* command : program.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& value : option->results()) {
+        if (!value.empty()) continue;
+        throw UsageError(concat(option->get_name(), ": expected a value, found an empty one"));
+      }
+    }
+  }
+}
+
 /// A file opened while one of them is closed would get its number, and then what is said to a user.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -86,6 +139,7 @@ void open_standard_streams() {
 }
 
 int run_program(int argc, char** argv) {
+  std::set_terminate(end_at_once);
   open_standard_streams();
   // A file beyond the limit and a closed pipe are failed writes, with a message.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -111,9 +165,13 @@ int run_program(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else is wrong usage.
-    if (program.exit(error) != 0) return static_cast<int>(ExitCode::kUsage);
-    return run([] {});
+    std::ostringstream out, problem;
+    const bool failed = program.exit(error, out, problem) != 0;
+    std::cout << out.str();
+    std::cerr << printable(problem.str());
+    return failed ? static_cast<int>(ExitCode::kUsage) : run([] {});
   }
+  if (const int code = run([&] { refuse_empty_values(program); }); code != 0) return code;
   catch_interrupts();
   return run([&] {
     if (const char* set =

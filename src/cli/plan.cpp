@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 
 #include "crowdface/run/estimate.h"
 #include "crowdface/run/generate.h"
@@ -30,7 +29,7 @@ Run add_plan(CLI::App& program) {
         const ConfigOptions& job = options.config;
         const std::filesystem::path cache = options.config.cache_path();
         if (options.estimate) {
-          std::cout << estimate(job.config, job.overrides, cache);
+          print(estimate(job.config, job.overrides, cache));
         } else {
           plan(job.config, job.overrides, options.write.with_cache(cache));
         }

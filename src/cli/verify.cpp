@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/crowd/verify.h"
 
-#include <iostream>
 #include <memory>
 
 #include "crowdface/core/error.h"
@@ -14,7 +13,7 @@ namespace crowdface::cli {
 namespace {
 
 void tell(const char* what, const std::vector<std::string>& names) {
-  for (const std::string& name : names) std::cout << what << name << '\n';
+  for (const std::string& name : names) print(concat(what, name, "\n"));
 }
 
 std::string count(std::size_t number, const char* what) {
@@ -44,7 +43,7 @@ void verify(const Options& options) {
                               check.remarks.empty() ? "" : "; " + join(check.remarks, "; "),
                               "; crowdface generate with the crowd's config mends that"));
   }
-  std::cout << options.directory << ": all " << check.files << " files are as they were written\n";
+  print(concat(options.directory, ": all ", check.files, " files are as they were written\n"));
 }
 
 }  // namespace

@@ -44,6 +44,34 @@ TEST(Usage, WrongCommandLinesAre64) {
   crowdface(64, {"generate"}, {"config"});
 }
 
+// `--shard "$PART"` with PART unset ran everything, `synth -o ""` filled the folder it was called in.
+TEST(Usage, EmptyValuesAre64) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const std::string config = folder.config().string();
+  for (const char* option : {"--shard", "--out", "--cache", "--seed", "--count", "--set",
+                             "--memory", "--log-file", "--threads", "--limit"}) {
+    crowdface(64, {"generate", config, option, ""}, {option, "empty"});
+  }
+  crowdface(64, {"synth", "-o", ""}, {"empty"});
+  crowdface(64, {"generate", ""}, {"config", "empty"});
+  crowdface(64, {"verify", ""}, {"empty"});
+  EXPECT_FALSE(fs::exists(folder.out()));
+}
+
+// A texture's name could turn a terminal red, or write backwards.
+TEST(Usage, NothingThatATerminalObeysIsPrinted) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const std::string odd = "\x1b[31m\xC2\x9B\xE2\x80\xAE";
+  for (const Outcome& outcome :
+       {crowdface(66, {"check", (folder / ("no" + odd + ".yaml")).string()}),
+        crowdface(64, {"check", folder.config().string(), "--no" + odd}),
+        crowdface(66, {"verify", (folder / odd).string()})}) {
+    for (const char* part : {"\x1b", "\xC2\x9B", "\xE2\x80\xAE"}) {
+      EXPECT_EQ((outcome.out + outcome.err).find(part), std::string::npos) << outcome.err;
+    }
+  }
+}
+
 TEST(Usage, WrongNumbersAre64AndChangeNothing) {
   const SmallCrowdFolder folder(SmallCrowd{});
   const std::string config = folder.config().string();

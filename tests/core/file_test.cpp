@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -73,6 +74,28 @@ TEST(MakeDirectories, RefusesWhereAFileStands) {
   EXPECT_NO_THROW(make_directories(folder.path() / "b" / "c"));
   // `synth --mask m.png` asked for the folder of a bare name.
   EXPECT_NO_THROW(make_directories(std::filesystem::path("m.png").parent_path()));
+}
+
+// The process died of SIGBUS.
+TEST(MappedFile, CutWhileItIsMappedItReadsAsZerosAndTellsOrEndsWithAWord) {
+  const testing::TemporaryFolder folder;
+  const std::string bytes(20'000, 'x');
+  const std::filesystem::path path = folder.write("mapped", bytes);
+  const MappedFile filled(path, WhenCut::kFill);
+  EXPECT_EQ(filled.bytes(), bytes);
+  EXPECT_FALSE(filled.was_cut());
+  ASSERT_EQ(::truncate(path.c_str(), 5000), 0);
+  EXPECT_TRUE(filled.was_cut());
+  EXPECT_EQ(filled.bytes()[4000], 'x');
+  EXPECT_EQ(filled.bytes()[6000], '\0');
+  EXPECT_EQ(filled.bytes()[19'999], '\0');
+  folder.write("mapped", bytes);
+  const auto cut_and_read = [&] {
+    const MappedFile mapped(path);
+    [[maybe_unused]] const int cut = ::truncate(path.c_str(), 5000);
+    std::_Exit(mapped.bytes()[19'999] == 'x' ? 1 : 2);
+  };
+  EXPECT_EXIT(cut_and_read(), ::testing::ExitedWithCode(74), "mapped: was cut while");
 }
 
 }  // namespace

@@ -44,6 +44,9 @@ TEST(NearestWord, SuggestsOnlyWhatIsNear) {
 }
 
 TEST(Quoted, EscapesAndShortens) {
+  EXPECT_EQ(quoted("\xC2\x9B"
+                   "1m\xE2\x80\xAE"),
+            "\"\\xc2\\x9b1m\\xe2\\x80\\xae\"");
   EXPECT_EQ(quoted("a\"b\n"), "\"a\\\"b\\x0a\"");
   EXPECT_LT(quoted(std::string(1000, 'x')).size(), 100U);
   EXPECT_EQ(quoted(std::string(80, 'x')), '"' + std::string(80, 'x') + '"');
@@ -65,6 +68,17 @@ TEST(Quoted, IsUtf8WhateverTheTextIs) {
 TEST(Concat, TakesTextAndNumbers) {
   EXPECT_EQ(concat("a", 1, ' ', 2.5, std::string("b")), "a1 2.5b");
   EXPECT_EQ(join({"a", "b", "c"}), "a, b, c");
+}
+
+TEST(Printable, NothingReachesATerminalThatItWouldObey) {
+  EXPECT_EQ(printable("two\nlines, über „名“"), "two\nlines, über „名“");
+  EXPECT_EQ(printable("\x1b[31m\r\t\x7f"), "\\x1b[31m\\x0d\\x09\\x7f");
+  for (const char* character :
+       {"\xC2\x80", "\xC2\x9F", "\xD8\x9C", "\xE2\x80\x8E", "\xE2\x80\xA8", "\xE2\x80\xAE",
+        "\xE2\x81\xA6", "\xE2\x81\xA9", "\xEF\xBB\xBF", "\xE4", "\xC2"}) {
+    EXPECT_EQ(printable(character).find_first_not_of("\\x0123456789abcdef"), std::string::npos);
+  }
+  EXPECT_EQ(printable("\xC2\xA0\xE2\x80\x8D\xE2\x82\xAC"), "\xC2\xA0\xE2\x80\x8D\xE2\x82\xAC");
 }
 
 }  // namespace

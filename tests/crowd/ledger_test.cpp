@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 
 #include "support/temporary_folder.h"
@@ -136,6 +137,24 @@ TEST_F(LedgerOfAFolder, SettledHoldsWhatThisRunUsedInOneOrder) {
   std::vector<std::string> items;
   for (const LedgerEntry& entry : read_ledger(path()).entries) items.push_back(entry.item);
   EXPECT_THAT(items, ::testing::ElementsAre("a", "b", "c"));
+}
+
+TEST_F(LedgerOfAFolder, FinishedKnowsHowManyFilesOfEachKindThereAre) {
+  folder_.write("meshes/a.obj", "a");
+  folder_.write("sheets/s.png", "s");
+  folder_.write("sheets/t.png", "t");
+  const fs::path own = folder_ / "ledger.jsonl";
+  Ledger ledger(folder_.path(), own, {});
+  ledger.record("faces/a", {}, {"meshes/a.obj"});
+  ledger.record("sheets", {}, {"sheets/s.png", "sheets/t.png"});
+  ledger.write("plan.jsonl", "plan");
+  ledger.settle();
+  EXPECT_TRUE(read_ledger(own).complete);
+  const std::string text = testing::read_text(own);
+  EXPECT_NE(text.find(R"("note":{".":1,"meshes":1,"sheets":2})"), text.npos) << text;
+  EXPECT_NO_THROW(ledger.require_files());
+  fs::remove(folder_ / "sheets/t.png");
+  EXPECT_THROW(ledger.require_files(), IoError);
 }
 
 TEST_F(LedgerOfAFolder, NoLineOutdoesAnotherOfTheSameItem) {

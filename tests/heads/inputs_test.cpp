@@ -50,6 +50,29 @@ void expect_refused(const SmallCrowdFolder& folder, ExitCode code,
   EXPECT_FALSE(fs::exists(folder.cache()));
 }
 
+TEST(Inputs, HeadsFarFromTheOriginAreWarnedOf) {
+  const auto warnings_at = [](double cm) {
+    const SmallCrowdFolder folder{SmallCrowd{}};
+    for (const std::string& head : folder.names()) {
+      edit(folder, head, [&](Lines& lines) {
+        for (std::string& line : lines) {
+          if (!line.starts_with("v ")) continue;
+          std::istringstream numbers(line.substr(2));
+          double x = 0, y = 0, z = 0;
+          numbers >> x >> y >> z;
+          line = concat("v ", x + cm, ' ', y, ' ', z);
+        }
+      });
+    }
+    return join(load_job(folder.config(), {}).inputs.warnings);
+  };
+  EXPECT_EQ(warnings_at(0).find("origin"), std::string::npos);
+  EXPECT_NE(
+      warnings_at(1e6).find("10000 m from the origin, where meshes, in single precision, lose "
+                            "up to 0.60 mm"),
+      std::string::npos);
+}
+
 TEST(Inputs, OtherVertexCountsAreRefused) {
   const SmallCrowdFolder more{SmallCrowd{}};
   edit(more, "cyd", [](Lines& lines) {

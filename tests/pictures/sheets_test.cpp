@@ -63,6 +63,17 @@ TEST(SheetLabel, HasALineForEachThingAskedFor) {
             "\nmob_0001");
 }
 
+// A plan holds four decimals: sheets made anew from it said 32.31 where the run had said 32.32.
+TEST(SheetLabel, SaysTheSameOfARunAndOfItsPlan) {
+  std::vector<CastFace> crowd = three_faces();
+  crowd[2].notes.nearest->head_mm = 32.31499996;
+  const std::string of_run =
+      sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(), {"ann", "bob"});
+  crowd[2].notes.nearest->head_mm = 32.315;
+  EXPECT_EQ(of_run,
+            sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(), {"ann", "bob"}));
+}
+
 TEST(LikenessFile, ReadsBackWhatWasWritten) {
   const testing::TemporaryFolder folder;
   const PlanNames names{{"ann", "bob"}, {"all"}};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test 5 of docs/reliability.md: a damaged cache is made anew, and changes nothing.
+#include <csignal>
 #include <random>
+
+#include <unistd.h>
 
 #include "crowdface/core/text.h"
 
@@ -73,6 +76,62 @@ TEST_F(DamagedCache, AnyFlippedBitIsNoticed) {
     damaged.push_back(std::move(bytes));
   }
   expect_mended(damaged);
+}
+
+/// Cuts every entry of the cache, or what else is named, when the signal comes.
+std::vector<std::string> doomed;
+void cut_them(int) {
+  for (const std::string& file : doomed) {
+    [[maybe_unused]] const int cut = ::truncate(file.c_str(), 4096);
+  }
+}
+
+// The run died of SIGBUS, without a word.
+TEST_F(DamagedCache, CutWhileItIsInUseItIsMadeAnewAndTheRunGoesOn) {
+  doomed.clear();
+  for (const fs::path& entry : list_cache(folder_.cache()).entries) {
+    if (fs::file_size(entry) > 8192) doomed.push_back(entry.string());
+  }
+  ASSERT_FALSE(doomed.empty());
+  std::map<std::string, std::string> entries;
+  for (const std::string& file : doomed) entries[file] = read_text(file);
+  int in_use = 0;
+  for (std::uint64_t call = 0; call < undisturbed_.calls; call += 5) {
+    fs::remove_all(folder_.out());
+    for (const auto& [file, bytes] : entries) write_file(file, bytes);
+    const ChildOutcome outcome =
+        run_with_fault(folder_.out(), {Fault::Kind::kSignal, call, SIGUSR1}, [&] {
+          std::signal(SIGUSR1, cut_them);
+          generate_here();
+        });
+    ASSERT_TRUE(outcome.struck);
+    EXPECT_EQ(outcome.code, 0) << call << ": " << outcome.message;
+    EXPECT_THAT(differences(), ::testing::IsEmpty()) << call;
+    if (read_text(folder_.out() / "crowdface.log").find("cut while it was in use") !=
+        std::string::npos) {
+      ++in_use;
+    }
+  }
+  EXPECT_GT(in_use, 3);
+}
+
+// A checksum that is right is no proof that we wrote it: one such entry aborted in the ray tracer.
+TEST_F(DamagedCache, NumbersThatNoHeadHasAreNotUsed) {
+  for (const fs::path& entry : list_cache(folder_.cache()).entries) {
+    std::string bytes = read_text(entry);
+    const float huge = 1e30F;
+    bytes.replace(bytes.size() - sizeof(Digest) - sizeof huge, sizeof huge,
+                  reinterpret_cast<const char*>(&huge), sizeof huge);
+    const Digest sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof sum));
+    bytes.replace(bytes.size() - sizeof sum, sizeof sum, reinterpret_cast<const char*>(&sum),
+                  sizeof sum);
+    write_file(entry, bytes);
+  }
+  fs::remove_all(folder_.out());
+  EXPECT_EQ(run({}).code, 0);
+  EXPECT_THAT(differences(), ::testing::IsEmpty());
+  EXPECT_THAT(read_text(folder_.out() / "crowdface.log"),
+              ::testing::HasSubstr("numbers that no head has"));
 }
 
 }  // namespace

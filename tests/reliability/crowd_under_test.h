@@ -57,7 +57,11 @@ class DisturbedCrowd : public ::testing::Test {
     generate(folder_.config(), overrides, {folder_.cache(), Replace::kRefuse, false});
   }
 
-  std::map<std::string, std::string> files() const { return crowd_files(folder_.out()); }
+  /// None if what failed was the first look at the folder, before it was made.
+  std::map<std::string, std::string> files() const {
+    if (!std::filesystem::exists(folder_.out())) return {};
+    return crowd_files(folder_.out());
+  }
 
   /// Files that are not those of the undisturbed run.
   std::vector<std::string> differences() const { return differing_files(whole_, files()); }

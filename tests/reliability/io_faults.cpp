@@ -8,12 +8,15 @@
 #include <cstdarg>
 #include <cstring>
 #include <ctime>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -60,8 +63,9 @@ void set_watched(int fd, bool watched) {
 }
 
 /// Makes one watched call, or what the fault makes of it.
-template <class Call, class HalfCall>
-auto watched_call(const Call& call, const HalfCall& half) {
+/// \param failed  what it returns if it fails.
+template <class Call, class HalfCall, class Result>
+auto watched_call(const Call& call, const HalfCall& half, Result failed) {
   const bool now = watch->calls++ == fault_in_force.at;
   using Kind = Fault::Kind;
   if (!now) return call();
@@ -69,7 +73,7 @@ auto watched_call(const Call& call, const HalfCall& half) {
     case Kind::kFail:
       watch->struck = true;
       errno = fault_in_force.error;
-      return decltype(call())(-1);
+      return static_cast<decltype(call())>(failed);
     case Kind::kSignal:
       watch->struck = true;
       ::kill(::getpid(), fault_in_force.error);
@@ -89,8 +93,12 @@ auto watched_call(const Call& call, const HalfCall& half) {
 
 template <class Call>
 auto watched_call(const Call& call) {
-  return watched_call(call, [] {});
+  return watched_call(
+      call, [] {}, -1);
 }
+
+/// Folders that are being listed. (One thread lists at a time.)
+std::set<DIR*> watched_listings;
 
 }  // namespace
 
@@ -105,6 +113,11 @@ int __real_dup(int fd);
 int __real_rename(const char* from, const char* to);
 int __real_unlink(const char* path);
 int __real_flock(int fd, int operation);
+int __real_fstat(int fd, struct stat* status);
+void* __real_mmap(void* at, size_t size, int protection, int flags, int fd, off_t offset);
+DIR* __real_opendir(const char* path);
+dirent* __real_readdir(DIR* folder);
+int __real_closedir(DIR* folder);
 
 int __wrap_open(const char* path, int flags, ...) {
   mode_t mode = 0;
@@ -141,7 +154,7 @@ ssize_t __wrap_write(int fd, const void* from, size_t size) {
   }
   watch->written += size;
   return watched_call([&] { return __real_write(fd, from, size); },
-                      [&] { __real_write(fd, from, size / 2); });
+                      [&] { __real_write(fd, from, size / 2); }, -1);
 }
 
 int __wrap_fsync(int fd) {
@@ -174,6 +187,39 @@ int __wrap_unlink(const char* path) {
 int __wrap_flock(int fd, int operation) {
   if (!watches(fd)) return __real_flock(fd, operation);
   return watched_call([&] { return __real_flock(fd, operation); });
+}
+
+int __wrap_fstat(int fd, struct stat* status) {
+  if (!watches(fd)) return __real_fstat(fd, status);
+  return watched_call([&] { return __real_fstat(fd, status); });
+}
+
+void* __wrap_mmap(void* at, size_t size, int protection, int flags, int fd, off_t offset) {
+  const auto call = [&] { return __real_mmap(at, size, protection, flags, fd, offset); };
+  return watches(fd) ? watched_call(
+                           call, [] {}, MAP_FAILED)
+                     : call();
+}
+
+DIR* __wrap_opendir(const char* path) {
+  const auto call = [&] { return __real_opendir(path); };
+  if (!watches(path)) return call();
+  DIR* folder = watched_call(
+      call, [] {}, nullptr);
+  if (folder != nullptr) watched_listings.insert(folder);
+  return folder;
+}
+
+dirent* __wrap_readdir(DIR* folder) {
+  const auto call = [&] { return __real_readdir(folder); };
+  return watched_listings.contains(folder) ? watched_call(
+                                                 call, [] {}, nullptr)
+                                           : call();
+}
+
+int __wrap_closedir(DIR* folder) {
+  watched_listings.erase(folder);
+  return __real_closedir(folder);
 }
 
 // Libraries ask a program that has them for these, before the C library.

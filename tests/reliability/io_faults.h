@@ -11,8 +11,8 @@
 
 namespace crowdface::testing {
 
-/// What happens at one of the calls that concern files below a folder: open, read, write, fsync,
-/// close, rename, unlink, flock.
+/// What happens at one of the calls that concern files and folders below a folder: open, read, write,
+/// fsync, close, rename, unlink, flock, fstat, mmap, opendir, readdir.
 struct Fault {
   enum class Kind {
     kNone,

@@ -279,17 +279,62 @@ TEST_F(Refusals, FoldersThatCannotBeWrittenToAreRefusedBeforeTheWork) {
   }
 }
 
-TEST_F(Refusals, AFolderThatVanishesIsToldAndMadeAgain) {
-  const ChildOutcome outcome =
-      run_with_fault(folder_.out(), {Fault::Kind::kSignal, 40, SIGUSR1}, [&] {
-        static std::string doomed;
-        doomed = folder_.out().string();
-        std::signal(SIGUSR1, [](int) { fs::remove_all(doomed); });
-        generate(folder_.config(), {}, {folder_.cache(), Replace::kRefuse, false});
-      });
-  EXPECT_TRUE(outcome.struck);
-  EXPECT_TRUE(outcome.code == 73 || outcome.code == 74) << outcome.code << outcome.message;
+// A run whose folder was removed sometimes ended well, without plan and config.
+TEST_F(Refusals, AFolderThatVanishesAtAnyMomentIsTold) {
+  const auto run_until = [&](std::uint64_t call) {
+    return run_with_fault(folder_.out(), {Fault::Kind::kSignal, call, SIGUSR1}, [&] {
+      static std::string doomed, elsewhere;
+      doomed = folder_.out().string();
+      elsewhere = (folder_ / "elsewhere").string();
+      std::signal(SIGUSR1, [](int) { ::rename(doomed.c_str(), elsewhere.c_str()); });
+      generate(folder_.config(), {}, {folder_.cache(), Replace::kRefuse, false});
+    });
+  };
+  const std::uint64_t calls = run_until(1'000'000).calls;
+  int told = 0;
+  for (std::uint64_t call = 0; call < calls; call += 7) {
+    fs::remove_all(folder_.out());
+    fs::remove_all(folder_ / "elsewhere");
+    const ChildOutcome outcome = run_until(call);
+    ASSERT_TRUE(outcome.struck) << call;
+    if (outcome.code != 0) ++told;
+    if (outcome.code == 0) {  // nothing was there yet, or all was done
+      EXPECT_TRUE(call < 10 || call + 10 > calls) << call;
+    } else {
+      EXPECT_TRUE(outcome.code == 73 || outcome.code == 74) << outcome.code << outcome.message;
+    }
+  }
+  EXPECT_GT(told, 10);
   EXPECT_EQ(run({}).code, 0);
+}
+
+// What was removed was outside the crowd.
+TEST_F(Refusals, LeftoversAreNotRemovedThroughLinks) {
+  ASSERT_EQ(run({}).code, 0);
+  const fs::path mine = folder_.folder().write("elsewhere/.crowdface-1-0.tmp", "mine");
+  fs::create_directory_symlink(folder_ / "elsewhere", folder_.out() / "notes");
+  folder_.folder().write("out/more/.crowdface-1-0.tmp", "left over");
+  EXPECT_EQ(run({}).code, 0);
+  EXPECT_TRUE(fs::exists(mine));
+  EXPECT_FALSE(fs::exists(folder_.out() / "more/.crowdface-1-0.tmp"));
+}
+
+TEST_F(Refusals, TexturesBehindLinksOutOfTheHeadsFolderAreNotCopied) {
+  folder_.folder().write("secret.png", "secret");
+  fs::create_directories(folder_ / "elsewhere");
+  folder_.folder().write("elsewhere/secret.png", "secret");
+  fs::create_symlink(folder_ / "secret.png", folder_ / "heads/link.png");
+  fs::create_directory_symlink(folder_ / "elsewhere", folder_ / "heads/deep");
+  folder_.folder().write("heads/inside.png", "inside");
+  fs::create_symlink(folder_ / "heads/inside.png", folder_ / "heads/fine.png");
+  folder_.folder().write("heads/bowl.mtl",
+                         "newmtl skin\nmap_Kd link.png\nmap_Ks deep/secret.png\nmap_Ka fine.png\n");
+  EXPECT_EQ(run({}).code, 0);
+  const auto files = crowd_files(folder_.out());
+  for (const auto& [name, bytes] : files) EXPECT_NE(bytes, "secret") << name;
+  EXPECT_TRUE(files.contains("meshes/fine.png"));
+  EXPECT_THAT(files.at("report.json"),
+              ::testing::HasSubstr("link.png\\\" is a link that leads out"));
 }
 
 }  // namespace

@@ -213,6 +213,16 @@ TEST_F(Resume, HeadsThatHaveChangedSinceAreRefused) {
   testing::expect_error(ExitCode::kUsage, {"other heads"}, [&] { run(); });
 }
 
+// Sheets and gallery showed other heads, and verify found nothing.
+TEST_F(Resume, SheetsOfHeadsThatHaveChangedSinceAreRefused) {
+  const std::string ann = testing::read_text(folder_.head("ann"));
+  folder_.folder().write("heads/ann.obj", testing::read_text(folder_.head("bob")));
+  folder_.folder().write("heads/bob.obj", ann);
+  testing::expect_error(ExitCode::kUsage, {folder_.out().string(), "other heads"},
+                        [&] { remake_sheets(folder_.out(), {}, folder_.cache()); });
+  expect_whole("refused");
+}
+
 TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {
   edit_a_head();
   run({1, 2});
@@ -263,6 +273,27 @@ TEST_F(Resume, LeftoversOfAKilledRunAreRemoved) {
   }
   run();
   expect_whole("leftovers removed");
+}
+
+// They were removed for their names.
+TEST_F(Resume, PicturesOfTheUsersAmongSheetsAreKept) {
+  folder_.folder().write("out/sheets/family_photo.png", "mine");
+  remake_sheets(folder_.out(), {"output.contact_sheet.cell=40"}, folder_.cache());
+  EXPECT_EQ(testing::read_text(folder_.out() / "sheets/family_photo.png"), "mine");
+  const auto recorded = testing::read_text(folder_.out() / "ledger.jsonl");
+  EXPECT_EQ(recorded.find("photo"), recorded.npos);
+  ConfigOverrides other;
+  other.seed = "12";
+  generate(folder_.config(), other, {folder_.cache(), Replace::kForce, false});
+  EXPECT_EQ(testing::read_text(folder_.out() / "sheets/family_photo.png"), "mine");
+}
+
+TEST_F(Resume, SheetsOfACrowdWithoutFacesAreNone) {
+  ConfigOverrides none;
+  none.count = "0";
+  generate(folder_.config(), none, {folder_.cache(), Replace::kForce, false});
+  EXPECT_NO_THROW(remake_sheets(folder_.out(), {}, folder_.cache()));
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
 }
 
 TEST_F(Resume, AnotherConfigReplacesLedgerAndAll) {

@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include <unistd.h>
+
 #include "crowdface/core/error.h"
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"

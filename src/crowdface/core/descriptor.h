@@ -31,6 +31,8 @@ class Descriptor {
   }
   int get() const { return fd_; }
   bool valid() const { return fd_ >= 0; }
+  /// Leaves it to the caller to close it.
+  int release() { return std::exchange(fd_, -1); }
   /// Closes and tells whether that worked: on some file systems a write fails only here.
   bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 

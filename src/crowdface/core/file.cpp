@@ -2,48 +2,16 @@
 #include "crowdface/core/file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <utility>
-
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/opened_file.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct OpenedFile {
-  Descriptor descriptor;
-  std::size_t size;
-};
-
-OpenedFile open_for_reading(const fs::path& path) {
-  int fd = -1;
-  do {  // a pipe, which would be waited for, is told below
-    fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  } while (fd < 0 && errno == EINTR);
-  if (fd < 0) {
-    const std::string message = concat(path.string(), ": cannot be opened: ", reason());
-    // Not the file's fault, but the machine's: the disk, or too many open files.
-    for (const int failure : {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, ESTALE}) {
-      if (errno == failure) throw IoError(message);
-    }
-    throw MissingInput(message);
-  }
-  struct stat status {};
-  if (::fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
-    ::close(fd);
-    throw MissingInput(concat(path.string(), ": expected a regular file"));
-  }
-  return {Descriptor(fd), static_cast<std::size_t>(status.st_size)};
-}
 
 /// \return 0 at the end of the file.
 std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
@@ -93,29 +61,6 @@ bool holds(const std::filesystem::path& path, const FileDigest& content) {
   } catch (const Error&) {
     return false;
   }
-}
-
-MappedFile::MappedFile(const fs::path& path) {
-  const OpenedFile file = open_for_reading(path);
-  if (file.size == 0) return;
-  void* data = ::mmap(nullptr, file.size, PROT_READ, MAP_PRIVATE, file.descriptor.get(), 0);
-  if (data == MAP_FAILED)
-    throw MissingInput(concat(path.string(), ": cannot be mapped: ", reason()));
-  data_ = static_cast<const char*>(data);
-  size_ = file.size;
-}
-
-MappedFile::~MappedFile() {
-  if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
-}
-
-MappedFile::MappedFile(MappedFile&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-  std::swap(data_, other.data_);
-  std::swap(size_, other.size_);
-  return *this;
 }
 
 }  // namespace crowdface

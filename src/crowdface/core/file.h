@@ -26,21 +26,31 @@ FileDigest hash_file(const std::filesystem::path& path);
 /// Whether the file holds just that; a file that cannot be read does not.
 bool holds(const std::filesystem::path& path, const FileDigest& content);
 
+/// What becomes of the process when somebody cuts a file that it has mapped.
+enum class WhenCut {
+  kEnd,  ///< it ends with 74 and the file's name
+  kFill  ///< what is gone reads as zeros, and `was_cut` tells
+};
+
 /// A file's bytes mapped read-only for as long as the object lives; the pages belong to the system,
 /// so that large inputs cost no memory of ours.
 class MappedFile {
  public:
   MappedFile() = default;
-  /// \throws MissingInput if the file cannot be opened or is no regular file.
-  explicit MappedFile(const std::filesystem::path& path);
+  /// \throws MissingInput if the file cannot be opened or is no regular file; IoError.
+  explicit MappedFile(const std::filesystem::path& path, WhenCut when_cut = WhenCut::kEnd);
   ~MappedFile();
   MappedFile(MappedFile&& other) noexcept;
   MappedFile& operator=(MappedFile&& other) noexcept;
   std::string_view bytes() const { return {data_, size_}; }
+  /// Whether the file has become shorter: then some of the bytes may be zeros that it never held.
+  bool was_cut() const;
 
  private:
   const char* data_ = nullptr;
   std::size_t size_ = 0;
+  int watch_ = -1;       ///< see mapped_file.cpp
+  int descriptor_ = -1;  ///< with kFill
 };
 
 /// Writes a file so that it is either whole under its final name or not there at all: temporary
@@ -53,7 +63,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Removes the temporary files that killed runs left in this folder (not in those below it), and
 /// none that is still being written, here or on another machine. A folder that is not there has
-/// none. \return how many.
+/// none. \return how many. \throws IoError if the folder cannot be read.
 std::size_t remove_leftovers(const std::filesystem::path& folder);
 
 /// Creates a folder and its parents; the empty path is the working directory. \throws CannotCreate.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/list_files.h"
 
-#include <algorithm>
 #include <system_error>
+
+#include "crowdface/core/folder.h"
 
 namespace crowdface {
 
@@ -11,15 +12,12 @@ namespace fs = std::filesystem;
 std::vector<fs::path> list_files(const fs::path& folder,
                                  const std::function<bool(const fs::path&)>& is_wanted,
                                  std::error_code* error) {
-  std::error_code ignored;
-  std::error_code& told = error != nullptr ? *error : ignored;
-  std::vector<fs::path> files;
-  for (fs::directory_iterator it(folder, told), end; !told && it != end; it.increment(told)) {
-    if (is_wanted(it->path())) files.push_back(it->path());
+  if (error != nullptr) {
+    const fs::directory_iterator opened(folder, *error);
+    if (*error) return {};
   }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return a.filename().native() < b.filename().native();
-  });
+  std::vector<fs::path> files = list_folder(folder);
+  std::erase_if(files, [&](const fs::path& path) { return !is_wanted(path); });
   return files;
 }
 

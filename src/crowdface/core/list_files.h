@@ -8,7 +8,9 @@
 namespace crowdface {
 
 /// What lies directly in a folder and is wanted, by name.
-/// \param error  set if the folder cannot be read; without it such a folder holds nothing.
+/// \param error  set if the folder is not there or may not be read; without it one that is not there
+///               holds nothing.
+/// \throws IoError like list_folder.
 std::vector<std::filesystem::path> list_files(
     const std::filesystem::path& folder,
     const std::function<bool(const std::filesystem::path&)>& is_wanted,

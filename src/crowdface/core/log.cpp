@@ -58,8 +58,9 @@ Sinks& sinks() {
   return instance;
 }
 
-spdlog::string_view_t view(std::string_view text) {
-  return {text.data(), text.size()};
+void log(spdlog::level::level_enum level, std::string_view text) {
+  const std::string line = printable(text);
+  sinks().logger->log(level, spdlog::string_view_t(line.data(), line.size()));
 }
 
 }  // namespace
@@ -130,16 +131,16 @@ void LogMemory::replay() const {
 }
 
 void log_debug(std::string_view text) {
-  sinks().logger->log(spdlog::level::debug, view(text));
+  log(spdlog::level::debug, text);
 }
 void log_info(std::string_view text) {
-  sinks().logger->log(spdlog::level::info, view(text));
+  log(spdlog::level::info, text);
 }
 void log_warning(std::string_view text) {
-  sinks().logger->log(spdlog::level::warn, view(text));
+  log(spdlog::level::warn, text);
 }
 void log_error(std::string_view text) {
-  sinks().logger->log(spdlog::level::err, view(text));
+  log(spdlog::level::err, text);
 }
 
 }  // namespace crowdface

@@ -39,7 +39,7 @@ class LogMemory {
   std::unique_ptr<Lines> lines_;
 };
 
-/// One line each; the text is used as it is.
+/// One line each, or several; what no terminal should be given is escaped (see printable).
 void log_debug(std::string_view text);
 void log_info(std::string_view text);
 void log_warning(std::string_view text);

@@ -45,6 +45,37 @@ long long decimal_exponent(std::string_view number) {
   return leading + std::clamp(exponent, -kHuge, kHuge);
 }
 
+/// A character, or a byte that begins none.
+std::string_view character_at(std::string_view text, std::size_t at) {
+  return text.substr(at, std::max<std::size_t>(utf8_length(text.substr(at)), 1));
+}
+
+/// Control characters (C0, DEL, C1), separators of lines, marks of direction, and bytes that are no
+/// UTF-8: what a terminal would obey, or show in another order.
+bool is_unprintable(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  const auto within = [](unsigned value, unsigned low, unsigned high) {
+    return value >= low && value <= high;
+  };
+  if (character.size() == 1) return byte(0) < 0x20 || byte(0) >= 0x7F;
+  if (byte(0) == 0xC2) return byte(1) < 0xA0;    // U+0080 to U+009F
+  if (byte(0) == 0xD8) return byte(1) == 0x9C;   // U+061C
+  if (character == "\xEF\xBB\xBF") return true;  // U+FEFF
+  if (character.size() != 3 || byte(0) != 0xE2) return false;
+  return (byte(1) == 0x80 && (within(byte(2), 0x8E, 0x8F) || within(byte(2), 0xA8, 0xAE))) ||
+         (byte(1) == 0x81 && within(byte(2), 0xA6, 0xA9));  // U+200E, U+2028…, U+2066…
+}
+
+void append_escaped(std::string_view character, std::string& out) {
+  constexpr char kHex[] = "0123456789abcdef";
+  for (const char c : character) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += "\\x";
+    out += kHex[byte >> 4U];
+    out += kHex[byte & 15U];
+  }
+}
+
 }  // namespace
 
 std::optional<double> parse_double(std::string_view text) {
@@ -101,26 +132,35 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view character = character_at(text, at);
+    if (character != "\n" && is_unprintable(character)) {
+      append_escaped(character, out);
+    } else {
+      out += character;
+    }
+    at += character.size();
+  }
+  return out;
+}
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 80;
   std::string out = "\"";
   std::size_t at = 0;
   while (at < text.size()) {
-    const std::size_t length = utf8_length(text.substr(at));
-    if (at + std::max<std::size_t>(length, 1) > kLongest) break;
-    const auto byte = static_cast<unsigned char>(text[at]);
-    if (byte == '"' || byte == '\\') {
-      out += '\\';
-      out += text[at];
-    } else if (length == 0 || byte < 0x20 || byte == 0x7f) {
-      constexpr char kHex[] = "0123456789abcdef";
-      out += "\\x";
-      out += kHex[byte >> 4];
-      out += kHex[byte & 15];
+    const std::string_view character = character_at(text, at);
+    if (at + character.size() > kLongest) break;
+    if (is_unprintable(character)) {
+      append_escaped(character, out);
     } else {
-      out += text.substr(at, length);
+      if (character == "\"" || character == "\\") out += '\\';
+      out += character;
     }
-    at += std::max<std::size_t>(length, 1);
+    at += character.size();
   }
   if (at < text.size()) out += "…";
   return out + '"';

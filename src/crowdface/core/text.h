@@ -29,7 +29,11 @@ std::string zero_padded(std::uint64_t number, std::size_t digits);
 /// A to Z made small, everything else as it is.
 std::string lower_case(std::string_view text);
 
-/// `text` between double quotes, control characters and quotes escaped; long text is shortened.
+/// `text` as a terminal may be given it: bytes of control characters but for the line's end, of marks
+/// that turn the direction of writing, and of what is no UTF-8 become \x1b and the like.
+std::string printable(std::string_view text);
+
+/// `text` between double quotes, printable, line ends and quotes escaped too; long text is shortened.
 std::string quoted(std::string_view text);
 /// The same; without it, std::quoted would be chosen for strings.
 inline std::string quoted(const std::string& text) {

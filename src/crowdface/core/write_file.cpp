@@ -10,6 +10,7 @@
 #include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -85,7 +86,10 @@ class TemporaryFile {
   bool still_there() const {
     if (claim(file_.get()) == Claim::kTaken) return false;
     struct stat status {};
-    return ::fstat(file_.get(), &status) == 0 && status.st_nlink > 0;
+    if (::fstat(file_.get(), &status) == 0) return status.st_nlink > 0;
+    const std::string why = reason();
+    ::unlink(path_.c_str());
+    throw IoError(concat(target_.string(), ": cannot be looked at: ", why));
   }
 
   [[noreturn]] void fail(std::string_view what) const {
@@ -120,13 +124,9 @@ void write_file(const fs::path& path, std::string_view bytes) {
 }
 
 std::size_t remove_leftovers(const fs::path& folder) {
-  std::vector<fs::path> found;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (is_temporary(entry.path())) found.push_back(entry.path());
-  }
   std::size_t removed = 0;
-  for (const fs::path& path : found) {
+  for (const fs::path& path : list_folder(folder)) {
+    if (!is_temporary(path)) continue;
     const Descriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!file.valid() || claim(file.get()) != Claim::kOurs) continue;
     if (::unlink(path.c_str()) == 0) ++removed;

@@ -2,12 +2,14 @@
 #include "crowdface/crowd/crowd_directory.h"
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 
 #include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
@@ -61,7 +63,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   const auto remove_files = [](const fs::path& folder, const auto& is_ours) {
     for (const fs::path& file : list_files(folder, is_ours)) remove_file(file);
   };
-  remove_files(directory.sheets(), is_sheet_file);
+  for (const fs::path& sheet : crowd_sheets(directory)) remove_file(sheet);
   remove_files(directory.head_render("").parent_path(), has_ending(".png"));
   remove_files(directory.founder_render("").parent_path(), has_ending(".png"));
   for (const fs::path& folder :
@@ -120,7 +122,7 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
       std::any_of(papers.begin(), papers.end(),
                   [&](const fs::path& file) { return fs::exists(file, ignored); }) ||
       std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
-        return fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored);
+        return fs::is_directory(folder, ignored) && !list_folder(folder).empty();
       });
   // Another shard may have begun meanwhile: the config is the first that it writes.
   return holds_any && !fs::exists(directory.config(), ignored);
@@ -194,7 +196,7 @@ void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& fo
   if (error) {
     throw CannotCreate(concat(folder.string(), ": cannot be reached: ", error.message()));
   }
-  if (!real.lexically_relative(root).native().starts_with("..")) return;
+  if (leads_below(real, root)) return;
   throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
                             ", where nothing is written"));
 }
@@ -218,15 +220,35 @@ bool is_gallery_page_file(const fs::path& path) {
          kGalleryPageFiles.end();
 }
 
-bool is_sheet_file(const fs::path& path) {
+namespace {
+
+/// Whether a file in the folder of contact sheets is one that we write, by its name alone.
+bool is_numbered_sheet(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string ending = path.extension().string();
   if (ending != ".png" && ending != ".exr" && ending != ".pdf") return false;
-  if (stem == "index" || stem == "sheets" || stem.starts_with("family_")) return true;
+  if (stem == "index" || stem == "sheets") return true;
   for (const std::string_view start : {"sheet_", "heads_", "index_", "sheets_"}) {
     if (stem.starts_with(start) && parse_unsigned(stem.substr(start.size()))) return true;
   }
   return false;
+}
+
+}  // namespace
+
+std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
+  std::set<std::string> recorded;
+  for (const fs::path& ledger : directory.ledgers()) {
+    for (const LedgerEntry& entry : read_ledger(ledger).entries) {
+      if (entry.item != kSheetsItem) continue;
+      for (const LedgerEntry::File& file : entry.files) recorded.insert(file.name);
+    }
+  }
+  std::vector<fs::path> sheets = list_folder(directory.sheets());
+  std::erase_if(sheets, [&](const fs::path& path) {
+    return !is_numbered_sheet(path) && !recorded.contains(directory.relative(path));
+  });
+  return sheets;
 }
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {

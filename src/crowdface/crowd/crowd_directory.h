@@ -79,8 +79,12 @@ inline constexpr std::array<std::string_view, 4> kGalleryPageFiles = {
     "index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"};
 bool is_gallery_page_file(const std::filesystem::path& path);
 
-/// Whether a file in a folder of contact sheets is one that we write, by its name.
-bool is_sheet_file(const std::filesystem::path& path);
+/// The item of the ledger whose files are contact sheets and all that is made with them.
+inline constexpr std::string_view kSheetsItem = "sheets";
+
+/// The contact sheets in the folder: those of families, whose names may be anything, by the ledger
+/// alone, the others by their names.
+std::vector<std::filesystem::path> crowd_sheets(const CrowdDirectory& directory);
 
 enum class Replace { kRefuse, kForce };
 

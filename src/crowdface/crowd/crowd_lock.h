@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "crowdface/core/file_lock.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/shard.h"
 
@@ -17,7 +18,12 @@ class CrowdLock {
   /// left half written. \throws CannotCreate, IoError, Interrupted.
   CrowdLock(const CrowdDirectory& directory, const Shard& shard);
 
+  /// To be asked before a run says that it is done. \throws IoError if the folder was removed or
+  /// replaced since.
+  void require_still_there() const { root_->require_same(); }
+
  private:
+  std::unique_ptr<HeldFolder> root_;
   std::unique_ptr<FileLock> crowd_, shard_;
 };
 

@@ -42,6 +42,18 @@ std::optional<LedgerEntry::File> file_of(const Json& json) {
   return LedgerEntry::File{*name, {bytes->get<std::uint64_t>(), *hash}};
 }
 
+/// How many files stand in each folder of the crowd, as JSON; "." are those in none.
+std::string count_files(const std::vector<LedgerEntry>& entries) {
+  std::map<std::string, std::size_t> counts;
+  for (const LedgerEntry& entry : entries) {
+    for (const LedgerEntry::File& file : entry.files) {
+      const std::size_t slash = file.name.find('/');
+      ++counts[slash == file.name.npos ? "." : file.name.substr(0, slash)];
+    }
+  }
+  return Json(counts).dump();
+}
+
 std::string format_all(const std::vector<LedgerEntry>& entries) {
   std::string text;
   for (const LedgerEntry& entry : entries) text += format_ledger_line(entry) + '\n';
@@ -98,7 +110,8 @@ LedgerLines parse_ledger(const std::string& text) {
       entry = parse_ledger_line(std::string_view(text).substr(begin, end - begin));
     }
     if (entry && entry->item == kEndItem) {
-      lines.complete = entry->key == hash_bytes(std::string_view(text).substr(0, begin));
+      lines.complete = entry->key == hash_bytes(std::string_view(text).substr(0, begin)) &&
+                       (entry->note.empty() || entry->note == count_files(lines.entries));
     } else if (entry) {
       lines.entries.push_back(std::move(*entry));
     } else {
@@ -235,13 +248,26 @@ void Ledger::settle() {
   std::vector<LedgerEntry> in_order;
   for (const auto& [item, entry] : done_) in_order.push_back(entry);
   std::string text = format_all(in_order);
-  text += format_all({{kEndItem, hash_bytes(text), {}, {}}});
+  text += format_all({{kEndItem, hash_bytes(text), {}, count_files(in_order)}});
   if (settled_ != text) write_file(own_, text);
   for (const fs::path& other : others_) {
     std::error_code error;
     if (!fs::remove(other, error) && error) {
       throw IoError(concat(other.string(), ": cannot be removed: ", error.message()));
     }
+  }
+}
+
+void Ledger::require_files() const {
+  const auto require = [&](const fs::path& path) {
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) return;
+    throw IoError(concat(path.string(),
+                         ": was removed while the run was at work; run the same command again"));
+  };
+  require(own_);
+  for (const auto& [item, entry] : done_) {
+    for (const LedgerEntry::File& file : entry.files) require(root_ / file.name);
   }
 }
 

@@ -38,7 +38,9 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
   std::size_t damaged = 0;  ///< lines that are not whole
-  bool complete = false;    ///< a run came to its end, and all lines that it left are there
+  /// A run came to its end, and all lines that it left are there, with as many files of each kind as
+  /// it counted.
+  bool complete = false;
 };
 LedgerLines parse_ledger(const std::string& text);
 /// \return no lines if there is no such file. \throws IoError.
@@ -86,6 +88,10 @@ class Ledger {
   /// Puts the ledger in order: what this run found proven or recorded, sorted by item, and nothing
   /// else; the others are removed.
   void settle();
+
+  /// To be asked before a run says that it is done. \throws IoError if a file that this run found
+  /// proven or recorded, or the ledger itself, is not there any more.
+  void require_files() const;
 
  private:
   std::vector<LedgerEntry::File> files_now(const std::vector<std::string>& names) const;

@@ -2,9 +2,11 @@
 #include "crowdface/heads/head_cache.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -63,6 +65,13 @@ struct Places {
   std::size_t trajectory, fields, checksum, end;
 };
 
+/// Finite, and within what coordinates of a mesh may be, with room for what smoothing makes of them.
+bool all_usable(std::span<const float> values) {
+  constexpr float kLargest = 1e9F;
+  return std::all_of(values.begin(), values.end(),
+                     [](float value) { return std::abs(value) <= kLargest; });
+}
+
 std::string_view bytes_of(const void* data, std::size_t size) {
   return {static_cast<const char*>(data), size};
 }
@@ -108,7 +117,7 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   const fs::path path = cache_entry(cache, key);
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return std::nullopt;
-  const auto file = std::make_shared<const MappedFile>(path);
+  const auto file = std::make_shared<const MappedFile>(path, WhenCut::kFill);
   const std::string_view bytes = file->bytes();
   const auto damaged = [&](std::string_view what) {
     return InvalidInput(concat(path.string(), ": cache entry is ", what));
@@ -149,8 +158,13 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   // The file is mapped at a page and the fields stand at a multiple of 64.
   levels.fields = {reinterpret_cast<const float*>(bytes.data() + places.fields),
                    static_cast<std::size_t>(3 * header.vertices * header.rank)};
-  levels.owner = file;
-  levels.mapped = true;
+  levels.mapped = file;
+  // A checksum tells damage from what was written, not what was written from anything else.
+  if (!levels.mixing.allFinite() || !all_usable(levels.fields) ||
+      !all_usable({head.trajectory.data(), static_cast<std::size_t>(head.trajectory.size())})) {
+    throw damaged("damaged (it holds numbers that no head has)");
+  }
+  if (file->was_cut()) throw damaged("being cut");
   return head;
 }
 

@@ -122,6 +122,21 @@ std::optional<std::string> odd_height(const Config& config, const Inputs& inputs
                 " cm: a head is some 28 cm high. All sizes rest on faces.units and faces.up");
 }
 
+/// A warning if single precision, in which meshes are written, keeps no hundredth of a millimetre where
+/// the heads stand.
+std::optional<std::string> far_from_origin(const Config& config, const Inputs& inputs) {
+  constexpr double kLeastMm = 0.01, kHalfStep = 0x1p-24;
+  double farthest = 0;
+  for (const Head& head : inputs.faces.heads) {
+    farthest = std::max(farthest, head.positions.cwiseAbs().maxCoeff());
+  }
+  const double farthest_mm = farthest * mm_per(config.faces.units);
+  if (farthest_mm * kHalfStep <= kLeastMm) return std::nullopt;
+  return concat("heads reach ", format_fixed(farthest_mm / 1000, 0),
+                " m from the origin, where meshes, in single precision, lose up to ",
+                format_fixed(farthest_mm * kHalfStep, 2), " mm: move the heads to the origin");
+}
+
 std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
   if (config.smoothing.max_iterations) return *config.smoothing.max_iterations;
   const std::uint64_t level = iterations_of_size(config.smoothing.operator_kind,
@@ -213,6 +228,7 @@ std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
     return std::nullopt;
   }
   if (auto text = odd_height(config, inputs)) warn(inputs, std::move(*text));
+  if (auto text = far_from_origin(config, inputs)) warn(inputs, std::move(*text));
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {
     inputs.regions = load_regions(config, inputs.faces);

@@ -105,6 +105,15 @@ std::optional<PreparedHead> from_cache(const std::filesystem::path& cache, const
   }
 }
 
+/// Removes what runs left that were killed while they kept a head. A cache is no reason to stop.
+void clean(const std::filesystem::path& cache) {
+  try {
+    remove_leftovers(cache);
+  } catch (const Error& error) {
+    log_warning(error.what());
+  }
+}
+
 /// \return whether writing works; after one failure there is no point in more warnings.
 bool into_cache(const std::filesystem::path& cache, const Digest& key, const HeadCacheShape& shape,
                 const PreparedHead& head) {
@@ -132,7 +141,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
                                 static_cast<Index>(prepared.nodes->levels().size()),
                                 inputs.max_level,
                                 config.smoothing.levels};
-  remove_leftovers(cache);  // of runs that were killed while they kept a head
+  clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;
   Progress progress("preparing heads", inputs.faces.heads.size());
@@ -164,6 +173,14 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
                     " prepared heads came from the cache"));
   }
   return prepared;
+}
+
+void require_whole(const Prepared& prepared) {
+  for (const StoredLevels& levels : prepared.levels) {
+    if (levels.mapped && levels.mapped->was_cut()) {
+      throw CutWhileInUse("an entry of the cache was cut while it was in use");
+    }
+  }
 }
 
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared) {

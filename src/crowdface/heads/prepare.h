@@ -6,6 +6,8 @@
 
 #include "crowdface/blend/crowd_blender.h"
 #include "crowdface/config/config.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/heads/prepared.h"
 
@@ -19,5 +21,20 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
 
 /// The fitted levels in the form that blending takes.
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);
+
+/// Does the work again, and says so, when an entry of the cache was cut while it was in use: prepared
+/// anew it is whole, and what was done before counts as done.
+template <class Work>
+void going_on_if_cut(const Work& work) {
+  constexpr int kMostTimes = 3;
+  for (int times = 1;; ++times) {
+    try {
+      return work();
+    } catch (const CutWhileInUse& error) {
+      if (times == kMostTimes) throw;
+      log_warning(concat(error.what(), "; it is made anew, and the run goes on"));
+    }
+  }
+}
 
 }  // namespace crowdface

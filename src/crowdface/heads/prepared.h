@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "crowdface/cast/face_samples.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/level_basis.h"
 
@@ -18,11 +20,12 @@ namespace crowdface {
 /// so that they cost no memory of ours.
 struct StoredLevels {
   Index rank = 0;
-  std::span<const float> fields;      ///< rank times #V by 3: all of c_0, then all of c_1, …
-  std::shared_ptr<const void> owner;  ///< of the fields
-  bool mapped = false;                ///< the fields lie in a file, not in memory of ours
-  Eigen::MatrixXd mixing;             ///< `levels: basis`: #nodes by rank, see LevelBasis
-  BasisError error;                   ///< `levels: basis`
+  std::span<const float> fields;  ///< rank times #V by 3: all of c_0, then all of c_1, …
+  std::shared_ptr<const std::vector<float>>
+      owner;                                 ///< of the fields, if they lie in memory of ours
+  std::shared_ptr<const MappedFile> mapped;  ///< of the fields, if they lie in a file
+  Eigen::MatrixXd mixing;                    ///< `levels: basis`: #nodes by rank, see LevelBasis
+  BasisError error;                          ///< `levels: basis`
 };
 
 /// What is computed once per head and kept: how the samples move under smoothing and, unless the
@@ -42,5 +45,14 @@ struct Prepared {
   std::optional<ChebyshevFilter> filter;    ///< `levels: exact`
   std::size_t from_cache = 0;               ///< how many heads the cache had
 };
+
+/// An entry of the cache was cut while its fields were in use: what was made of them is worth
+/// nothing, and what is prepared again is whole.
+struct CutWhileInUse : IoError {
+  using IoError::IoError;
+};
+
+/// To be asked after fields were used, before what came of it is. \throws CutWhileInUse.
+void require_whole(const Prepared& prepared);
 
 }  // namespace crowdface

@@ -41,13 +41,18 @@ std::string checked_format(const path& file, std::string_view bytes, const Image
   return format;
 }
 
+/// \param bytes  of the file, as it is mapped: decoders that read files themselves take a disk that fails
+///               for a file that is damaged.
 std::unique_ptr<OIIO::ImageInput> open(const path& file, const std::string& format,
+                                       OIIO::Filesystem::IOMemReader& bytes,
                                        OIIO::ImageSpec& spec) {
   auto input = OIIO::ImageInput::create(format);
   if (!input) refuse(file, concat("this build reads no ", format, ": ", OIIO::geterror()));
   OIIO::ImageSpec wish;
   wish.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
   input->threads(1);
+  if (!input->set_ioproxy(&bytes))
+    refuse(file, concat("this build reads no ", format, " from memory"));
   if (!input->open(file.string(), spec, wish)) {
     refuse(file, concat("cannot be read as ", format, ": ", input->geterror()));
   }
@@ -203,13 +208,11 @@ std::string encode(const std::string& format, const OIIO::ImageSpec& spec,
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace
-
-Image read_image(const path& file, const ImageLimits& limits) {
-  const MappedFile mapped(file);
+Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
   OIIO::ImageSpec spec;
-  const auto input = open(file, format, spec);
+  OIIO::Filesystem::IOMemReader bytes(mapped.bytes().data(), mapped.bytes().size());
+  const auto input = open(file, format, bytes, spec);
   check_kind(file, format, spec);
   check_size(file, spec, limits);
   if (format == "png") check_png_claim(file, mapped.bytes(), spec);
@@ -218,6 +221,23 @@ Image read_image(const path& file, const ImageLimits& limits) {
   read_pixels(*input, file, image);
   check_finite(file, image);
   return image;
+}
+
+}  // namespace
+
+Image read_image(const path& file, const ImageLimits& limits) {
+  const MappedFile mapped(file);
+  try {
+    return decode(file, mapped, limits);
+  } catch (const InvalidInput&) {
+    // Decoders tell a lack of memory as damage; what is damaged is so every time.
+    try {
+      return decode(file, mapped, limits);
+    } catch (const InvalidInput& again) {
+      if (limits.ours) throw IoError(again.what());
+      throw;
+    }
+  }
 }
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
@@ -164,6 +165,12 @@ class Collector {
           concat(what, " ", quoted(relative.string()), " cannot be read and is not copied"));
       return false;
     }
+    if (!leads_below(folder_ / relative, folder_)) {
+      files_.warnings.push_back(concat(what, " ", quoted(relative.string()),
+                                       " is a link that leads out of the head's folder and is not "
+                                       "copied"));
+      return false;
+    }
     const fs::path normal = relative.lexically_normal();
     if (!destinations_.insert(normal).second) return false;
     files_.files.push_back({folder_ / normal, normal});
@@ -186,7 +193,8 @@ class Collector {
       const fs::path relative = texture_of(rest, name.parent_path());
       const Seen seen = see(relative, "texture", file, textures_);
       if (seen == Seen::kTooMany) return;
-      if (word == "map_Kd" && stays_inside(relative)) {
+      if (word == "map_Kd" && stays_inside(relative) &&
+          leads_below(folder_ / with_tile(relative, kFirstTile), folder_)) {
         colours_.emplace(material, (folder_ / relative).lexically_normal());
       }
       if (seen == Seen::kNew) take_texture(relative);

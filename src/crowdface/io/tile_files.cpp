@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <string>
-#include <system_error>
+
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 
@@ -37,10 +39,10 @@ std::vector<fs::path> find_tiles(const fs::path& path) {
   if (at == std::string::npos) return {};
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<fs::path> tiles;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+  if (::access(folder.c_str(), R_OK | X_OK) != 0) return tiles;
+  for (const fs::path& entry : list_folder(folder)) {
     throw_if_interrupted();
-    const std::string found = it->path().filename().string();
+    const std::string found = entry.filename().string();
     if (found.size() < at + kDigits) continue;
     const std::string number = found.substr(at, kDigits);
     const bool digits =
@@ -49,7 +51,6 @@ std::vector<fs::path> find_tiles(const fs::path& path) {
       tiles.push_back(path.parent_path() / found);
     }
   }
-  std::sort(tiles.begin(), tiles.end());
   return tiles;
 }
 

@@ -2,7 +2,6 @@
 #include "crowdface/pictures/pictures.h"
 
 #include <algorithm>
-#include <system_error>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -74,8 +73,8 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd) const {
   });
 }
 
-std::size_t CrowdPictures::finish(const std::vector<CastFace>& crowd,
-                                  const CrowdLikeness& likeness) const {
+WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
+                                    const CrowdLikeness& likeness) const {
   std::vector<std::string> ids;
   for (const CastFace& face : crowd) ids.push_back(face.id);
   write_file(directory_.likeness(), format_likeness(likeness, config_.plan_names(), ids));
@@ -86,14 +85,15 @@ std::size_t CrowdPictures::finish(const std::vector<CastFace>& crowd,
   return write_sheets(config_, sheet_, inputs_, directory_, renders_, crowd, likeness.likeness);
 }
 
-std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory) {
-  std::vector<std::filesystem::path> files = {directory.likeness()};
+std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
+                                                 const WrittenSheets& sheets) {
+  std::vector<std::filesystem::path> files = sheets.files;
+  files.push_back(directory.likeness());
   const auto add = [&](const std::filesystem::path& folder, const auto& is_ours) {
     for (std::filesystem::path& file : list_files(folder, is_ours)) {
       if (std::filesystem::is_regular_file(file)) files.push_back(std::move(file));
     }
   };
-  add(directory.sheets(), is_sheet_file);
   add(directory.head_render("").parent_path(), has_ending(".png"));
   add(directory.founder_render("").parent_path(), has_ending(".png"));
   add(directory.gallery(), is_gallery_page_file);

@@ -29,8 +29,7 @@ class CrowdPictures {
   void write_faces(const std::vector<CastFace>& crowd) const;
 
   /// Sheets and gallery, from the pictures in the folder.
-  /// \return how many pages of contact sheets.
-  std::size_t finish(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
+  WrittenSheets finish(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
 
  private:
   const Config& config_;
@@ -44,7 +43,8 @@ class CrowdPictures {
 };
 
 /// All files in the folder that `finish` and what goes before it wrote, sorted; not the faces' own
-/// pictures and meshes.
-std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory);
+/// pictures and meshes. \throws IoError if a folder cannot be read.
+std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
+                                                 const WrittenSheets& sheets);
 
 }  // namespace crowdface

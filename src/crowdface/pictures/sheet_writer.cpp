@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <system_error>
 
 #include "crowdface/core/file.h"
-#include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
-#include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/pdf_pages.h"
 #include "crowdface/render/shading.h"
@@ -47,8 +44,8 @@ bool SheetWriter::has(SheetFormat format) const {
 }
 
 void SheetWriter::write(const std::string& name, const std::string& bytes) {
-  write_file(folder_ / name, bytes);
-  written_.push_back(name);
+  written_.push_back(folder_ / name);
+  write_file(written_.back(), bytes);
 }
 
 void SheetWriter::add(const std::string& stem, const std::string& caption, const Rgb8Image& page) {
@@ -92,14 +89,9 @@ void SheetWriter::finish_volume(bool is_last) {
   ++volumes_;
 }
 
-void SheetWriter::finish() {
+std::vector<std::filesystem::path> SheetWriter::finish() {
   finish_volume(true);
-  for (const std::filesystem::path& path : list_files(folder_, is_sheet_file)) {
-    const std::string name = path.filename().string();
-    if (std::find(written_.begin(), written_.end(), name) != written_.end()) continue;
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
+  return std::move(written_);
 }
 
 }  // namespace crowdface

@@ -14,15 +14,14 @@ namespace crowdface {
 /// index and, if asked for, a PDF of their own, so that memory does not grow with the crowd.
 class SheetWriter {
  public:
-  /// \param folder  must be there; pages of an earlier run that are not written again are removed by
-  ///                `finish`. \param title  of each index.
+  /// \param folder  must be there. \param title  of each index.
   SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
               std::string title);
 
   /// \param stem     the file's name without ending. \param caption  under its picture in the index.
   void add(const std::string& stem, const std::string& caption, const Rgb8Image& page);
-  /// Writes the index, if there are several pages, and the PDF.
-  void finish();
+  /// Writes the index, if there are several pages, and the PDF. \return all files written.
+  std::vector<std::filesystem::path> finish();
 
  private:
   bool has(SheetFormat format) const;
@@ -36,7 +35,7 @@ class SheetWriter {
   std::size_t volumes_ = 0;        ///< finished
   std::vector<std::string> pngs_;  ///< of this volume's pages, if there is to be a PDF
   std::vector<SheetCell> index_;   ///< of this volume
-  std::vector<std::string> written_;
+  std::vector<std::filesystem::path> written_;
 };
 
 }  // namespace crowdface

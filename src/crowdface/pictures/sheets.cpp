@@ -15,6 +15,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
+#include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/face_mesh.h"
 #include "crowdface/io/obj_file.h"
@@ -77,12 +78,11 @@ class CrowdSheets {
     }
   }
 
-  std::size_t write() {
+  WrittenSheets write() {
     const std::size_t pages = write_faces();
     write_heads();
     write_families();
-    pages_.finish();
-    return pages;
+    return {pages, pages_.finish()};
   }
 
  private:
@@ -318,12 +318,12 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
       case SheetLabel::kNearest: {
         if (likeness.near[face].empty()) return {};
         const Neighbour& near = likeness.near[face].front();
-        return concat("near ", crowd[near.face].id, ", ", format_fixed(near.mm, 2), " mm");
+        return concat("near ", crowd[near.face].id, ", ", format_fixed(rounded(near.mm), 2), " mm");
       }
       case SheetLabel::kNearestHead:
         if (!labelled.notes.nearest) return {};
         return concat("near ", heads[static_cast<std::size_t>(labelled.notes.nearest->head)], ", ",
-                      format_fixed(labelled.notes.nearest->head_mm, 2), " mm");
+                      format_fixed(rounded(labelled.notes.nearest->head_mm), 2), " mm");
     }
     return {};
   };
@@ -355,12 +355,19 @@ void check_compared_crowd(const Config& config, const std::vector<CastFace>& cro
   for (const CastFace& face : crowd) format_of_face({folder}, face.id);
 }
 
-std::size_t write_sheets(const Config& config, const Config::ContactSheet& sheet,
-                         const Inputs& inputs, const CrowdDirectory& directory,
-                         const CrowdRenders& renders, const std::vector<CastFace>& crowd,
-                         const Likeness& likeness) {
+WrittenSheets write_sheets(const Config& config, const Config::ContactSheet& sheet,
+                           const Inputs& inputs, const CrowdDirectory& directory,
+                           const CrowdRenders& renders, const std::vector<CastFace>& crowd,
+                           const Likeness& likeness) {
   make_directories(directory.sheets());
-  return CrowdSheets(config, sheet, inputs, directory, renders, crowd, likeness).write();
+  WrittenSheets sheets =
+      CrowdSheets(config, sheet, inputs, directory, renders, crowd, likeness).write();
+  for (const std::filesystem::path& old : crowd_sheets(directory)) {
+    if (std::find(sheets.files.begin(), sheets.files.end(), old) != sheets.files.end()) continue;
+    std::error_code ignored;
+    std::filesystem::remove(old, ignored);
+  }
+  return sheets;
 }
 
 }  // namespace crowdface

@@ -18,13 +18,18 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
 /// better told before the faces are made than after.
 void check_compared_crowd(const Config& config, const std::vector<CastFace>& crowd);
 
+/// What write_sheets left in the folder.
+struct WrittenSheets {
+  std::size_t pages = 0;  ///< that the faces take
+  std::vector<std::filesystem::path> files;
+};
+
 /// Writes the contact sheets of a crowd from the pictures in its folder: the faces, the heads, each
 /// family, an index; removes what an earlier run left over.
-/// \return  how many pages the faces take.
-std::size_t write_sheets(const Config& config, const Config::ContactSheet& sheet,
-                         const Inputs& inputs, const CrowdDirectory& directory,
-                         const CrowdRenders& renders, const std::vector<CastFace>& crowd,
-                         const Likeness& likeness);
+WrittenSheets write_sheets(const Config& config, const Config::ContactSheet& sheet,
+                           const Inputs& inputs, const CrowdDirectory& directory,
+                           const CrowdRenders& renders, const std::vector<CastFace>& crowd,
+                           const Likeness& likeness);
 
 /// How many pages a crowd's contact sheets have.
 std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces);

@@ -15,6 +15,7 @@ namespace crowdface {
 namespace {
 
 [[noreturn]] void fail(const char* what, RTCError error) {
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw IoError("the ray tracer has too little memory");
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 

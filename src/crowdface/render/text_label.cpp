@@ -55,6 +55,10 @@ std::string drawable(std::string_view text) {
 
 OIIO::ROI extent(const std::string& text, int text_px) {
   const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, text_px, kFont);
+  if (!roi.defined() && !text.empty() &&
+      OIIO::ImageBufAlgo::text_size(text, text_px, kFont).defined()) {
+    throw IoError("a label cannot be measured: is there too little memory?");
+  }
   if (!roi.defined() && !text.empty()) {
     throw MissingInput(
         "the font DejaVu Sans is needed for labels and was not found; on Debian: "
@@ -110,13 +114,20 @@ void draw(Rgb8Image& image, const FittedText& fitted, const LabelStyle& style, i
   // One baseline for all labels of a size, whatever letters they hold.
   const int y = (image.height + fitted.text_px * 7 / 10) / 2;
   const OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-  OIIO::ImageBuf buffer(spec, image.pixels.data());
   const float colour[3] = {static_cast<float>(style.text[0]) / 255,
                            static_cast<float>(style.text[1]) / 255,
                            static_cast<float>(style.text[2]) / 255};
-  OIIO::ImageBufAlgo::render_text(buffer, x, y, fitted.text, fitted.text_px, kFont, colour,
-                                  OIIO::ImageBufAlgo::TextAlignX::Left,
-                                  OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, 1);
+  const auto draw_into = [&](Rgb8Image& on) {
+    OIIO::ImageBuf buffer(spec, on.pixels.data());
+    return OIIO::ImageBufAlgo::render_text(buffer, x, y, fitted.text, fitted.text_px, kFont, colour,
+                                           OIIO::ImageBufAlgo::TextAlignX::Left,
+                                           OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, 1);
+  };
+  // A letter for which there is no memory is left out without a word: then two do not come out alike.
+  Rgb8Image again = image;
+  if (!draw_into(image) || !draw_into(again) || !(image == again)) {
+    throw IoError("a label cannot be drawn: is there too little memory?");
+  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_ledger.h"
+#include "crowdface/run/output_check.h"
 #include "crowdface/run/resume.h"
 
 namespace crowdface {
@@ -20,23 +21,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kItem = "sheets";  // in the ledger
+const std::string kItem{kSheetsItem};
 
-std::vector<std::string> sheet_files(const CrowdDirectory& directory) {
+std::vector<std::string> sheet_files(const CrowdDirectory& directory, const WrittenSheets& sheets) {
   std::vector<std::string> names;
-  for (const fs::path& path : picture_files(directory)) names.push_back(directory.relative(path));
+  for (const fs::path& path : picture_files(directory, sheets)) {
+    names.push_back(directory.relative(path));
+  }
   return names;
 }
 
-/// None if the heads or the settings are no longer those that the founders were cast from.
 std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& directory) {
   std::vector<FamilyFounder> founders;
   if (!fs::exists(directory.founders())) return founders;
   for (PlanLine& line : read_plan(directory.founders(), job.names)) {
-    if (line.settings != job.settings.hex()) {
-      log_info("founders of families stay as they were: heads or settings have changed since");
-      return {};
-    }
     founders.push_back({line.face.family.value_or(line.face.id), std::move(line.face)});
   }
   return founders;
@@ -87,9 +85,10 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const C
     write_founders(cast.founders, builder.get(), pictures.get());
   }
   builder.release();  // sheets need the memory
-  const std::size_t pages = pictures.get().finish(crowd, crowd_likeness(cast.anchors, cast.points));
-  ledger.record(kItem, key, sheet_files(directory));
-  return pages;
+  const WrittenSheets sheets =
+      pictures.get().finish(crowd, crowd_likeness(cast.anchors, cast.points));
+  ledger.record(kItem, key, sheet_files(directory, sheets));
+  return sheets.pages;
 }
 
 void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set,
@@ -110,12 +109,14 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                             "output.contact_sheet='{columns: 6}'"));
   }
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
+  refuse_other_heads(job.settings, directory, Replace::kRefuse);
   std::vector<CastFace> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {
     ids.push_back(line.face.id);
     crowd.push_back(std::move(line.face));
   }
+  if (crowd.empty()) return log_info("a crowd of no faces has no sheets");
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
   const CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs,
                                job.settings, directory);
@@ -126,10 +127,12 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
-  const std::size_t pages = pictures.finish(crowd, likeness);
+  const WrittenSheets sheets = pictures.finish(crowd, likeness);
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
-  ledger.adopt(kItem, sheet_files(directory), {"renders", "gallery"});
-  log_info(concat(pages, pages == 1 ? " sheet" : " sheets", " in ", directory.sheets().string()));
+  ledger.adopt(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
+  lock.require_still_there();
+  log_info(concat(sheets.pages, sheets.pages == 1 ? " sheet" : " sheets", " in ",
+                  directory.sheets().string()));
 }
 
 }  // namespace crowdface

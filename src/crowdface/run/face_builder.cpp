@@ -29,6 +29,7 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
   } else {
     blend_exact(inputs_.faces, *prepared_.filter, regions_, recipes, results);
   }
+  require_whole(prepared_);
   if (!follower_) return;
   parallel_for_each(static_cast<Index>(recipes.size()), [&](Index f) {
     const auto i = static_cast<std::size_t>(f);

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 /// What determines a face's files beside its recipe and `settings`: formats, frame, pictures.
 Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras) {
   Hasher hasher;
-  hasher.add(kFaceFilesVersion).add(job.settings);
+  hasher.add(kFaceFilesVersion).add(kPrepareVersion).add(job.settings);
   hasher.add(config.output.meshes.size());
   for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
   hasher.add(static_cast<int>(config.faces.units));

@@ -168,10 +168,10 @@ std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& d
   return warnings;
 }
 
-/// Everything after the crowd is cast and the folder is ready.
-void fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& cast_job,
-                    const GenerateOptions& options, Purpose purpose, Lazy<FaceStages>& face_stages,
-                    StageSeconds& stages) {
+/// Everything after the crowd is cast and the folder is ready. \return what to say of it.
+std::string fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& cast_job,
+                           const GenerateOptions& options, Purpose purpose,
+                           Lazy<FaceStages>& face_stages, StageSeconds& stages) {
   const Cast& cast = cast_job.cast;
   const std::vector<CastFace>& crowd = cast.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard), directory.ledgers());
@@ -201,10 +201,9 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& ca
   });
   face_stages.release();
   if (!options.shard.whole()) {
-    log_info(concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
-                    " built; when all shards are done: crowdface gather ",
-                    directory.root.string()));
-    return;
+    ledger.require_files();
+    return concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
+                  " built; when all shards are done: crowdface gather ", directory.root.string());
   }
   for (std::string& text : judge_meshes(job.config.believability, crowd, so_far.files)) {
     warnings.push_back(std::move(text));
@@ -221,10 +220,11 @@ void fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& ca
   gather_logs(directory);
   write_file(directory.timings(),
              format_timings(stages, busy, built, cast_job.prepared.from_cache));
-  log_info(
-      concat(crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ", directory.root.string(),
-             built < crowd.size() ? concat(", ", crowd.size() - built, " of them done before") : "",
-             pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : ""));
+  ledger.require_files();
+  return concat(
+      crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ", directory.root.string(),
+      built < crowd.size() ? concat(", ", crowd.size() - built, " of them done before") : "",
+      pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : "");
 }
 
 /// Whether a run before this one may have made all its faces.
@@ -263,7 +263,10 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   const CrowdLog log(directory.log(options.shard));
   memory.replay();
   try {
-    fill_directory(job, directory, *crowd, options, purpose, face_stages, stages);
+    const std::string done =
+        fill_directory(job, directory, *crowd, options, purpose, face_stages, stages);
+    lock.require_still_there();
+    log_info(done);
   } catch (const std::exception& error) {
     log_debug(error.what());  // `main` says it aloud, when this log is closed
     throw;
@@ -289,7 +292,7 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
     }
     return tell_dry_run(job.config, &job.inputs);
   }
-  run_job(job, options, Purpose::kGenerate, memory, stages);
+  going_on_if_cut([&] { run_job(job, options, Purpose::kGenerate, memory, stages); });
 }
 
 void gather(const fs::path& crowd_directory, const fs::path& cache) {
@@ -299,7 +302,7 @@ void gather(const fs::path& crowd_directory, const fs::path& cache) {
   const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}); });
   GenerateOptions options;
   options.cache = cache;
-  run_job(job, options, Purpose::kGather, memory, stages);
+  going_on_if_cut([&] { run_job(job, options, Purpose::kGather, memory, stages); });
 }
 
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,
@@ -309,15 +312,18 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
     check_output(job, options.replace);
     return tell_dry_run(job.config, nullptr);
   }
-  const CrowdDirectory directory{job.config.output.directory};
-  StageSeconds stages;
-  const auto crowd = cast_job(job, options, stages);
-  const CrowdLock lock(directory, {});
-  refuse_other_heads(job.settings, directory, options.replace);
-  open_crowd_directory(directory, crowd_config(job.config, directory), options.replace);
-  write_plan(job, directory, crowd->cast,
-             [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });
-  log_info(concat(crowd->cast.crowd.size(), " recipes in ", directory.plan().string()));
+  going_on_if_cut([&] {
+    const CrowdDirectory directory{job.config.output.directory};
+    StageSeconds stages;
+    const auto crowd = cast_job(job, options, stages);
+    const CrowdLock lock(directory, {});
+    refuse_other_heads(job.settings, directory, options.replace);
+    open_crowd_directory(directory, crowd_config(job.config, directory), options.replace);
+    write_plan(job, directory, crowd->cast,
+               [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });
+    lock.require_still_there();
+    log_info(concat(crowd->cast.crowd.size(), " recipes in ", directory.plan().string()));
+  });
 }
 
 }  // namespace crowdface

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/folder.h"
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include "crowdface/core/descriptor.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseFolder {
+  void operator()(DIR* folder) const { ::closedir(folder); }
+};
+
+}  // namespace
+
+std::vector<fs::path> list_folder(const fs::path& folder) {
+  const std::string name = folder.empty() ? "." : folder.string();
+  const std::unique_ptr<DIR, CloseFolder> opened(::opendir(name.c_str()));
+  if (!opened) {
+    for (const int none : {ENOENT, ENOTDIR, ENAMETOOLONG, ELOOP}) {
+      if (errno == none) return {};
+    }
+  }
+  std::vector<fs::path> found;
+  if (opened) {
+    errno = 0;
+    while (const dirent* entry = ::readdir(opened.get())) {
+      const std::string_view each = entry->d_name;
+      if (each != "." && each != "..") found.push_back(folder / each);
+      errno = 0;
+    }
+  }
+  if (!opened || errno != 0) {
+    throw IoError(concat(name, ": cannot be read as a folder: ", reason()));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<fs::path> folders_from(const fs::path& root) {
+  std::vector<fs::path> folders = {root};
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    for (fs::path& entry : list_folder(folders[i])) {
+      std::error_code ignored;
+      const fs::file_status status = fs::symlink_status(entry, ignored);
+      if (fs::is_directory(status)) folders.push_back(std::move(entry));
+    }
+  }
+  return folders;
+}
+
+bool leads_below(const fs::path& path, const fs::path& folder) {
+  std::error_code of_path, of_folder;
+  const fs::path way = fs::weakly_canonical(path, of_path)
+                           .lexically_relative(fs::weakly_canonical(folder, of_folder));
+  return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
+}
+
+struct HeldFolder::Handle {
+  Descriptor descriptor;
+};
+
+HeldFolder::HeldFolder(const fs::path& folder)
+    : path_(folder),
+      handle_(std::make_unique<Handle>(Handle{Descriptor(::open(
+          folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_PATH))})) {
+  if (!handle_->descriptor.valid()) {
+    throw CannotCreate(concat(path_.string(), ": cannot be opened as a folder: ", reason()));
+  }
+}
+
+HeldFolder::~HeldFolder() = default;
+
+void HeldFolder::require_same() const {
+  struct stat held {
+  }, named{};
+  if (::fstat(handle_->descriptor.get(), &held) != 0) {
+    throw IoError(concat(path_.string(), ": cannot be looked at: ", reason()));
+  }
+  if (::stat(path_.empty() ? "." : path_.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
+      held.st_ino == named.st_ino) {
+    return;
+  }
+  throw IoError(concat(path_.string(),
+                       ": was removed, moved or replaced while the run was at work there; run the "
+                       "same command again"));
+}
+
+}  // namespace crowdface

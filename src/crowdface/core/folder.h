@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace crowdface {
+
+/// What stands in a folder, in the order of the names; nothing if there is no such folder.
+/// \throws IoError unless all of it could be read.
+std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder);
+
+/// A folder and all folders below it, parents first; links are not followed.
+/// \throws IoError like list_folder.
+std::vector<std::filesystem::path> folders_from(const std::filesystem::path& root);
+
+/// Whether a path, all links followed, leads to a place below a folder or to the folder itself. What
+/// is not there lies where it would be made; of what cannot be told the answer is no.
+bool leads_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// A folder that is known again however often its name is given to another.
+class HeldFolder {
+ public:
+  /// \throws CannotCreate if it cannot be opened.
+  explicit HeldFolder(const std::filesystem::path& folder);
+  ~HeldFolder();
+  HeldFolder(const HeldFolder&) = delete;
+  HeldFolder& operator=(const HeldFolder&) = delete;
+  /// \throws IoError if it was removed or moved away, or another bears its name.
+  void require_same() const;
+
+ private:
+  struct Handle;
+  std::filesystem::path path_;
+  std::unique_ptr<Handle> handle_;
+};
+
+}  // namespace crowdface

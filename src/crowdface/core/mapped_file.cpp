@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of file.h that maps. When a page of a mapping is gone with the end of its file, the system
+// sends SIGBUS, whose handler looks up here what is to become of it.
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/opened_file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A mapping, as the handler sees it.
+struct Watch {
+  std::atomic<bool> taken = false;
+  std::atomic<char*> begin = nullptr;
+  std::atomic<std::size_t> size = 0;
+  std::atomic<bool> fill = false;
+  std::atomic<bool> cut = false;
+  std::array<char, 512> message = {};
+};
+
+std::array<Watch, 4096> watches;  // more mappings than open files; those beyond are not watched
+
+// Only what a signal handler may call. (mmap is a plain system call on Linux.)
+void on_bus_error(int signal, siginfo_t* info, void*) {
+  auto* at = static_cast<char*>(info->si_addr);
+  for (Watch& watch : watches) {
+    char* begin = watch.begin;
+    if (begin == nullptr || at < begin || at >= begin + watch.size) continue;
+    if (!watch.fill) {
+      [[maybe_unused]] const ssize_t written =
+          ::write(STDERR_FILENO, watch.message.data(), std::strlen(watch.message.data()));
+      ::_exit(static_cast<int>(ExitCode::kIoError));
+    }
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    char* first = begin + static_cast<std::size_t>(at - begin) / page * page;
+    const std::size_t rest = static_cast<std::size_t>(begin + watch.size - first);
+    watch.cut = true;
+    if (::mmap(first, rest, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == first) {
+      return;
+    }
+    break;
+  }
+  std::signal(signal, SIG_DFL);  // none of ours: it comes again
+}
+
+void catch_bus_errors() {
+  struct sigaction before {};
+  if (::sigaction(SIGBUS, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
+  struct sigaction action {};
+  action.sa_sigaction = on_bus_error;
+  action.sa_flags = SA_SIGINFO;
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
+int begin_watch(char* begin, std::size_t size, WhenCut when_cut, const fs::path& path) {
+  static std::once_flag once;
+  std::call_once(once, catch_bus_errors);
+  for (std::size_t i = 0; i < watches.size(); ++i) {
+    Watch& watch = watches[i];
+    if (watch.taken.exchange(true)) continue;
+    const std::string message = concat("error: ", printable(path.string()).substr(0, 400),
+                                       ": was cut while it was being read\n");
+    std::memcpy(watch.message.data(), message.c_str(), message.size() + 1);
+    watch.cut = false;
+    watch.fill = when_cut == WhenCut::kFill;
+    watch.size = size;
+    watch.begin = begin;
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void end_watch(int number) {
+  if (number < 0) return;
+  Watch& watch = watches[static_cast<std::size_t>(number)];
+  watch.begin = nullptr;
+  watch.taken = false;
+}
+
+}  // namespace
+
+MappedFile::MappedFile(const fs::path& path, WhenCut when_cut) {
+  OpenedFile file = open_for_reading(path);
+  if (file.size == 0) return;
+  void* data = ::mmap(nullptr, file.size, PROT_READ, MAP_PRIVATE, file.descriptor.get(), 0);
+  if (data == MAP_FAILED) throw IoError(concat(path.string(), ": cannot be mapped: ", reason()));
+  watch_ = begin_watch(static_cast<char*>(data), file.size, when_cut, path);
+  data_ = static_cast<const char*>(data);
+  size_ = file.size;
+  if (when_cut == WhenCut::kFill) descriptor_ = file.descriptor.release();
+}
+
+MappedFile::~MappedFile() {
+  end_watch(watch_);
+  if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+MappedFile::MappedFile(MappedFile&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)),
+      size_(std::exchange(other.size_, 0)),
+      watch_(std::exchange(other.watch_, -1)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
+  std::swap(data_, other.data_);
+  std::swap(size_, other.size_);
+  std::swap(watch_, other.watch_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+bool MappedFile::was_cut() const {
+  if (watch_ >= 0 && watches[static_cast<std::size_t>(watch_)].cut) return true;
+  struct stat status {};
+  return descriptor_ >= 0 &&
+         (::fstat(descriptor_, &status) != 0 || static_cast<std::size_t>(status.st_size) < size_);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/error.h"
+
+#include "support/temporary_folder.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::TemporaryFolder;
+
+TEST(ListFolder, NamesComeInOrderAndWhatIsNoFolderHasNone) {
+  const TemporaryFolder folder;
+  for (const char* name : {"in/b", "in/a", "in/.hidden", "in/sub/c"}) folder.write(name, "");
+  const fs::path in = folder / "in";
+  EXPECT_THAT(list_folder(in), ElementsAre(in / ".hidden", in / "a", in / "b", in / "sub"));
+  EXPECT_THAT(list_folder(folder / "none"), IsEmpty());
+  EXPECT_THAT(list_folder(in / "a"), IsEmpty());
+}
+
+TEST(FoldersFrom, LinksAreNotFollowed) {
+  const TemporaryFolder folder;
+  folder.write("in/sub/deep/c", "");
+  folder.write("out/d", "");
+  fs::create_directory_symlink(folder / "out", folder / "in/link");
+  const fs::path in = folder / "in";
+  EXPECT_THAT(folders_from(in), ElementsAre(in, in / "sub", in / "sub/deep"));
+}
+
+TEST(LeadsBelow, LinksAreSeenThrough) {
+  const TemporaryFolder folder;
+  folder.write("in/a", "");
+  folder.write("out/d", "");
+  fs::create_directory_symlink(folder / "out", folder / "in/link");
+  fs::create_directory_symlink(folder / "in", folder / "in/self");
+  const fs::path in = folder / "in";
+  EXPECT_TRUE(leads_below(in / "a", in));
+  EXPECT_TRUE(leads_below(in / "not/there/yet", in));
+  EXPECT_TRUE(leads_below(in / "self/a", in));
+  EXPECT_FALSE(leads_below(in / "link/d", in));
+  EXPECT_FALSE(leads_below(in / "../out/d", in));
+}
+
+TEST(HeldFolder, ASecondFolderOfItsNameIsAnother) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "in");
+  const HeldFolder held(folder / "in");
+  EXPECT_NO_THROW(held.require_same());
+  fs::rename(folder / "in", folder / "moved");
+  EXPECT_THROW(held.require_same(), IoError);
+  fs::create_directories(folder / "in");
+  EXPECT_THROW(held.require_same(), IoError);
+  EXPECT_THROW(HeldFolder(folder / "none"), CannotCreate);
+}
+
+}  // namespace
+}  // namespace crowdface
