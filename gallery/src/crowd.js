@@ -8,6 +8,7 @@ export function readCrowd(data) {
     ...recipe,
     order,
     tags: heads.get(recipe.target)?.tags ?? [],
+    group: recipe.group ?? null,
     byHand: recipe.index === null && recipe.family === null,
     near: (data.near[order] ?? []).map(([other, mm]) => ({ id: data.faces[other].id, mm })),
     likeness: data.likeness[order] ?? order,
@@ -23,8 +24,24 @@ export function readCrowd(data) {
     })),
     byId: new Map(faces.map((face) => [face.id, face])),
     families: present(faces.map((face) => face.family).filter((name) => name !== null)),
+    groups: present(faces.map((face) => face.group).filter((name) => name !== null)),
     targets: present(faces.map((face) => face.target)),
     tags: present(faces.flatMap((face) => face.tags)),
+  };
+}
+
+/// Parents, sisters and brothers, and children of a face, as far as they are known.
+export function relativesOf(crowd, face) {
+  const parents = Object.entries(face.parents ?? {}).map(([role, name]) => ({
+    role, name, face: crowd.byId.get(name), head: crowd.heads.find((head) => head.name === name),
+  }));
+  const same = (other) => other.parents?.mother === face.parents?.mother &&
+    other.parents?.father === face.parents?.father;
+  return {
+    parents,
+    siblings: crowd.faces.filter((other) => other !== face &&
+      (face.parents ? same(other) : face.family !== null && other.family === face.family)),
+    children: crowd.faces.filter((other) => Object.values(other.parents ?? {}).includes(face.id)),
   };
 }
 
@@ -40,13 +57,15 @@ const orders = {
   far: (a, b) => nearestMm(b) - nearestMm(a) || a.order - b.order,
   head: (a, b) => (a.nearest?.face_mm ?? Infinity) - (b.nearest?.face_mm ?? Infinity),
   likeness: (a, b) => a.likeness - b.likeness,
+  group: (a, b) =>
+    (a.group ?? '\uffff').localeCompare(b.group ?? '\uffff') || a.order - b.order,
   family: (a, b) =>
     (a.family ?? '\uffff').localeCompare(b.family ?? '\uffff') || a.order - b.order,
 };
 
-/// What is asked for, word by word: each word must occur in the id, family, target, tags or note.
+/// What is asked for, word by word: each word must occur in the id, family, group, target, tags or note.
 function matches(face, words, mark) {
-  const text = [face.id, face.family, face.target, ...face.tags, face.note, mark?.note]
+  const text = [face.id, face.family, face.group, face.target, ...face.tags, face.note, mark?.note]
     .filter(Boolean).join(' ').toLowerCase();
   return words.every((word) => text.includes(word));
 }
@@ -69,6 +88,8 @@ export function chosenFaces(crowd, filters, markOf) {
       return (
         (!filters.family ||
           (filters.family === '·none' ? face.family === null : face.family === filters.family)) &&
+        (!filters.group ||
+          (filters.group === '·none' ? face.group === null : face.group === filters.group)) &&
         (!filters.target || face.target === filters.target) &&
         filters.tags.every((tag) => face.tags.includes(tag)) &&
         markFilters[filters.mark](mark) &&
@@ -78,4 +99,4 @@ export function chosenFaces(crowd, filters, markOf) {
     .sort(orders[filters.sort]);
 }
 
-export const noFilters = { search: '', family: '', target: '', tags: [], mark: 'any', sort: 'plan' };
+export const noFilters = { search: '', family: '', group: '', target: '', tags: [], mark: 'any', sort: 'plan' };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { el, short } from './dom.js';
+import { relativesOf } from './crowd.js';
 import { picture } from './grid.js';
 import { Turntable } from './turntable.js';
 
@@ -44,7 +45,8 @@ export class FacePage {
     this.place.textContent = at >= 0 ? `${at + 1} of ${faces.length}` : '';
     this.rendersBox.replaceChildren(...(face.picture
       ? [el('img', { src: face.picture, alt: `Renders of ${face.id}` })] : []));
-    this.side.replaceChildren(this.marks(), this.about(), this.recipe(), this.neighbours());
+    this.side.replaceChildren(...[this.marks(), this.about(), this.family(), this.recipe(),
+      this.neighbours()].filter(Boolean));
     this.compare('face');
   }
 
@@ -128,7 +130,7 @@ export class FacePage {
         el('div', { class: 'verdicts' }, button('keep', 'Keep', 'K'), button('reject', 'Reject', 'R')),
         ...(locks ? [locks] : []),
         ...(face.byHand ? [el('small', { class: 'muted' },
-          'Written by hand: change its recipe in the config in place of rejecting it.')] : []));
+          'Written by hand, or children take after it: change the config in place of rejecting it.')] : []));
     };
     const verdicts = el('div', {});
     const note = el('textarea', {
@@ -155,8 +157,10 @@ export class FacePage {
   about() {
     const { face } = this;
     const rows = [
-      ['Target', face.target],
+      ['Target', face.mixture ? Object.entries(face.mixture).sort((a, b) => b[1] - a[1])
+        .map(([head, share]) => `${head} ${short(100 * share, 0)} %`).join(', ') : face.target],
       face.tags.length > 0 ? ['Tags', face.tags.join(', ')] : null,
+      face.group ? ['Group', face.group] : null,
       face.family ? ['Family', face.family] : null,
       face.age ? ['Age', short(face.age)] : null,
       face.nearest ? ['Nearest head', `${face.nearest.face}, ${short(face.nearest.face_mm)} mm`] : null,
@@ -165,6 +169,27 @@ export class FacePage {
     ].filter(Boolean);
     return el('section', {}, el('dl', {}, rows.map(([name, value]) =>
       [el('dt', {}, name), el('dd', {}, value)])));
+  }
+
+  /// The family as a tree: parents, the face among its sisters and brothers, children.
+  family() {
+    const { parents, siblings, children } = relativesOf(this.crowd, this.face);
+    if (parents.length + siblings.length + children.length === 0) return null;
+    const cell = (name, face, text, head) => el('button', {
+      class: 'neighbour', disabled: !face, title: face ? `Open ${name}` : name, onclick: () => this.go(face),
+    }, picture(face ?? head, name), el('b', {}, name), el('span', {}, text));
+    const share = this.face.mother_share;
+    const gave = ({ role }) => {
+      const parts = Object.entries(this.face.inherits ?? {}).filter(([, from]) => from === role).map(([region]) => region);
+      if (share) parts.unshift(`large forms ${short(100 * (role === 'mother' ? share : 1 - share), 0)} %`);
+      return `${role}: ${parts.join(', ')}`;
+    };
+    const row = (title, cells) => (cells.length > 0
+      ? [el('h3', {}, title), el('div', { class: 'neighbours' }, cells)] : []);
+    return el('section', { class: 'tree' }, el('h2', {}, this.face.family ? `Family ${this.face.family}` : 'Family'),
+      row('Parents', parents.map((parent) => cell(parent.name, parent.face, gave(parent), parent.head))),
+      row('Sisters and brothers', siblings.map((face) => cell(face.id, face, ''))),
+      row('Children', children.map((face) => cell(face.id, face, face.family ?? ''))));
   }
 
   recipe() {
@@ -176,7 +201,7 @@ export class FacePage {
       const inherited = face.inherits?.[name];
       return el('div', { class: 'region' },
         el('h3', {}, name === 'all' ? 'Whole head' : name,
-          inherited ? el('small', {}, ` from the ${inherited}`) : null),
+          inherited ? el('small', {}, ` from the ${inherited}, ${face.parents?.[inherited] ?? ''}`) : null),
         el('div', { class: 'numbers' },
           this.meter('Smoothness', region.smoothness, 1, `${region.iterations} iterations`),
           this.meter('Strength', region.extrapolation, 2, 'extrapolation')),

@@ -94,10 +94,13 @@ class Page {
       el('nav', {}, this.tabs), this.search,
       select('sort', 'Order', [['plan', 'as planned'], ['id', 'by id'],
         ['distance', 'nearest neighbour first'], ['far', 'most distinct first'],
-        ['head', 'nearest to a head first'], ['likeness', 'by likeness'], ['family', 'by family']]),
+        ['head', 'nearest to a head first'], ['likeness', 'by likeness'], ['family', 'by family'],
+        ...(crowd.groups.length > 0 ? [['group', 'by group']] : [])]),
       select('target', 'Target', [['', 'all'], ...crowd.targets.map((name) => [name, name])]),
       crowd.families.length > 0 ? select('family', 'Family', [['', 'all'],
         ...crowd.families.map((name) => [name, name]), ['·none', 'none']]) : null,
+      crowd.groups.length > 0 ? select('group', 'Group', [['', 'all'],
+        ...crowd.groups.map((name) => [name, name]), ['·none', 'none']]) : null,
       select('mark', 'Marks', [['any', 'any'], ['unmarked', 'not marked yet'], ['keep', 'kept'],
         ['reject', 'rejected'], ['locked', 'locked'], ['noted', 'with a note']]),
       tags.length > 0 ? el('div', { class: 'tags' }, tags) : null,
@@ -189,7 +192,7 @@ class Page {
     });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-    this.say(`review.yaml holds your marks: crowdface plan CONFIG --review review.yaml`);
+    this.say(`review.yaml holds your marks: crowdface generate CONFIG --review review.yaml`);
   }
 
   // -- keys --

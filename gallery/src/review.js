@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks: kept in the browser across reloads, exported as the review.yaml that `crowdface plan
+// Marks: kept in the browser across reloads, exported as the review.yaml that `crowdface generate
 // --review` takes.
 
 /// A text as a double-quoted YAML scalar on one line.
@@ -69,7 +69,7 @@ export class Review {
   /// \return why not, or null.
   verdict(face, verdict) {
     if (verdict === 'reject' && face.byHand) {
-      return 'This face is written by hand: change its recipe in the config.';
+      return 'This face is written by hand, or children take after it: change the config.';
     }
     this.change(face, { verdict: this.of(face)?.verdict === verdict ? undefined : verdict });
     return null;
@@ -77,7 +77,7 @@ export class Review {
 
   /// Locks a region, or lets it go: the face is drawn anew but for what is locked.
   lock(face, region) {
-    if (face.byHand) return 'This face is written by hand: change its recipe in the config.';
+    if (face.byHand) return 'This face is written by hand, or children take after it: change the config.';
     const lock = new Set(this.of(face)?.lock ?? []);
     if (!lock.delete(region)) lock.add(region);
     if (lock.size === this.crowd.regions.length) {
@@ -99,6 +99,6 @@ export class Review {
       .map(([face, mark]) => `  ${key(face.id)}: ${formatMark(mark, this.crowd.regions)}`);
     const faces = lines.length > 0 ? `faces:\n${lines.join('\n')}` : 'faces: {}';
     return `# Marks of the crowd ${this.crowd.name}, seed ${this.crowd.seed}: ` +
-      `crowdface plan CONFIG --review THIS_FILE\nschema: 1\n${faces}\n`;
+      `crowdface generate CONFIG --review THIS_FILE\nschema: 1\n${faces}\n`;
   }
 }

@@ -171,6 +171,33 @@ TEST_F(Blend, FixedRimKeepsTheTargetsBits) {
   EXPECT_EQ(rim, 2 * (9 + 8));
 }
 
+TEST_F(Blend, ATargetThatIsAMixtureIsTheMixtureOfTheFaces) {
+  const std::vector<SourceWeight> shares = {{0, 0.5}, {1, 0.2}, {2, 0.3}};
+  const std::vector<RegionRecipe> regions = {region({{0, 0.25}, {2, 0.75}}, 7, 1.2),
+                                             region({{1, 1}}, 30, 0.9)};
+  Recipe mixed = recipe(0, regions);
+  set_target(mixed, shares);
+  EXPECT_EQ(mixed.target, 0);
+  const auto fits = cubic_fits(60);
+  const CrowdBlender fitted = blender(fits, two_);
+  Positions exact = Positions::Zero(head(0).rows(), 3), cubic = exact, target = exact;
+  for (const SourceWeight& part : shares) {
+    const Recipe one = recipe(part.head, regions);
+    exact += part.weight * blend_exact(faces_, filter(), two_, one);
+    cubic += part.weight * fitted.blend(one);
+    target += part.weight * head(static_cast<std::size_t>(part.head));
+  }
+  const Positions face = blend_exact(faces_, filter(), two_, mixed);
+  EXPECT_LT((face - exact).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((fitted.blend(mixed) - cubic).cwiseAbs().maxCoeff(), 1e-5) << "single precision";
+  EXPECT_EQ(face.row(0), target_positions(faces_, mixed).row(0)) << "a fixed rim stays";
+  EXPECT_LT((target_positions(faces_, mixed) - target).cwiseAbs().maxCoeff(), 1e-12);
+
+  set_target(mixed, {{1, 1}});
+  EXPECT_TRUE(mixed.mixture.empty());
+  EXPECT_EQ(mixed.target, 1);
+}
+
 TEST_F(Blend, CubicFollowsItsFormula) {
   const std::vector<CubicFit> fits = cubic_fits(50);
   const std::vector<RegionRecipe> regions = {region({{0, 0.5}, {1, 0.2}, {2, 0.3}}, 5, 0.9),

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/cast/ageing.h"
 #include "crowdface/core/require.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/smooth/level_size.h"
@@ -30,6 +31,61 @@ Casting example() {
   casting.sampling.regions.resize(2);
   casting.scale = {OperatorKind::kUmbrella, 1000, 2};
   return casting;
+}
+
+TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
+  Casting casting = example();
+  Group group = {"elderly", {}, 0.5, casting.sampling};
+  group.sampling.targets = {{1, 1}, {3, 1}};
+  group.sampling.sources = {1, 3};
+  for (RegionSampling& region : group.sampling.regions) region.extrapolation = {1.3, 1.3};
+  casting.groups = {group};
+  const FaceKind kind = kind_of_group(casting, 0);
+  for (std::uint64_t index = 1; index <= 50; ++index) {
+    const CastFace face = draw_face(casting, index, 0, kind);
+    EXPECT_EQ(face.group, "elderly");
+    EXPECT_TRUE(face.recipe.target == 1 || face.recipe.target == 3);
+    for (const RegionRecipe& region : face.recipe.regions) {
+      EXPECT_EQ(region.extrapolation, 1.3);
+      for (const SourceWeight& source : region.weights) {
+        EXPECT_TRUE(source.head == 1 || source.head == 3);
+      }
+    }
+    EXPECT_FALSE(draw_face(casting, index).group) << "of none: by the numbers of the crowd";
+  }
+}
+
+TEST(Diversity, AskingForMoreDrawsNoFewerCandidates) {
+  const DiversityOptions defaults;
+  DiversityOptions more;
+  more.min_distance_mm = 1;
+  EXPECT_EQ(more.candidates_for(1), defaults.candidates_for(1));
+  for (const int candidates : {1, 40}) {
+    more.candidates = candidates;
+    more.pool = candidates;
+    EXPECT_GE(more.candidates_for(1), defaults.candidates_for(1));
+    EXPECT_GE(more.candidates_for(5000), defaults.candidates_for(5000));
+    EXPECT_GE(more.pool_for_each(), defaults.pool_for_each());
+  }
+  EXPECT_EQ(more.candidates_for(1), 40);
+}
+
+TEST(Ageing, CanBeTakenBack) {
+  Casting casting = example();
+  casting.sampling.old_heads = {1, 4};
+  const CastFace young = draw_face(casting, 7);
+  CastFace face = young;
+  apply_age(face, 0.4, casting.sampling);
+  take_back_age(face, casting.sampling);
+  EXPECT_FALSE(face.age);
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    const auto &back = face.recipe.regions[k].weights, &before = young.recipe.regions[k].weights;
+    ASSERT_EQ(back.size(), before.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      EXPECT_EQ(back[i].head, before[i].head);
+      EXPECT_NEAR(back[i].weight, before[i].weight, 1e-9);
+    }
+  }
 }
 
 /// Hand-written recipes, then the first draw of each face.

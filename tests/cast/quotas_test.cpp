@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/quotas.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -50,6 +51,34 @@ TEST(Quotas, GrowingTheCrowdMovesNobody) {
   const auto many = schedule_quotas(quotas, 500);
   for (const std::uint64_t count : {0U, 1U, 17U, 250U}) {
     const auto few = schedule_quotas(quotas, count);
+    EXPECT_TRUE(std::equal(few.begin(), few.end(), many.begin())) << count;
+  }
+}
+
+Group group(std::optional<std::uint64_t> count, double share) {
+  return {"g", count, share, {}};
+}
+
+TEST(Groups, CountsComeFirstAndSharesAreOfTheRest) {
+  const std::vector<Group> groups = {group({}, 0.5), group(3, 0), group({}, 0.25)};
+  const std::vector<int> schedule = schedule_groups(groups, 43);
+  ASSERT_EQ(schedule.size(), 43U);
+  const auto of = [&](int g) { return std::count(schedule.begin(), schedule.end(), g); };
+  EXPECT_EQ(std::count(schedule.begin(), schedule.begin() + 3, 1), 3);
+  EXPECT_EQ(of(1), 3);
+  EXPECT_EQ(of(0), 20);
+  EXPECT_EQ(of(2), 10);
+  EXPECT_EQ(of(-1), 10);
+  const std::vector<int> pool = schedule_groups(groups, 86, 2);
+  EXPECT_EQ(std::count(pool.begin(), pool.end(), 1), 6) << "a pool of two crowds";
+}
+
+TEST(Groups, GrowingTheCrowdMovesNobody) {
+  const std::vector<Group> groups = {group(4, 0), group({}, 0.3), group({}, 0.7)};
+  const auto many = schedule_groups(groups, 300);
+  for (const std::uint64_t count : {0U, 2U, 4U, 50U}) {
+    const auto few = schedule_groups(groups, count);
+    ASSERT_EQ(few.size(), count);
     EXPECT_TRUE(std::equal(few.begin(), few.end(), many.begin())) << count;
   }
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "crowdface/config/config_reader.h"
+#include "crowdface/config/config_writer.h"
 
 #include "config/config_test_folder.h"
 
@@ -45,6 +46,62 @@ TEST_F(ConfigTest, CastingIsRead) {
   EXPECT_EQ(config->families[1].min_distance_mm, 0.5);
 }
 
+TEST_F(ConfigTest, GroupsTakeWhatTheyDoNotSayFromSampling) {
+  const auto config = read(
+      "schema: 1\ncrowd: {name: mob, count: 10}\n"
+      "faces: {directory: heads, units: cm, tags: {ann: [old, female], bob: [old], "
+      "cyd: [female]}}\n"
+      "sampling: {targets: [bob], extrapolation: 1.1, max_sources: 2}\n"
+      "groups:\n"
+      "  - {name: elderly, share: 0.3, tags: [old, female], age: 0.5, max_sources: all}\n"
+      "  - {name: two, count: 2, sources: [cyd]}\n"
+      "  - {name: rest}\n"
+      "families: [{name: kin, members: 1, group: two, parents: {mother: drawn, "
+      "father: {group: elderly}}}]\n");
+  ASSERT_TRUE(config) << told();
+  ASSERT_EQ(config->groups.size(), 3U);
+  const Group &elderly = config->groups[0], &two = config->groups[1], &rest = config->groups[2];
+  ASSERT_EQ(elderly.sampling.targets.size(), 1U);
+  EXPECT_EQ(elderly.sampling.targets[0].head, 0);
+  EXPECT_THAT(elderly.sampling.sources, ElementsAre(0));
+  EXPECT_EQ(elderly.sampling.age.high, 0.5);
+  EXPECT_FALSE(elderly.sampling.max_sources);
+  EXPECT_EQ(elderly.sampling.regions[0].extrapolation.low, 1.1);
+  EXPECT_EQ(two.count, 2U);
+  EXPECT_EQ(two.sampling.targets[0].head, 1);
+  EXPECT_THAT(two.sampling.sources, ElementsAre(2));
+  EXPECT_DOUBLE_EQ(rest.share, 0.7);
+  EXPECT_EQ(rest.sampling.max_sources, 2);
+  const FamilyOptions& kin = config->families[0];
+  EXPECT_EQ(kin.group, 1U);
+  EXPECT_TRUE(kin.parents[0].drawn);
+  EXPECT_EQ(kin.parents[0].id, "kin_mother");
+  EXPECT_FALSE(kin.parents[0].group);
+  EXPECT_EQ(kin.parents[1].group, 0U);
+  EXPECT_EQ(kin.max_distance_mm, 2.5);
+  EXPECT_EQ(kin.min_distance_mm, 2.5 / 4);
+
+  const std::string written = effective_config(*config, folder_);
+  const auto again = read(written);
+  ASSERT_TRUE(again) << told() << written;
+  EXPECT_EQ(effective_config(*again, folder_), written);
+}
+
+TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {
+  const auto refused = [&](const std::string& more, const std::string& phrase) {
+    EXPECT_FALSE(read(kPlain + more)) << more;
+    EXPECT_THAT(told(), HasSubstr(phrase)) << more;
+  };
+  refused("groups: [{share: 0.5}]\n", "name");
+  refused("groups: [{name: a}, {name: a}]\n", "two groups are called \"a\"");
+  refused("groups: [{name: a, share: 0.7}, {name: b, share: 0.7}]\n", "more than 1");
+  refused("groups: [{name: a, share: 0.7, count: 1}]\n", "not both");
+  refused("groups: [{name: a, count: 1000}]\n", "counts of 1000 faces");
+  refused("groups: [{name: a, tags: [purple]}]\n", "no head has all of these tags");
+  refused("diversity: {quotas: {ann: 0.5}}\ngroups: [{name: a}]\n", "do not go together");
+  refused("families: [{name: k, members: 1, group: nobody}]\n", "no group is called \"nobody\"");
+}
+
 TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
   const auto refused = [&](const std::string& more, const std::string& phrase) {
     problems_ = Problems();
@@ -59,14 +116,13 @@ TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
   refused("diversity: {quotas: {ann: 0.2, bob: 0.2, cyd: 0.2}}\n", "for whom is the rest");
   refused("sampling: {targets: [ann]}\ndiversity: {quotas: {bob: 0.5}}\n", "sampling.targets");
   refused("families: [{name: smith, members: 0, max_distance: 2 mm}]\n", "from 1 to 1000");
-  refused("families: [{name: smith, members: 2}]\n", "max_distance: missing");
   refused("families: [{name: 7, members: 2, max_distance: 2 mm}]\n", "needs a letter");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, min_distance: 3 mm}]\n",
           "twice that apart");
   refused(
       "families: [{name: a, members: 2, max_distance: 1 mm, parents: {mother: a_01, father: "
       "bob}}]\n",
-      "expected a head, a recipe's id or a member");
+      "expected drawn, a head, a recipe's id or a member");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, inherit: {all: mother}}]\n",
           "only a family with parents");
   refused("sampling: {age: 0.5}\n", "no head is tagged old");

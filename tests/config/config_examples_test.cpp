@@ -12,6 +12,9 @@ namespace {
 class ExampleConfigs : public ConfigTest {};
 
 TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
+  for (int i = 1; i <= 24; ++i) {
+    touch(concat("out/brief_heads/synth_", zero_padded(static_cast<std::uint64_t>(i), 2), ".obj"));
+  }
   for (int i = 1; i <= 8; ++i) {
     touch(concat("out/demo_heads/synth_0", i, ".obj"));
     touch(concat("heads/ict/ict_0", i, ".obj"));
@@ -77,7 +80,7 @@ std::string complete(const std::string& block) {
   };
   add("schema:", "1");
   add("crowd:", "{name: a, count: 1}");
-  add("faces:", "{directory: heads, units: cm, tags: {ann: [old]}}");
+  add("faces:", "{directory: heads, units: cm, tags: {ann: [old, female]}}");
   add("regions:", "{names: [top, middle, bottom], mask: mask.png}");
   return text;
 }

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 /// A crowd of this text and no other.
 CrowdConfig config_of(const std::string& text) {
-  return {text, [text](const std::string& other) {
+  return {text, {}, [text](const std::string& other) {
             return other == text ? std::nullopt : std::optional<std::string>("crowd.seed");
           }};
 }

@@ -150,11 +150,11 @@ TEST(PlanFile, TableSaysTheSame) {
             "id,index,family,target,top_position_x,top_position_y,top_weights,top_smoothness,"
             "top_iterations,top_extrapolation,low_position_x,low_position_y,low_weights,"
             "low_smoothness,low_iterations,low_extrapolation,nearest_face,nearest_face_mm,"
-            "nearest_crowd,nearest_crowd_mm\r\n"
+            "nearest_crowd,nearest_crowd_mm,group,mixture\r\n"
             "mob_0007,7,,cyd,0.1,-0.3333333333333333,ann:0.3333333333333333;cyd:0.6666666666666666,"
-            "0.45,9000,1.1,,,bob:1,0,0,-0.30000000000000004,bob,2.4124,mob_0003,1\r\n"
+            "0.45,9000,1.1,,,bob:1,0,0,-0.30000000000000004,bob,2.4124,mob_0003,1,,\r\n"
             "mine,,,cyd,0.1,-0.3333333333333333,ann:0.3333333333333333;cyd:0.6666666666666666,"
-            "0.45,9000,1.1,,,bob:1,0,0,-0.30000000000000004,,,,\r\n");
+            "0.45,9000,1.1,,,bob:1,0,0,-0.30000000000000004,,,,,,\r\n");
 }
 
 }  // namespace

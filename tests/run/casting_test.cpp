@@ -3,6 +3,8 @@
 #include "crowdface/run/casting.h"
 
 #include <algorithm>
+#include <fstream>
+#include <map>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -294,13 +296,190 @@ TEST(Casting, ReviewsRedrawWhatTheyRejectAndNothingElse) {
       }
     }
   }
-  // The config of the folder gives the reviewed crowd again; one without the review is refused.
-  generate(folder.out() / "config.yaml", {}, {folder.cache(), Replace::kRefuse, false});
-  EXPECT_EQ(plan_lines(folder.out()), after);
-  testing::expect_error(ExitCode::kUsage, {"another config's crowd"}, [&] {
-    ConfigOverrides plain;
-    plain.out = folder.out().string();
-    generate(folder.config(), plain, {folder.cache(), Replace::kRefuse, false});
+  // The folder keeps the review: its own config and the user's give the reviewed crowd again.
+  const auto again = [&](const fs::path& config, const std::vector<std::string>& reviews) {
+    ConfigOverrides round;
+    round.out = folder.out().string();
+    round.review = reviews;
+    generate(config, round, {folder.cache(), Replace::kRefuse, false});
+    return plan_lines(folder.out());
+  };
+  EXPECT_EQ(again(folder.out() / "config.yaml", {}), after);
+  EXPECT_EQ(again(folder.config(), {}), after);
+  EXPECT_EQ(again(folder.config(), {review.string()}), after) << "it counts once";
+}
+
+TEST(Casting, ReviewsAddUpInRounds) {
+  SmallCrowd crowd = six_bowls();
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const auto first = plan_lines(folder.out());
+  const auto reject = [&](const std::string& id, const std::string& file) {
+    ConfigOverrides round;
+    round.review = {
+        folder.folder().write(file, "schema: 1\nfaces: {" + id + ": reject}\n").string()};
+    plan(folder.config(), round, {folder.cache(), Replace::kRefuse, false});
+    return plan_lines(folder.out());
+  };
+  const auto second = reject("mob_0003", "one.yaml");
+  const auto third = reject("mob_0005", "two.yaml");
+  EXPECT_NE(second[2], first[2]);
+  EXPECT_EQ(third[2], second[2]) << "the second round undoes nothing of the first";
+  EXPECT_NE(third[4], second[4]);
+  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  EXPECT_EQ(plan_lines(folder.out()), third) << "as the gallery's page says";
+  EXPECT_TRUE(fs::exists(folder.out() / "reviews/review_002.yaml"));
+
+  // What was rejected is kept, and what came in its place is no double of it.
+  std::vector<json> rejected;
+  std::ifstream file(folder.out() / "rejected.jsonl");
+  for (std::string line; std::getline(file, line);) rejected.push_back(json::parse(line));
+  ASSERT_EQ(rejected.size(), 2U);
+  EXPECT_EQ(rejected[0], first[2]);
+  const Measured faces(folder);
+  std::vector<double> all;
+  for (std::size_t a = 0; a < faces.lines.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) all.push_back(faces.between(a, b));
+  }
+  std::sort(all.begin(), all.end());
+  const reference::Points old = reference::blend(folder.reference_heads(), rejected[1]);
+  EXPECT_GE(reference::distance_mm(faces.areas, faces.as_built[4], old, kMmPerCm),
+            0.4 * all[all.size() / 2]);
+
+  // A folder of another config is refused by its key; with --force its reviews are not applied.
+  ConfigOverrides other;
+  other.seed = "12";
+  testing::expect_error(ExitCode::kUsage, {"another config's crowd", "crowd.seed"}, [&] {
+    generate(folder.config(), other, {folder.cache(), Replace::kRefuse, false});
+  });
+  plan(folder.config(), other, {folder.cache(), Replace::kForce, false});
+  EXPECT_FALSE(fs::exists(folder.out() / "reviews"));
+  EXPECT_FALSE(fs::exists(folder.out() / "rejected.jsonl"));
+}
+
+TEST(Casting, AskingForDistanceLowersNothing) {
+  SmallCrowd crowd = six_bowls();
+  crowd.count = 30;
+  const SmallCrowdFolder folder(crowd);
+  const auto closest = [&](const std::vector<std::string>& set) {
+    ConfigOverrides overrides;
+    overrides.set = set;
+    plan(folder.config(), overrides, {folder.cache(), Replace::kForce, false});
+    return testing::read_json(folder.out() / "casting.json")
+        .at("distances")
+        .at("between_faces_mm")
+        .at("min")
+        .get<double>();
+  };
+  const double defaults = closest({});
+  EXPECT_GE(closest({"diversity.min_distance=0.1 mm"}), defaults);
+  EXPECT_GE(closest({"diversity.candidates=1"}), defaults);
+  EXPECT_GE(closest({"diversity.candidates=1", "diversity.min_distance=0.1 mm"}), defaults);
+}
+
+TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
+  SmallCrowd crowd = six_bowls();
+  crowd.more =
+      "groups:\n"
+      "  - {name: few, share: 0.25, targets: [ann], sources: [ann, bob]}\n"
+      "  - {name: three, count: 3, targets: [cyd], extrapolation: 1.05}\n"
+      "  - {name: rest, sources: [cyd, dan]}\n"
+      "families: [{name: kin, group: few, members: 2, "
+      "parents: {mother: drawn, father: {group: rest}}}]\n";
+  const SmallCrowdFolder folder(crowd);
+  ConfigOverrides small, large;
+  small.count = "11";
+  large.count = "27";
+  run(folder, small, "small");
+  run(folder, large, "large");
+  const std::string few = testing::read_text(folder / "small/plan.jsonl");
+  EXPECT_EQ(testing::read_text(folder / "large/plan.jsonl").substr(0, few.size()), few);
+  std::map<std::string, int> faces;
+  for (const json& line : plan_lines(folder / "large")) {
+    if (line.at("id") == "mob_kin_mother") EXPECT_FALSE(line.contains("group"));
+    if (line.at("id") == "mob_kin_father") EXPECT_EQ(line.at("group"), "rest");
+    if (line.at("index").is_null()) continue;
+    const auto group = line.at("group").get<std::string>();
+    ++faces[group];
+    for (const json& region : line.at("regions")) {
+      for (const auto& [head, weight] : region.at("weights").items()) {
+        if (group == "few") EXPECT_TRUE(head == "ann" || head == "bob");
+        if (group == "rest") {
+          EXPECT_TRUE(head == "cyd" || head == "dan" || head == line.at("target"));
+        }
+      }
+      if (group == "three") EXPECT_EQ(region.at("extrapolation"), 1.05);
+    }
+    if (group == "few") EXPECT_EQ(line.at("target"), "ann");
+  }
+  EXPECT_EQ(faces["few"], 6);
+  EXPECT_EQ(faces["three"], 3);
+  EXPECT_EQ(faces["rest"], 18);
+  const json groups = testing::read_json(folder / "large/casting.json").at("groups");
+  EXPECT_GE(groups.at("few").at("faces"), 6);
+  EXPECT_THAT(testing::read_text(folder / "large/crowd.csv"), ::testing::HasSubstr(",rest,"));
+}
+
+TEST(Casting, AQuotaThatTheSourcesContradictIsWarnedOf) {
+  SmallCrowd crowd = six_bowls();
+  crowd.sampling = "{sources: [cyd, dan], smoothness: [0.2, 0.9]}";
+  crowd.more = "diversity: {quotas: {ann: 0.5}}\n";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const json warnings = testing::read_json(folder.out() / "report.json").at("warnings");
+  EXPECT_THAT(warnings.dump(), ::testing::HasSubstr("faces of the quota ann have"));
+}
+
+TEST(Casting, ChildrenResembleBothParentsThroughGenerations) {
+  SmallCrowd crowd = six_bowls();
+  crowd.count = 8;
+  crowd.more =
+      "families:\n"
+      "  - {name: smith, members: 3, parents: {mother: drawn, father: drawn}, max_distance: 1.5 "
+      "mm}\n"
+      "  - {name: green, members: 2, parents: {mother: smith_01, father: drawn}, max_distance: 1.5 "
+      "mm}\n"
+      "  - {name: brown, members: 2, parents: {mother: drawn, father: smith_02}, max_distance: 1.5 "
+      "mm}\n"
+      "  - {name: pair, members: 2, twins: true, parents: {mother: ann, father: bob}}\n";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  testing::expect_meshes_match_plan(folder, folder.out());
+  const Measured faces(folder);
+  std::map<std::string, std::size_t> at;
+  for (std::size_t i = 0; i < faces.lines.size(); ++i) at[faces.lines[i].at("id")] = i;
+  ASSERT_EQ(at.size(), 8U + 9U + 4U);
+  EXPECT_LT(at.at("mob_smith_mother"), at.at("mob_smith_01"));
+  for (const json& line : faces.lines) {
+    if (line.at("family") == "smith") {
+      EXPECT_EQ(line.at("parents").at("mother"), "mob_smith_mother");
+      EXPECT_GT(line.at("mother_share").get<double>(), 0.1);
+      EXPECT_LT(line.at("mother_share").get<double>(), 0.9);
+    }
+  }
+  const auto mm = [&](const std::string& a, const std::string& b) {
+    return faces.between(at.at("mob_" + a), at.at("mob_" + b));
+  };
+  EXPECT_LE(mm("pair_01", "pair_02"), 1 + kTolerance) << "twins";
+  EXPECT_LT(mm("green_01", "green_02"), mm("green_01", "brown_01")) << "siblings, cousins";
+  EXPECT_LT(mm("brown_01", "brown_02"), mm("brown_01", "green_02"));
+  for (const json& family : testing::read_json(folder.out() / "casting.json").at("families")) {
+    EXPECT_LE(family.at("to_founder_mm").at("max").get<double>(), 1.5 + kTolerance);
+  }
+
+  // Children stay near their parents' mean, so parents who stay make them stay when the crowd grows.
+  ConfigOverrides more;
+  more.count = "20";
+  run(folder, more, "more");
+  const std::string few = testing::read_text(folder.out() / "plan.jsonl");
+  EXPECT_EQ(testing::read_text(folder / "more/plan.jsonl").substr(0, few.size()), few);
+
+  // A parent has children who take after it.
+  ConfigOverrides review;
+  review.review = {
+      folder.folder().write("r.yaml", "schema: 1\nfaces: {mob_smith_mother: reject}\n").string()};
+  testing::expect_error(ExitCode::kUsage, {"children who take after it"}, [&] {
+    plan(folder.config(), review, {folder.cache(), Replace::kRefuse, false});
   });
 }
 

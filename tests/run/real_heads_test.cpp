@@ -122,6 +122,64 @@ TEST_F(RealHeads, DefaultsCastFarAndDistancesAreThoseOfTheMeshes) {
   EXPECT_GE(distances[distances.size() / 2], 0.8 * of_inputs[of_inputs.size() / 2]);
 }
 
+/// What makes a family one, measured on every vertex of the meshes.
+TEST_F(RealHeads, ChildrenSiblingsAndCousinsAreAsNearAsTheyShouldBe) {
+  const testing::TemporaryFolder folder;
+  const fs::path config = folder.write(
+      "config.yaml",
+      concat("schema: 1\ncrowd: {name: real, count: 60, seed: 3}\n", "faces: {directory: ",
+             heads.string(), ", units: cm}\n", "sampling: {extrapolation: 1}\n",
+             "families:\n"
+             "  - {name: smith, members: 3, parents: {mother: drawn, father: drawn}}\n"
+             "  - {name: green, members: 3, parents: {mother: smith_01, father: drawn}}\n"
+             "  - {name: brown, members: 3, parents: {mother: drawn, father: smith_02}}\n"
+             "output: {directory: out, contact_sheet: none}\n"));
+  generate(config, {}, {folder / "cache", Replace::kRefuse, false});
+  const reference::Obj mesh = reference::read_obj(heads / "ict_00.obj");
+  const std::vector<double> areas = reference::front_areas(mesh, {mesh.vertices});
+  const auto lines = testing::plan_lines(folder / "out");
+  std::map<std::string, reference::Points> faces;
+  std::vector<std::string> strangers;
+  for (const auto& line : lines) {
+    const auto id = line.at("id").get<std::string>();
+    faces[id] = reference::read_obj(folder / concat("out/meshes/", id, ".obj")).vertices;
+    if (!line.at("index").is_null()) strangers.push_back(id);
+  }
+  const auto mm = [&](const std::string& a, const std::string& b) {
+    return reference::distance_mm(areas, faces.at(a), faces.at(b), 10);
+  };
+  for (const auto& line : lines) {
+    if (!line.contains("parents")) continue;
+    const auto id = line.at("id").get<std::string>();
+    std::vector<double> to_strangers;
+    for (const std::string& other : strangers) to_strangers.push_back(mm(id, other));
+    std::sort(to_strangers.begin(), to_strangers.end());
+    // Two hundred strangers were what casting looked at; these sixty scatter around them.
+    const double nine_in_ten = to_strangers[to_strangers.size() / 6];
+    for (const auto& parent : line.at("parents")) {
+      EXPECT_LT(mm(id, parent.get<std::string>()), nine_in_ten) << id << " and " << parent;
+    }
+  }
+  const auto member = [](const std::string& family, int m) {
+    return concat("real_", family, "_0", m);
+  };
+  double siblings = 0, cousins = 0, unrelated = 0;
+  for (int a = 1; a <= 3; ++a) {
+    for (int b = 1; b <= 3; ++b) {
+      cousins += mm(member("green", a), member("brown", b)) / 9;
+      if (a < b)
+        siblings += (mm(member("green", a), member("green", b)) +
+                     mm(member("brown", a), member("brown", b))) /
+                    6;
+    }
+    for (const std::string& other : strangers) {
+      unrelated += mm(member("green", a), other) / static_cast<double>(3 * strangers.size());
+    }
+  }
+  EXPECT_LT(siblings, cousins);
+  EXPECT_LT(cousins, unrelated);
+}
+
 TEST_F(RealHeads, NoMeshGoesBeyondALimitWhereMeshesAreJudged) {
   const testing::TemporaryFolder folder;
   const fs::path config = folder.write(

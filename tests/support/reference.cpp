@@ -68,12 +68,19 @@ using Smoothed = std::function<Points(const std::string& head, std::uint64_t lev
 /// Eq. 7; `smoothed` gives x^L or what stands for it.
 Points blend_with(const Heads& heads, const nlohmann::json& line, const Smoothed& smoothed) {
   const auto target = line.at("target").get<std::string>();
+  const nlohmann::json mixture = line.value("mixture", nlohmann::json{{target, 1.0}});
   Points result(heads.positions.at(target).size(), Point{0, 0, 0});
   for (std::size_t k = 0; k < heads.regions.size(); ++k) {
     const nlohmann::json& region = line.at("regions").at(heads.regions[k]);
     const auto level = region.at("iterations").get<std::uint64_t>();
     const auto e = region.at("extrapolation").get<double>();
-    Points face = smoothed(target, level);  // B^L
+    Points face(result.size(), Point{0, 0, 0});
+    for (const auto& [name, share] : mixture.items()) {  // B^L, of a mixture Σ τ_h B_h^L
+      const Points flat = smoothed(name, level);
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        face[i] = face[i] + share.get<double>() * flat[i];
+      }
+    }
     for (const auto& [name, weight] : region.at("weights").items()) {
       const Points& source = heads.positions.at(name);
       const Points flat = smoothed(name, level);  // C^L

@@ -12,8 +12,7 @@ const Positions& positions_of(const FaceSet& faces, Index head) {
 }
 
 /// D_k = B − e_k Σ_i ω̂_ki C_i, side by side for all regions: #V by 3·regions.
-Columns target_less_sources(const FaceSet& faces, const Recipe& recipe) {
-  const Positions& target = positions_of(faces, recipe.target);
+Columns target_less_sources(const FaceSet& faces, const Recipe& recipe, const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(recipe.regions.size()));
   parallel_blocks(target.rows(), kRowBlock, [&](Index begin, Index end) {
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
@@ -32,13 +31,20 @@ Columns target_less_sources(const FaceSet& faces, const Recipe& recipe) {
 
 }  // namespace
 
+Positions target_positions(const FaceSet& faces, const Recipe& recipe) {
+  return target_matrix<Positions>(
+      recipe, [&](Index head) -> const Positions& { return positions_of(faces, head); });
+}
+
 void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results) {
   std::vector<Columns> differences;
   std::vector<FilterInput<double>> inputs;
-  for (const Recipe* recipe : recipes) {
+  for (std::size_t f = 0; f < recipes.size(); ++f) {
+    const Recipe* recipe = recipes[f];
     require_fit(faces, regions, *recipe);
-    differences.push_back(target_less_sources(faces, *recipe));
+    results[f] = target_positions(faces, *recipe);
+    differences.push_back(target_less_sources(faces, *recipe, results[f]));
     for (std::size_t k = 0; k < recipe->regions.size(); ++k) {
       inputs.push_back({filter.rows_of<double>(differences.back(), static_cast<Index>(k)),
                         {power_series(filter.kind(), recipe->regions[k].iterations)}});
@@ -47,7 +53,6 @@ void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const Regi
   const auto smoothed = filter.run<double>(inputs);
   const Index region_count = regions.alpha.cols();
   for (std::size_t f = 0; f < recipes.size(); ++f) {
-    results[f] = positions_of(faces, recipes[f]->target);
     const auto* of_face = smoothed.data() + f * static_cast<std::size_t>(region_count);
     parallel_blocks(results[f].rows(), kRowBlock, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {

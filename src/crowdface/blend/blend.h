@@ -10,12 +10,16 @@
 
 namespace crowdface {
 
+/// B, the target's positions or the mixture's, #V by 3.
+Positions target_positions(const FaceSet& faces, const Recipe& recipe);
+
 /// The face a recipe stands for, with exact levels (Eq. 7, in the form below): one filter
 /// application per region. With C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k C̄_k,
 ///
 ///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ] = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
 ///
-/// so that a vertex that no iteration moves keeps the target's position to the bit, and so does
+/// so that a vertex that no iteration moves (a fixed rim) keeps the target's position to the bit, that
+/// of a mixture being the mean of its heads', and so does
 /// every vertex where D_k = 0 (the target blended with itself).
 /// \param regions  α, #V by #regions, rows summing to one; as many regions as the recipe has.
 /// \return         #V by 3, in the heads' unit.

@@ -59,7 +59,9 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   // Where a head is both target and source the shares are added first, so that the target blended
   // with itself leaves no trace.
   std::vector<double> shares(levels_.size(), 0.0);
-  shares[static_cast<std::size_t>(recipe.target)] = 1;  // B̃^L − B
+  for (const SourceWeight& part : target_shares(recipe)) {
+    shares[static_cast<std::size_t>(part.head)] = part.weight;  // B̃^L − B
+  }
   for (const SourceWeight& source : r.weights) {
     shares[static_cast<std::size_t>(source.head)] -= r.extrapolation * source.weight;  // D̃, Eq. 5
   }
@@ -150,12 +152,25 @@ void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& p
 }
 
 /// The face at the block's vertices: the target's positions and what is added to them.
-void CrowdBlender::write(const Block& block, const Positions& target, const BlockValues& added,
+void CrowdBlender::write(const Block& block, const Recipe& recipe, const BlockValues& added,
                          Positions& result) const {
+  const auto head = [&](Index h) {
+    return faces_.heads[static_cast<std::size_t>(h)].positions.data();
+  };
   const float* more = added.data();
+  std::array<double, kBlockValues> mixed;
   for (const Run& run : block.runs) {
     const std::size_t at = std::size_t{3} * run.first, count = std::size_t{3} * run.count;
-    write_sums(target.data() + at, more, count, result.data() + at);
+    const double* base = head(recipe.target) + at;
+    if (!recipe.mixture.empty()) {
+      std::fill_n(mixed.begin(), count, 0.0);
+      for (const SourceWeight& part : recipe.mixture) {
+        const double* from = head(part.head) + at;
+        for (std::size_t i = 0; i < count; ++i) mixed[i] += part.weight * from[i];
+      }
+      base = mixed.data();
+    }
+    write_sums(base, more, count, result.data() + at);
     more += count;
   }
 }
@@ -186,8 +201,7 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
                       std::span(all_factors).subspan(first / kChunkFaces * regions, regions),
                       added);
         for (std::size_t f = first; f < std::min(first + kChunkFaces, recipes.size()); ++f) {
-          const auto target = static_cast<std::size_t>(recipes[f]->target);
-          write(block, faces_.heads[target].positions, added[f - first], results[f]);
+          write(block, *recipes[f], added[f - first], results[f]);
         }
       }
     }

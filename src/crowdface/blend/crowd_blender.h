@@ -24,7 +24,7 @@ struct HeadLevels {
 
 /// Builds faces from fitted levels (Eqs. 5–7 with S̃), many at once:
 ///
-///     A = B + Σ_k α_k Σ_h s_kh Σ_p φ_hp(L_k) c_hp,   s_kh = [h is the target] − e_k ω̂_kh
+///     A = B + Σ_k α_k Σ_h s_kh Σ_p φ_hp(L_k) c_hp,   s_kh = τ_h − e_k ω̂_kh
 ///
 /// since C − S̃_L C = −Σ_p φ_p c_p(C). For M faces that is, for the vertices of a region, a product of
 /// all heads' fields with a matrix of M columns of coefficients: what the fields cost to read is
@@ -80,7 +80,7 @@ class CrowdBlender {
   void displacements(const Block& block, const std::vector<Chunk>& packed,
                      const std::vector<BlockValues>& alpha, std::span<const Factors> of_region,
                      std::array<BlockValues, kChunkFaces>& result) const;
-  void write(const Block& block, const Positions& target, const BlockValues& added,
+  void write(const Block& block, const Recipe& recipe, const BlockValues& added,
              Positions& result) const;
 
   const FaceSet& faces_;

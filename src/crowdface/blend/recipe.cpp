@@ -28,6 +28,21 @@ void keep_largest(std::vector<SourceWeight>& weights, std::size_t count) {
 
 }  // namespace
 
+std::vector<SourceWeight> target_shares(const Recipe& recipe) {
+  if (recipe.mixture.empty()) return {{recipe.target, 1}};
+  return recipe.mixture;
+}
+
+void set_target(Recipe& recipe, std::vector<SourceWeight> shares) {
+  require(!shares.empty(), "a target of no head");
+  const auto largest =
+      std::max_element(shares.begin(), shares.end(),
+                       [](const auto& a, const auto& b) { return a.weight < b.weight; });
+  recipe.target = largest->head;
+  if (shares.size() == 1) shares.clear();
+  recipe.mixture = std::move(shares);
+}
+
 std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
                                      const std::vector<Index>& sources, const PlanePoint& position,
                                      Normalization normalization, std::optional<int> max_sources) {

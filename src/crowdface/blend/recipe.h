@@ -29,9 +29,31 @@ struct RegionRecipe {
 
 /// What determines a face: with the face set and the regions it gives the mesh to the bit.
 struct Recipe {
-  Index target = 0;
+  Index target = 0;                   ///< B; of a mixture the head whose file and parts are taken
   std::vector<RegionRecipe> regions;  ///< one for each region
+  /// B may be a mixture, B = Σ_h τ_h B_h: its τ_h, ascending heads, none zero, summing to one. Empty:
+  /// the target alone. As Eq. 2 is linear in B, so is all that is computed from it.
+  std::vector<SourceWeight> mixture = {};
 };
+
+/// The τ_h of B: those of a mixture, or 1 for the target.
+std::vector<SourceWeight> target_shares(const Recipe& recipe);
+
+/// Makes B of these heads. The target is the one with the largest share, of equals the first.
+/// \param shares  ascending heads, above zero, summing to one.
+void set_target(Recipe& recipe, std::vector<SourceWeight> shares);
+
+/// B = Σ_h τ_h B_h, where of(h) is the matrix B_h: positions, or whatever is linear in them.
+template <class Matrix, class Of>
+Matrix target_matrix(const Recipe& recipe, const Of& of) {
+  Matrix sum = of(recipe.target);
+  if (recipe.mixture.empty()) return sum;
+  sum.setZero();
+  for (const SourceWeight& part : recipe.mixture) {
+    sum += static_cast<typename Matrix::Scalar>(part.weight) * of(part.head);
+  }
+  return sum;
+}
 
 /// The weights ω̂ of a position (Eqs. 3 and 4).
 /// Partition: the target takes part as face 0 with its own detail, whether or not it is a source,

@@ -16,6 +16,7 @@ void require_fit(const FaceSet& faces, const RegionWeights& regions, const Recip
     require(head >= 0 && head < heads, "blend: a recipe names head ", head, " of ", heads);
   };
   require_head(recipe.target);
+  for (const SourceWeight& part : recipe.mixture) require_head(part.head);
   for (const RegionRecipe& region : recipe.regions) {
     for (const SourceWeight& source : region.weights) require_head(source.head);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/ageing.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "crowdface/core/require.h"
@@ -30,6 +32,22 @@ void apply_age(CastFace& face, double age, const SamplingOptions& sampling) {
     region.position.reset();
   }
   face.age = age;
+}
+
+void take_back_age(CastFace& face, const SamplingOptions& sampling) {
+  constexpr double kRounding = 1e-9;
+  const double share = std::abs(face.age.value_or(0));
+  if (share == 0 || share > 1 - kRounding) return;
+  const std::vector<Index>& heads = *face.age > 0 ? sampling.old_heads : sampling.young_heads;
+  const double each = share / static_cast<double>(heads.size());
+  for (RegionRecipe& region : face.recipe.regions) {
+    for (SourceWeight& source : region.weights) {
+      const bool aged = std::binary_search(heads.begin(), heads.end(), source.head);
+      source.weight = (source.weight - (aged ? each : 0)) / (1 - share);
+    }
+    std::erase_if(region.weights, [](const SourceWeight& s) { return s.weight < kRounding; });
+  }
+  face.age.reset();
 }
 
 }  // namespace crowdface

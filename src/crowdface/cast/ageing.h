@@ -13,6 +13,9 @@ namespace crowdface {
 /// \throws BrokenPrecondition if no head is tagged so.
 void apply_age(CastFace& face, double age, const SamplingOptions& sampling);
 
+/// The face before apply_age, of whom a child takes after: of an age of −1 or 1 nothing is known.
+void take_back_age(CastFace& face, const SamplingOptions& sampling);
+
 /// (1 − t)·a + t·b, head by head.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
                                         const std::vector<SourceWeight>& b, double t);

@@ -2,8 +2,10 @@
 #include "crowdface/cast/apply_review.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "crowdface/cast/crowd_statistics.h"
 #include "crowdface/cast/face_search.h"
 #include "crowdface/cast/quotas.h"
 #include "crowdface/core/error.h"
@@ -51,7 +53,9 @@ class Redrawing {
       : casting_(casting),
         judge_(judge),
         cast_(cast),
-        targets_of_(targets_by_quota(casting.sampling.targets, casting.diversity.quotas)) {}
+        unrelated_(casting, judge.space()),
+        half_median_mm_(0.5 * quartiles(pair_distances(cast.points)).median),
+        kinds_(face_kinds(casting)) {}
 
   /// \return false if no face was found.
   bool redraw(const Redraw& redraw, std::vector<bool>& settled) {
@@ -72,11 +76,12 @@ class Redrawing {
     }
     const Kinship kinship = kinship_without(family, settled);
     FaceSearch::Draw draw;
+    const std::vector<FaceSpace::Point> rejected = reject(at);
     FaceSearch::Refuses refuses;
     std::optional<FamilyDraws> family_draws;
     if (family != nullptr) {
       const FamilyOptions& options = options_of(*family);
-      family_draws.emplace(casting_, options, judge_, others);
+      family_draws.emplace(casting_, options, judge_, unrelated_, others);
       const int member = static_cast<int>(redraw.face - family->begin) + 1;
       draw = [&, member](std::uint32_t attempt) {
         return family_draws->member(*family, member, attempt);
@@ -86,16 +91,27 @@ class Redrawing {
       };
     } else {
       draw = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
-      refuses = [&](const FaceSpace::Point& point) { return kinship.intrudes(point); };
+      refuses = [&](const FaceSpace::Point& point) { return kinship.refuses(point); };
     }
     const int candidates = old.index ? casting_.diversity.candidates_for(*old.index) : 1;
-    FaceSearch search(
-        [&](std::uint32_t attempt) { return with_locked(draw(attempt), old, *redraw.mark); },
-        judge_, casting_.diversity, candidates, old.notes.attempt + 1);
-    auto found = search.settle(others, refuses);
-    cast_.rejections.add(search.rejections());
+    std::optional<FaceSearch::Found> found;
+    Rejections rejections;
+    for (const double least : distances_to_rejected(family, own, *redraw.mark)) {
+      FaceSearch search(
+          [&](std::uint32_t attempt) { return with_locked(draw(attempt), old, *redraw.mark); },
+          judge_, casting_.diversity, candidates, old.notes.attempt + 1);
+      found = search.settle(others, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
+        for (const FaceSpace::Point& other : rejected) {
+          if (FaceSpace::distance(point, other) < least) return Reason::kRejected;
+        }
+        return refuses(point);
+      });
+      rejections.add(search.rejections());
+      if (found) break;
+    }
+    cast_.rejections.add(rejections);
     if (!found) {
-      cast_.shortfall = Shortfall{casting_.count, search.rejections(), -1, {}, old.id};
+      cast_.shortfall = Shortfall{casting_.count, rejections, -1, {}, old.id};
       return false;
     }
     settle(at, std::move(*found), old, settled);
@@ -104,9 +120,47 @@ class Redrawing {
   }
 
  private:
+  /// Notes that a face was rejected. \return where it and all that were rejected before it lie.
+  std::vector<FaceSpace::Point> reject(std::size_t face) {
+    cast_.rejected.push_back(cast_.crowd[face]);
+    std::vector<FaceSpace::Point> points;
+    for (const CastFace& old : cast_.rejected) {
+      if (old.id == cast_.crowd[face].id) points.push_back(judge_.space().point(old.recipe));
+    }
+    return points;
+  }
+
+  /// How far the new face must be from those, to be tried in turn. Where it is bound by a family or by
+  /// what is locked, it may not get as far as asked.
+  /// \param own  those of its family.
+  std::vector<double> distances_to_rejected(const FamilyCast* family,
+                                            const std::vector<FaceSpace::Point>& own,
+                                            const ReviewMark& mark) const {
+    if (casting_.diversity.min_distance_to_rejected_mm) {
+      return {*casting_.diversity.min_distance_to_rejected_mm};
+    }
+    if (family == nullptr && mark.locked.empty()) return {half_median_mm_};
+    double free = 1;
+    for (const std::size_t region : mark.locked) {
+      free -= judge_.space().region_share(static_cast<Index>(region));
+    }
+    const double all =
+        family == nullptr ? half_median_mm_ : std::min(half_median_mm_, 0.5 * widest(own));
+    const double least = all * std::sqrt(std::max(free, 0.0));
+    return {least, least / 2, least / 4, 0};
+  }
+
+  static double widest(const std::vector<FaceSpace::Point>& points) {
+    return quartiles(pair_distances(points)).max;
+  }
+
   const FamilyOptions& options_of(const FamilyCast& family) const {
     return *std::find_if(casting_.families.begin(), casting_.families.end(),
                          [&](const FamilyOptions& options) { return options.name == family.name; });
+  }
+
+  const FaceKind& kind_of(std::uint64_t index) const {
+    return kinds_[static_cast<std::size_t>(cast_.kinds[index - 1] + 1)];
   }
 
   CastFace drawn_face(const CastFace& old, std::uint32_t attempt) const {
@@ -114,20 +168,21 @@ class Redrawing {
       const auto hand = std::find_if(casting_.recipes.begin(), casting_.recipes.end(),
                                      [&](const HandRecipe& recipe) { return recipe.id == old.id; });
       return draw_recipe(casting_, *hand, {0, attempt, concat("recipe/", old.id)},
-                         casting_.sampling.targets);
+                         kind_of_group(casting_));
     }
-    const int quota = cast_.quotas[*old.index - 1];
-    return draw_face(casting_, *old.index, attempt,
-                     targets_of_[static_cast<std::size_t>(quota + 1)]);
+    return draw_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
   /// A region can only stay as it is on the same target.
   CastFace with_locked(CastFace face, const CastFace& old, const ReviewMark& mark) const {
     if (mark.locked.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {
-      face = draw_face(casting_, *old.index, face.notes.attempt, {{old.recipe.target, 1}});
+      FaceKind kind = kind_of(*old.index);
+      kind.targets = {{old.recipe.target, 1}};
+      face = draw_face(casting_, *old.index, face.notes.attempt, kind);
     }
     face.recipe.target = old.recipe.target;
+    face.recipe.mixture = old.recipe.mixture;
     for (const std::size_t region : mark.locked) {
       face.recipe.regions[region] = old.recipe.regions[region];
     }
@@ -172,7 +227,9 @@ class Redrawing {
   const Casting& casting_;
   const FaceJudge& judge_;
   CrowdCast& cast_;
-  TargetsOfQuota targets_of_;
+  Strangers unrelated_;
+  double half_median_mm_;
+  std::vector<FaceKind> kinds_;
 };
 
 }  // namespace

@@ -18,18 +18,17 @@ constexpr std::uint64_t kBatch = 64;
 
 /// Faces 1 … count, each against all before it.
 void cast_first_fit(const Casting& casting, const FaceJudge& judge,
-                    const TargetsOfQuota& targets_of, const Kinship& kinship, CrowdSoFar& crowd,
+                    const std::vector<FaceKind>& kinds, const Kinship& kinship, CrowdSoFar& crowd,
                     const std::function<void()>& joined, CrowdCast& result) {
   for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
     throw_if_interrupted();
     const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
-      const int slot = result.quotas[index - 1] + 1;  // those of no quota come first
-      const auto& targets = targets_of[static_cast<std::size_t>(slot)];
+      const FaceKind& kind = kinds[static_cast<std::size_t>(result.kinds[index - 1] + 1)];
       searches.emplace_back(
-          [&casting, &targets, index](std::uint32_t attempt) {
-            return draw_face(casting, index, attempt, targets);
+          [&casting, &kind, index](std::uint32_t attempt) {
+            return draw_face(casting, index, attempt, kind);
           },
           judge, casting.diversity, casting.diversity.candidates_for(index));
     }
@@ -38,10 +37,10 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
       auto found = search.settle(
-          crowd, [&](const FaceSpace::Point& point) { return kinship.intrudes(point); });
+          crowd, [&](const FaceSpace::Point& point) { return kinship.refuses(point); });
       result.rejections.add(search.rejections());
       if (!found) {
-        result.shortfall = Shortfall{index - 1, search.rejections(), result.quotas[index - 1]};
+        result.shortfall = Shortfall{index - 1, search.rejections(), result.kinds[index - 1]};
         return;
       }
       crowd.add(std::move(found->face), std::move(found->point));
@@ -62,9 +61,10 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
     crowd.add(std::move(face), std::move(point));
   }
   Kinship kinship;
+  const Strangers unrelated(casting, judge.space());
   for (const FamilyOptions& family : casting.families) {
     Rejections rejections;
-    auto cast = cast_family(casting, family, judge, crowd, kinship, rejections);
+    auto cast = cast_family(casting, family, judge, unrelated, crowd, kinship, rejections);
     result.rejections.add(rejections);
     if (!cast) {
       result.shortfall = Shortfall{0, rejections, -1, family.name};
@@ -73,13 +73,12 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
     result.families.push_back(std::move(*cast));
   }
   crowd.begin_sampled();
-  result.quotas = schedule_quotas(casting.diversity.quotas, casting.count);
-  const TargetsOfQuota targets_of =
-      targets_by_quota(casting.sampling.targets, casting.diversity.quotas);
+  result.kinds = schedule_kinds(casting, casting.count);
+  const std::vector<FaceKind> kinds = face_kinds(casting);
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
-    cast_spread(casting, judge, targets_of, kinship, crowd, joined, result);
+    cast_spread(casting, judge, kinds, kinship, crowd, joined, result);
   } else {
-    cast_first_fit(casting, judge, targets_of, kinship, crowd, joined, result);
+    cast_first_fit(casting, judge, kinds, kinship, crowd, joined, result);
   }
   result.crowd = crowd.faces();
   result.points = crowd.points();

@@ -30,9 +30,12 @@ struct CastFace {
   std::string id;
   std::optional<std::uint64_t> index;  ///< from 1; none unless it is sampled
   std::optional<std::string> family;
+  std::optional<std::string> group;
   Recipe recipe;
   std::optional<double> age;          ///< −1 … 1, if it was moved along old or young detail
-  std::vector<std::string> inherits;  ///< of a family with parents: #regions, whose detail
+  std::vector<std::string> parents;   ///< of a family with parents: mother and father, heads or ids
+  std::vector<std::string> inherits;  ///< with parents: #regions, whose detail
+  double mother_share = 0;            ///< of the large forms, where these are inherited
   CastingNotes notes;
 };
 

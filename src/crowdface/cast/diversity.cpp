@@ -19,6 +19,8 @@ std::string_view name_of(Reason reason) {
       return "max_stretch";
     case Reason::kIntersecting:
       return "max_intersecting";
+    case Reason::kRejected:
+      return "min_distance_to_rejected";
     case Reason::kFamily:
       break;
   }

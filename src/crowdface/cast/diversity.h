@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -28,18 +29,21 @@ struct DiversityOptions {
   Mode mode = Mode::kFirstFit;
   double min_distance_mm = 0;           ///< between any two faces of the crowd
   double min_distance_to_faces_mm = 0;  ///< from every input head
-  double max_weight = 1;                ///< of one head in one region
-  std::vector<Quota> quotas;            ///< no head in two of them
-  /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept. None: 1
-  /// where min_distance is asked for; else 32 for the first thousand faces and 8 for all others.
+  /// Between a face that a review rejected and the one in its place; none: half the crowd's median.
+  std::optional<double> min_distance_to_rejected_mm;
+  double max_weight = 1;      ///< of one head in one region
+  std::vector<Quota> quotas;  ///< no head in two of them
+  /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept; but of 32
+  /// at least for the first thousand faces and of 8 for all others, whatever else is asked for.
   std::optional<int> candidates;
-  int pool = 10;            ///< kSpread: pool size, in crowds
+  int pool = 10;            ///< kSpread: pool size, in crowds; at least 10
   int max_attempts = 1000;  ///< draws of one face before casting gives up
 
   /// For the face with that number, from 1: it must not depend on how many there will be.
   int candidates_for(std::uint64_t index) const {
-    return candidates.value_or(min_distance_mm > 0 ? 1 : index <= 1000 ? 32 : 8);
+    return std::max(candidates.value_or(0), index <= 1000 ? 32 : 8);
   }
+  std::uint64_t pool_for_each() const { return static_cast<std::uint64_t>(std::max(pool, 10)); }
 };
 
 /// Why a candidate was thrown away.
@@ -52,8 +56,9 @@ enum class Reason {
   kStretched,           ///< a part of the skin stretched too far
   kIntersecting,        ///< the skin passes through itself where the target's does not
   kFamily,              ///< among another family, or too far from its own
+  kRejected,            ///< too like the face that a review rejected
 };
-constexpr std::size_t kReasonCount = 8;
+constexpr std::size_t kReasonCount = 9;
 /// "min_distance", "min_distance_to_faces", …: the config key that asks for it, where there is one.
 std::string_view name_of(Reason reason);
 

@@ -67,10 +67,10 @@ PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region, std::
 }
 
 /// Uniform by area in the convex hull of the sources' anchors.
-PlanePoint draw_in_hull(const Casting& casting, const FaceDraws& draws, const std::string& region,
-                        std::uint32_t first) {
+PlanePoint draw_in_hull(const Casting& casting, const std::vector<Index>& sources,
+                        const FaceDraws& draws, const std::string& region, std::uint32_t first) {
   std::vector<PlanePoint> anchors;
-  for (const Index head : casting.sampling.sources) {
+  for (const Index head : sources) {
     anchors.push_back(casting.anchors[static_cast<std::size_t>(head)]);
   }
   const auto [pick, a] = draws.pair("position", region, first);
@@ -81,8 +81,8 @@ PlanePoint draw_in_hull(const Casting& casting, const FaceDraws& draws, const st
 /// \param retry  how many positions of this draw gave one head too much weight; the later ones go
 ///               farther from its anchor.
 PlanePoint draw_position(const Casting& casting, const PositionDistribution& distribution,
-                         Index target, const FaceDraws& draws, const std::string& region,
-                         std::uint32_t retry) {
+                         const std::vector<Index>& sources, Index target, const FaceDraws& draws,
+                         const std::string& region, std::uint32_t retry) {
   const std::uint32_t first = kLanesOfPosition * retry;
   switch (distribution.kind) {
     case PositionDistribution::Kind::kFixed:
@@ -93,18 +93,17 @@ PlanePoint draw_position(const Casting& casting, const PositionDistribution& dis
              distribution.radius * draw_in_disc(draws, region, first);
     }
     case PositionDistribution::Kind::kUniform:
-      return draw_in_hull(casting, draws, region, first);
+      return draw_in_hull(casting, sources, draws, region, first);
     case PositionDistribution::Kind::kAnchored:
       break;
   }
-  const std::vector<Index>& sources = casting.sampling.sources;
   const auto [which, how_far] = draws.pair("position", region, first + 2);
   const auto at = static_cast<std::size_t>(which * static_cast<double>(sources.size()));
   const Index head = sources[std::min(at, sources.size() - 1)];
   const PlanePoint anchor = casting.anchors[static_cast<std::size_t>(head)];
   const double step =
       how_far * std::min(distribution.pull + kFartherEachTime * static_cast<double>(retry), 1.0);
-  return anchor + step * (draw_in_hull(casting, draws, region, first) - anchor);
+  return anchor + step * (draw_in_hull(casting, sources, draws, region, first) - anchor);
 }
 
 void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScale& scale,
@@ -127,11 +126,11 @@ void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScal
   recipe.smoothness = static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
 }
 
-void take_position(const Casting& casting, Index target, const PlanePoint& position,
-                   RegionRecipe& recipe) {
+void take_position(const Casting& casting, const SamplingOptions& sampling, Index target,
+                   const PlanePoint& position, RegionRecipe& recipe) {
   recipe.position = position;
-  recipe.weights = weights_at(casting.anchors, target, casting.sampling.sources, position,
-                              casting.normalization, casting.sampling.max_sources);
+  recipe.weights = weights_at(casting.anchors, target, sampling.sources, position,
+                              casting.normalization, sampling.max_sources);
 }
 
 double largest_weight(const RegionRecipe& region) {
@@ -141,27 +140,26 @@ double largest_weight(const RegionRecipe& region) {
 }
 
 /// Draws what `hand` leaves open of region k; a sampled face leaves everything open.
-RegionRecipe draw_region(const Casting& casting, std::size_t k, Index target,
-                         const FaceDraws& draws, const HandRecipe::Region& hand) {
-  const RegionSampling& sampling = casting.sampling.regions[k];
+RegionRecipe draw_region(const Casting& casting, const SamplingOptions& all, std::size_t k,
+                         Index target, const FaceDraws& draws, const HandRecipe::Region& hand) {
+  const RegionSampling& sampling = all.regions[k];
   const std::string& name = casting.region_names[k];
+  const auto drawn_position = [&](std::uint32_t retry) {
+    return draw_position(casting, sampling.position, all.sources, target, draws, name, retry);
+  };
   RegionRecipe recipe;
   if (!hand.weights.empty()) {
     std::vector<SourceWeight> weights;
     for (const WeightedHead& source : hand.weights) weights.push_back({source.head, source.weight});
     recipe.weights = normalized_weights(std::move(weights));
   } else {
-    take_position(casting, target,
-                  hand.position ? *hand.position
-                                : draw_position(casting, sampling.position, target, draws, name, 0),
-                  recipe);
+    take_position(casting, all, target, hand.position ? *hand.position : drawn_position(0), recipe);
   }
   const bool drawn = hand.weights.empty() && !hand.position;
   for (std::uint32_t retry = 1;
        drawn && retry <= kPositionRetries && largest_weight(recipe) > casting.diversity.max_weight;
        ++retry) {
-    take_position(casting, target,
-                  draw_position(casting, sampling.position, target, draws, name, retry), recipe);
+    take_position(casting, all, target, drawn_position(retry), recipe);
   }
   draw_smoothness(hand.smoothness.value_or(sampling.smoothness), casting.scale, draws, name,
                   recipe);
@@ -180,37 +178,46 @@ std::string face_id(const std::string& crowd, std::uint64_t index) {
   return concat(crowd, '_', zero_padded(index, 4));
 }
 
+FaceKind kind_of_group(const Casting& casting, std::optional<std::size_t> group) {
+  if (!group) return {&casting.sampling, casting.sampling.targets, std::nullopt};
+  const Group& own = casting.groups[*group];
+  return {&own.sampling, own.sampling.targets, own.name};
+}
+
 CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
-                     const std::vector<WeightedHead>& targets) {
+                     const FaceKind& kind) {
   const FaceDraws draws(casting.seed, key);
+  const SamplingOptions& sampling = *kind.sampling;
   CastFace face;
   face.id = hand.id;
+  face.group = kind.group;
   face.notes.attempt = key.attempt;
-  face.recipe.target = hand.target ? *hand.target : draw_target(targets, draws);
+  face.recipe.target = hand.target ? *hand.target : draw_target(kind.targets, draws);
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
     const HandRecipe::Region& region =
         k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
-    face.recipe.regions.push_back(draw_region(casting, k, face.recipe.target, draws, region));
+    face.recipe.regions.push_back(
+        draw_region(casting, sampling, k, face.recipe.target, draws, region));
   }
-  apply_age(face, draws.in(hand.age.value_or(casting.sampling.age), "age", ""), casting.sampling);
+  apply_age(face, draws.in(hand.age.value_or(sampling.age), "age", ""), sampling);
   return face;
 }
 
 CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
-                   const std::vector<WeightedHead>& targets) {
+                   const FaceKind& kind) {
   HandRecipe open;
   open.id = face_id(casting.name, index);
-  CastFace face = draw_recipe(casting, open, {index, attempt}, targets);
+  CastFace face = draw_recipe(casting, open, {index, attempt}, kind);
   face.index = index;
   return face;
 }
 
 CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt) {
-  return draw_face(casting, index, attempt, casting.sampling.targets);
+  return draw_face(casting, index, attempt, kind_of_group(casting));
 }
 
 CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand) {
-  return draw_recipe(casting, hand, {0, 0, concat("recipe/", hand.id)}, casting.sampling.targets);
+  return draw_recipe(casting, hand, {0, 0, concat("recipe/", hand.id)}, kind_of_group(casting));
 }
 
 }  // namespace crowdface

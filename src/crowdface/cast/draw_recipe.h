@@ -8,6 +8,7 @@
 #include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/family.h"
+#include "crowdface/cast/group.h"
 #include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/smooth/smoothing_operator.h"
@@ -35,7 +36,17 @@ struct Casting {
   DiversityOptions diversity = {};
   std::vector<FamilyOptions> families = {};
   std::vector<Review> reviews = {};  ///< one after the other
+  std::vector<Group> groups = {};    ///< of sampled faces; none where there are quotas
 };
+
+/// What a face is drawn from: the numbers of the crowd or of a group, and what its target may be.
+struct FaceKind {
+  const SamplingOptions* sampling = nullptr;
+  std::vector<WeightedHead> targets;
+  std::optional<std::string> group;
+};
+/// A face of that group, of none: by the numbers of the crowd.
+FaceKind kind_of_group(const Casting& casting, std::optional<std::size_t> group = std::nullopt);
 
 /// Whole iterations of a smoothness: the nearest to smoothness·L_max.
 std::uint64_t iterations_of(double smoothness, const LevelScale& scale);
@@ -52,13 +63,12 @@ struct DrawKey {
 
 /// Draws what `hand` leaves open; a sampled face leaves everything open. A pure function of the
 /// arguments, so that a face is the same whatever the count or the order.
-/// \param targets  heads that the target is drawn from if `hand` names none.
 CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
-                     const std::vector<WeightedHead>& targets);
+                     const FaceKind& kind);
 
 /// Attempt `attempt` at sampled face `index` (from 1).
 CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
-                   const std::vector<WeightedHead>& targets);
+                   const FaceKind& kind);
 /// The same with any target that may be sampled.
 CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0);
 

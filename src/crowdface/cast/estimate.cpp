@@ -31,11 +31,11 @@ std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_
 std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
-  // Quotas would need a pass for each; capacity is about the faces there are.
+  // Quotas and groups would need a pass for each; capacity is about the faces there are.
   Casting free = casting;
   free.diversity.quotas.clear();
-  const CandidatePool pool =
-      draw_pool(free, judge, targets_by_quota(free.sampling.targets, {}), pool_size);
+  free.groups.clear();
+  const CandidatePool pool = draw_pool(free, judge, face_kinds(free), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
   FarthestPoints points(pool, nobody);
   std::vector<double> closest;  // of the first n picked

@@ -49,9 +49,14 @@ std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
 std::optional<Reason> FaceJudge::closely(const Recipe& recipe) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
   const Positions samples = sample_face(space_.sampled(), recipe, Variant::kAsBuilt);
-  SkinDefects defects{skin_->local(samples, recipe.target), 0};
+  std::optional<ProxySkin::Target> mixture;
+  if (!recipe.mixture.empty()) {
+    mixture.emplace(skin_->target(sample_target(space_.sampled(), recipe)));
+  }
+  const ProxySkin::Target& target = mixture ? *mixture : skin_->head(recipe.target);
+  SkinDefects defects{skin_->local(samples, target), 0};
   if (const auto why = limit_passed(believability_, defects)) return why;
-  defects.intersecting = skin_->intersecting_triangles(samples, recipe.target);
+  defects.intersecting = skin_->intersecting_triangles(samples, target);
   if (const auto why = limit_passed(believability_, defects)) return why;
   return meshes_ ? limit_passed(believability_, meshes_(recipe)) : std::nullopt;
 }

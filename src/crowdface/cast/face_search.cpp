@@ -82,8 +82,8 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
     if (candidates_.empty()) return std::nullopt;
     farthest_first();
     for (Candidate& candidate : candidates_) {
-      if (refuses && refuses(candidate.point)) {
-        rejections_.add(Reason::kFamily);
+      if (const auto why = refuses ? refuses(candidate.point) : std::nullopt) {
+        rejections_.add(*why);
         continue;
       }
       judge_closely(candidate);

@@ -19,8 +19,8 @@ class FaceSearch {
  public:
   /// Draws attempt number n. Must be a pure function.
   using Draw = std::function<CastFace(std::uint32_t attempt)>;
-  /// One more reason to refuse a place, given the crowd.
-  using Refuses = std::function<bool(const FaceSpace::Point&)>;
+  /// One more reason to refuse a place, given the crowd; nothing if there is none.
+  using Refuses = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
   FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
              std::uint32_t first_attempt = 0);

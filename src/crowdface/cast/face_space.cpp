@@ -156,7 +156,8 @@ const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
 }
 
 FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Variant variant) const {
-  Shape shape = shapes_[static_cast<std::size_t>(recipe.target)];
+  auto shape = target_matrix<Shape>(
+      recipe, [&](Index head) -> const Shape& { return shapes_[static_cast<std::size_t>(head)]; });
   const Index size = shape.size();
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     const RegionRecipe& region = recipe.regions[k];
@@ -168,7 +169,7 @@ FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Variant variant) cons
         float* out = shape.data();
         for (Index i = 0; i < size; ++i) out[i] += f * from[i];
       };
-      add(recipe.target, 1);
+      for (const SourceWeight& part : target_shares(recipe)) add(part.head, part.weight);
       for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
     }
   }

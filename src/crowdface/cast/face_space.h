@@ -44,6 +44,11 @@ class FaceSpace {
   /// The same over one region alone, the faces aligned as wholes.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
 
+  /// How much of the face's area a region has, 0 … 1; 1 if it is the only one.
+  double region_share(Index region) const {
+    return region_shares_.empty() ? 1 : region_shares_[static_cast<std::size_t>(region)];
+  }
+
   /// Distances between all heads, #heads by #heads, in mm.
   Eigen::MatrixXd head_distances() const;
 

@@ -38,9 +38,6 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
   } else {
     return remedy;
   }
-  if (casting.diversity.min_distance_mm > 0 && !casting.diversity.candidates) {
-    easier.diversity.candidates = 1;  // also where a try asks for no distance at all
-  }
   // Faces fill a space of about five dimensions, so that many more fit at a little less distance.
   double works = 0, fails = *distance;
   double next = fails * std::pow((static_cast<double>(shortfall.reached) + 0.5) /
@@ -52,7 +49,8 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
     if (*distance <= works) break;
     const FaceJudge judge(space, easier.diversity, believability, skin);
     const CrowdCast cast = cast_crowd(easier, judge);
-    draws += cast.rejections.total() + cast.crowd.size();
+    draws += cast.rejections.total() +
+             cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidates_for(1));
     if (tried) tried();
     if (cast.shortfall) {
       fails = *distance;

@@ -75,20 +75,20 @@ std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
 ProxySkin::ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
                      const std::vector<Positions>& heads)
     : triangles_(std::move(triangles)), pairs_(facing_pairs(triangles_, mean)) {
-  for (const Positions& head : heads) {
-    targets_.emplace_back(triangles_, head);
-    target_intersections_.emplace_back(triangles_, head.rows(),
-                                       intersecting(triangles_, head, pairs_));
-  }
+  for (const Positions& head : heads) heads_.push_back(target(head));
 }
 
-LocalDefects ProxySkin::local(const Positions& samples, Index target) const {
-  return targets_[static_cast<std::size_t>(target)].compare(samples);
+ProxySkin::Target ProxySkin::target(const Positions& samples) const {
+  return {TargetTriangles(triangles_, samples),
+          NewIntersections(triangles_, samples.rows(), intersecting(triangles_, samples, pairs_))};
 }
 
-Index ProxySkin::intersecting_triangles(const Positions& samples, Index target) const {
-  return target_intersections_[static_cast<std::size_t>(target)].count(
-      intersecting(triangles_, samples, pairs_));
+LocalDefects ProxySkin::local(const Positions& samples, const Target& target) const {
+  return target.triangles.compare(samples);
+}
+
+Index ProxySkin::intersecting_triangles(const Positions& samples, const Target& target) const {
+  return target.intersections.count(intersecting(triangles_, samples, pairs_));
 }
 
 }  // namespace crowdface

@@ -16,17 +16,24 @@ class ProxySkin {
   ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
             const std::vector<Positions>& heads);
 
+  /// What a face is compared with: a head's samples, or those of a mixture.
+  struct Target {
+    TargetTriangles triangles;
+    NewIntersections intersections;
+  };
+  const Target& head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
+  Target target(const Positions& samples) const;
+
   /// Flips and stretch against the target.
-  LocalDefects local(const Positions& samples, Index target) const;
+  LocalDefects local(const Positions& samples, const Target& target) const;
   /// Triangles that pass through others where the target's do not, among parts of the skin that lie
   /// near each other on the mean head without being neighbours on it: lips, lids, nostrils, folds.
-  Index intersecting_triangles(const Positions& samples, Index target) const;
+  Index intersecting_triangles(const Positions& samples, const Target& target) const;
 
  private:
   std::vector<Triangle> triangles_;
   std::vector<TrianglePair> pairs_;
-  std::vector<TargetTriangles> targets_;
-  std::vector<NewIntersections> target_intersections_;
+  std::vector<Target> heads_;
 };
 
 }  // namespace crowdface

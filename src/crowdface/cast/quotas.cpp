@@ -80,4 +80,37 @@ TargetsOfQuota targets_by_quota(const std::vector<WeightedHead>& targets,
   return result;
 }
 
+std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
+                                 std::uint64_t times) {
+  std::vector<int> schedule;
+  std::vector<Quota> shares;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::uint64_t own = groups[g].count.value_or(0) * times;
+    schedule.insert(schedule.end(), own, static_cast<int>(g));
+    shares.push_back({groups[g].name, groups[g].count ? 0 : groups[g].share, {}});
+  }
+  schedule.resize(count, -1);
+  const auto counted =
+      static_cast<std::size_t>(std::find(schedule.begin(), schedule.end(), -1) - schedule.begin());
+  const std::vector<int> rest = schedule_quotas(shares, count - counted);
+  std::copy(rest.begin(), rest.end(), schedule.begin() + static_cast<std::ptrdiff_t>(counted));
+  return schedule;
+}
+
+std::vector<int> schedule_kinds(const Casting& casting, std::uint64_t count, std::uint64_t times) {
+  return casting.groups.empty() ? schedule_quotas(casting.diversity.quotas, count)
+                                : schedule_groups(casting.groups, count, times);
+}
+
+std::vector<FaceKind> face_kinds(const Casting& casting) {
+  std::vector<FaceKind> kinds;
+  for (auto& targets : targets_by_quota(casting.sampling.targets, casting.diversity.quotas)) {
+    kinds.push_back({&casting.sampling, std::move(targets), std::nullopt});
+  }
+  for (std::size_t g = 0; g < casting.groups.size(); ++g) {
+    kinds.push_back(kind_of_group(casting, g));
+  }
+  return kinds;
+}
+
 }  // namespace crowdface

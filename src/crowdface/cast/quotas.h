@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crowdface/cast/diversity.h"
-#include "crowdface/cast/sampling.h"
+#include "crowdface/cast/draw_recipe.h"
 
 namespace crowdface {
 
@@ -20,5 +20,17 @@ std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t
 using TargetsOfQuota = std::vector<std::vector<WeightedHead>>;
 TargetsOfQuota targets_by_quota(const std::vector<WeightedHead>& targets,
                                 const std::vector<Quota>& quotas);
+
+/// Which group each face is of, −1 for none: first those that have a count, in their order, then by
+/// shares as with quotas. A larger count moves nobody.
+/// \param times  what counts are multiplied by, for a pool of candidates.
+std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
+                                 std::uint64_t times = 1);
+
+/// The quotas or groups of sampled faces: which of them faces 1 … count are of, and what they are
+/// drawn from: first those of none, then those of each.
+std::vector<int> schedule_kinds(const Casting& casting, std::uint64_t count,
+                                std::uint64_t times = 1);
+std::vector<FaceKind> face_kinds(const Casting& casting);
 
 }  // namespace crowdface

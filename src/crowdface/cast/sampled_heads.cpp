@@ -38,8 +38,14 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
   return sampled;
 }
 
+Positions sample_target(const SampledHeads& heads, const Recipe& recipe) {
+  return target_matrix<Positions>(recipe, [&](Index head) -> const Positions& {
+    return heads.heads[static_cast<std::size_t>(head)];
+  });
+}
+
 Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
-  Positions face = heads.heads[static_cast<std::size_t>(recipe.target)];
+  Positions face = sample_target(heads, recipe);
   // In single precision, as the trajectories are: casting does this for every face it accepts.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
@@ -57,7 +63,7 @@ Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant v
           for (Index i = 3 * begin; i < 3 * end; ++i) out[i] += f * row[i];
         }
       };
-      add(recipe.target, 1);
+      for (const SourceWeight& part : target_shares(recipe)) add(part.head, part.weight);
       for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
     }
     for (const auto& [begin, end] : heads.stretches[k]) {

@@ -34,6 +34,9 @@ enum class Variant {
   kUnit,  ///< every extrapolation factor set to 1
 };
 
+/// The samples of a recipe's target, #S by 3 in millimetres.
+Positions sample_target(const SampledHeads& heads, const Recipe& recipe);
+
 /// The samples of a recipe's face, #S by 3 in millimetres, not aligned (Eq. 7).
 Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant);
 

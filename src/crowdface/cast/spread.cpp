@@ -43,18 +43,19 @@ double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, doubl
 }  // namespace
 
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
-                        const TargetsOfQuota& targets_of, std::uint64_t size) {
-  const std::vector<int> schedule = schedule_quotas(casting.diversity.quotas, size);
+                        const std::vector<FaceKind>& kinds, std::uint64_t count,
+                        std::uint64_t times) {
+  const std::uint64_t size = count * times;
+  const std::vector<int> schedule = schedule_kinds(casting, size, times);
   std::vector<std::optional<std::pair<CastFace, FaceSpace::Point>>> drawn(size);
   std::vector<Rejections> rejections(size);
   parallel_for_each(static_cast<Index>(size), [&](Index p) {
     const auto at = static_cast<std::size_t>(p);
     if (at % 1024 == 0) throw_if_interrupted();
-    const int slot = schedule[at] + 1;  // those of no quota come first
-    const auto& targets = targets_of[static_cast<std::size_t>(slot)];
+    const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
     for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
       const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
-      CastFace face = draw_recipe(casting, {}, key, targets);
+      CastFace face = draw_recipe(casting, {}, key, kind);
       FaceSpace::Point point = judge.space().point(face.recipe);
       if (const auto reason = judge.at_a_glance(face.recipe, point)) {
         rejections[at].add(*reason);
@@ -70,7 +71,7 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
     if (!drawn[p]) continue;
     pool.faces.push_back(std::move(drawn[p]->first));
     pool.points.push_back(std::move(drawn[p]->second));
-    pool.quotas.push_back(schedule[p]);
+    pool.kinds.push_back(schedule[p]);
   }
   return pool;
 }
@@ -84,11 +85,11 @@ FarthestPoints::FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crow
   });
 }
 
-FarthestPoints::Pick FarthestPoints::farthest(int quota) const {
+FarthestPoints::Pick FarthestPoints::farthest(int kind) const {
   Pick best;
   double most = -1;
   for (std::size_t p = 0; p < squared_.size(); ++p) {
-    if (gone_[p] || pool_.quotas[p] != quota || squared_[p] <= most) continue;
+    if (gone_[p] || pool_.kinds[p] != kind || squared_[p] <= most) continue;
     most = squared_[p];
     best.candidate = static_cast<Index>(p);
   }
@@ -110,17 +111,17 @@ void FarthestPoints::pick(Index candidate) {
       });
 }
 
-void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
+void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
                  const Kinship& kinship, CrowdSoFar& crowd, const std::function<void()>& joined,
                  CrowdCast& result) {
-  const auto size = static_cast<std::uint64_t>(casting.diversity.pool) * casting.count;
-  CandidatePool pool = draw_pool(casting, judge, targets_of, size);
+  CandidatePool pool =
+      draw_pool(casting, judge, kinds, casting.count, casting.diversity.pool_for_each());
   result.rejections.add(pool.rejections);
   FarthestPoints points(pool, crowd);
   for (std::uint64_t index = 1; index <= casting.count; ++index) {
     throw_if_interrupted();
-    const int quota = result.quotas[index - 1];
-    FarthestPoints::Pick pick = points.farthest(quota);
+    const int kind = result.kinds[index - 1];
+    FarthestPoints::Pick pick = points.farthest(kind);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
       std::optional<Reason> why = judge.closely(pool.faces[at].recipe);
@@ -128,12 +129,12 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOf
       if (!why) break;
       result.rejections.add(*why);
       points.drop(pick.candidate);
-      pick = points.farthest(quota);
+      pick = points.farthest(kind);
     }
     if (pick.candidate < 0 || pick.mm < casting.diversity.min_distance_mm) {
       Rejections why = pool.rejections;
       if (pick.candidate >= 0) why.add(Reason::kMinDistance, why.total() + 1);
-      result.shortfall = Shortfall{index - 1, why, quota};
+      result.shortfall = Shortfall{index - 1, why, kind};
       return;
     }
     points.pick(pick.candidate);

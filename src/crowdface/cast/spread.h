@@ -18,14 +18,15 @@ namespace crowdface {
 struct CandidatePool {
   std::vector<CastFace> faces;
   std::vector<FaceSpace::Point> points;
-  std::vector<int> quotas;  ///< that each counts for, or −1
+  std::vector<int> kinds;  ///< quota or group of each, or −1
   Rejections rejections;
 };
 
-/// Draws a pool. Quotas are met by the pool as they are by a crowd.
-/// \param targets_of  targets for faces of no quota, then for those of each.
+/// Draws a pool of `times` crowds of `count` faces. Quotas and groups are met by it as by a crowd.
+/// \param kinds  of faces of no quota or group, then of those of each.
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
-                        const TargetsOfQuota& targets_of, std::uint64_t size);
+                        const std::vector<FaceKind>& kinds, std::uint64_t count,
+                        std::uint64_t times = 1);
 
 /// Picks one of a pool's candidates after the other, each the one that is farthest from those
 /// picked before and from the crowd it starts with (greedy farthest point). Whatever is picked, no
@@ -40,8 +41,8 @@ class FarthestPoints {
     Index candidate = -1;  ///< −1: none left
     double mm = 0;         ///< from what was there before; infinite for the first of all
   };
-  /// The farthest of the candidates that count for this quota; it is not marked as picked yet.
-  Pick farthest(int quota) const;
+  /// The farthest of the candidates of this quota or group; it is not marked as picked yet.
+  Pick farthest(int kind) const;
   /// Takes a candidate out, and measures how far all others are from it.
   void pick(Index candidate);
   /// Takes a candidate out, without it having joined.
@@ -54,7 +55,7 @@ class FarthestPoints {
 };
 
 /// Faces 1 … count as the most spread set out of a pool.
-void cast_spread(const Casting& casting, const FaceJudge& judge, const TargetsOfQuota& targets_of,
+void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
                  const Kinship& kinship, CrowdSoFar& crowd, const std::function<void()>& joined,
                  CrowdCast& result);
 

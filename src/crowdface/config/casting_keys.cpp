@@ -139,6 +139,8 @@ const Keys<DiversityOptions>& diversity_keys() {
           .in_starter({"0.8 mm", "",
                        "No face comes nearer to one of the heads: below half a millimetre it is "
                        "that person."}),
+      key("min_distance_to_rejected", &Diversity::min_distance_to_rejected_mm,
+          length(kMaxDistance)),
       key("max_weight", &Diversity::max_weight, max_weight()),
       {"quotas", read_quotas, write_quotas},
       key("candidates", &Diversity::candidates, whole(1, kMostCandidates)),

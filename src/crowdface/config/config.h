@@ -14,6 +14,7 @@
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/family.h"
+#include "crowdface/cast/group.h"
 #include "crowdface/cast/plan_names.h"
 #include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
@@ -54,9 +55,9 @@ struct SurfaceChoice {
 };
 
 /// What stands under a picture, a line each.
-enum class SheetLabel { kId, kFamily, kTarget, kNearest, kNearestHead };
+enum class SheetLabel { kId, kFamily, kGroup, kTarget, kNearest, kNearestHead };
 /// How the faces follow each other on contact sheets.
-enum class SheetOrder { kPlan, kFamily, kLikeness };
+enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
 enum class SheetFormat { kPng, kExr, kPdf };
 
 /// A config file, read, checked and with every name resolved. Fields bear the names of their YAML
@@ -122,10 +123,12 @@ struct Config {
   BelievabilityOptions believability;
   std::vector<HandRecipe> recipes;
   std::vector<FamilyOptions> families;
+  std::vector<Group> groups;
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
-    std::vector<Review> reviews;  ///< what stands in each
+    std::vector<std::string> texts;  ///< of each
+    std::vector<Review> reviews;     ///< what stands in each
   } review;
 
   /// What a face is compared with, point by point.

@@ -31,17 +31,9 @@ bool same_item(const YamlNode& a, const YamlNode& b) {
   return first_difference(a, b) == nullptr;
 }
 
-/// Drops from the newer list of reviews those that come after all of the older ones.
-void forget_later_reviews(const YamlNode& old, YamlNode& root) {
-  const YamlEntry* before = old.find("review");
-  const auto now = std::find_if(root.entries.begin(), root.entries.end(),
-                                [](const YamlEntry& entry) { return entry.key == "review"; });
-  if (before == nullptr || now == root.entries.end()) return;
-  std::vector<YamlNode>& reviews = now->value.items;
-  if (reviews.size() > before->value.items.size()) {
-    reviews.erase(reviews.begin() + static_cast<std::ptrdiff_t>(before->value.items.size()),
-                  reviews.end());
-  }
+/// Reviews go with a crowd: a folder keeps them, and further ones add to them.
+void forget_reviews(YamlNode& root) {
+  std::erase_if(root.entries, [](const YamlEntry& entry) { return entry.key == "review"; });
 }
 
 }  // namespace
@@ -49,10 +41,11 @@ void forget_later_reviews(const YamlNode& old, YamlNode& root) {
 std::optional<std::string> config_difference(const std::string& old_text, const std::string& text) {
   if (old_text == text) return std::nullopt;
   Complaints complaints;
-  const auto old = parse_yaml(old_text, "", complaints);
+  auto old = parse_yaml(old_text, "", complaints);
   auto root = parse_yaml(text, "", complaints);
   if (!old || !root || !complaints.empty()) return "all of it, as it is no config that can be read";
-  forget_later_reviews(*old, *root);
+  forget_reviews(*old);
+  forget_reviews(*root);
   const YamlNode* found = first_difference(*old, *root);
   if (found == nullptr) return std::nullopt;
   return found->path.empty() ? "its keys" : found->path;

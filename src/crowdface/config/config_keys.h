@@ -168,6 +168,8 @@ std::string write_believability(const Config& config, const ConfigWriting& writi
 Starter believability_starter();
 void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_recipes(const Config& config, const ConfigWriting& writing);
+void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_groups(const Config& config, const ConfigWriting& writing);
 void read_families(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_families(const Config& config, const ConfigWriting& writing);
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);

@@ -1,10 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/config_reader.h"
 
+#include <algorithm>
+
 #include "crowdface/config/config_keys.h"
 
 namespace crowdface {
 namespace {
+
+/// The value of an option, as if it stood in the file.
+YamlNode option_node(const char* option, const std::string& text) {
+  YamlNode node;
+  node.kind = YamlNode::Kind::kScalar;
+  node.place.source = std::make_shared<const std::string>(option);
+  node.text = text;
+  return node;
+}
+
+/// The reviews that a crowd's folder keeps, before those that the config names.
+void put_first(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
+  YamlNode reviews;
+  reviews.kind = YamlNode::Kind::kList;
+  for (const std::filesystem::path& file : kept) {
+    reviews.items.push_back(option_node("review", std::filesystem::absolute(file).string()));
+  }
+  const auto named = std::find_if(root.entries.begin(), root.entries.end(),
+                                  [](const YamlEntry& entry) { return entry.key == "review"; });
+  if (named == root.entries.end()) {
+    root.entries.push_back({"review", {}, std::move(reviews)});
+    return;
+  }
+  const YamlNode& own = named->value;
+  const std::vector<YamlNode> items =
+      own.kind == YamlNode::Kind::kList ? own.items : std::vector<YamlNode>{own};
+  reviews.items.insert(reviews.items.end(), items.begin(), items.end());
+  named->value = std::move(reviews);
+}
 
 void apply(const ConfigOverrides& overrides, YamlNode& root, Complaints& complaints) {
   for (const std::string& assignment : overrides.set) {
@@ -17,18 +48,7 @@ void apply(const ConfigOverrides& overrides, YamlNode& root, Complaints& complai
   if (overrides.seed) {
     set_text(root, "crowd.seed", *overrides.seed, concat("--seed ", *overrides.seed), complaints);
   }
-  if (!overrides.review.empty()) {
-    std::erase_if(root.entries, [](const YamlEntry& entry) { return entry.key == "review"; });
-  }
-}
-
-/// The value of an option, as if it stood in the file.
-YamlNode option_node(const char* option, const std::string& text) {
-  YamlNode node;
-  node.kind = YamlNode::Kind::kScalar;
-  node.place.source = std::make_shared<const std::string>(option);
-  node.text = text;
-  return node;
+  if (!overrides.kept_reviews.empty()) put_first(overrides.kept_reviews, root);
 }
 
 /// `--review` and `--out`: unlike the paths of the file, relative to the working directory.

@@ -17,7 +17,9 @@ struct ConfigOverrides {
   std::optional<std::string> count;      ///< `--count`, wins over `--set crowd.count`
   std::optional<std::string> seed;       ///< `--seed`
   std::optional<std::string> out;        ///< `--out`, relative to the working directory
-  std::vector<std::string> review = {};  ///< `--review`, likewise; in place of the key `review`
+  std::vector<std::string> review = {};  ///< `--review`, likewise; after those of the key `review`
+  /// Reviews that the crowd's folder keeps: they come first, and none of them comes again.
+  std::vector<std::filesystem::path> kept_reviews = {};
 };
 
 /// What could be read of a config, whatever is wrong with the rest.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section `families`.
 #include <algorithm>
+#include <cmath>
 
 #include "crowdface/cast/families.h"
 #include "crowdface/config/config_keys.h"
@@ -23,40 +24,84 @@ bool is_member(const std::string& id, const ConfigDraft& draft) {
   return false;
 }
 
-std::optional<Parent> read_parent(const YamlNode& node, ConfigDraft& draft) {
+/// Whether a family before this one has a parent of that id who is drawn.
+bool is_drawn_parent(const std::string& id, const ConfigDraft& draft) {
+  for (const FamilyOptions& family : draft.config.families) {
+    for (const Parent& parent : family.parents) {
+      const bool same = id == parent.id || id == parent_id(draft.config.crowd.name, parent);
+      if (parent.drawn && same) return true;
+    }
+  }
+  return false;
+}
+
+/// The group of that name.
+Codec<std::size_t> group() {
+  return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<std::size_t> {
+            const auto name = read_name(node, draft.complaints);
+            if (!name) return std::nullopt;
+            const auto& groups = draft.config.groups;
+            const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+              return group.name == *name;
+            });
+            if (found != groups.end()) return static_cast<std::size_t>(found - groups.begin());
+            draft.complaints.about(node, concat("no group is called ", quoted(*name)));
+            return std::nullopt;
+          },
+          [](std::size_t index, const ConfigWriting& writing) {
+            return write_scalar(writing.config.groups[index].name);
+          }};
+}
+
+/// \param role  "mother" or "father", after which one who is drawn is called.
+std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
+                                  const FamilyOptions& family, ConfigDraft& draft) {
+  Parent drawn{std::nullopt, concat(family.name, '_', role), true};
+  if (node.kind == YamlNode::Kind::kMap) {
+    static const Keys<Parent> keys = {key("group", &Parent::group, group(), "of whom to draw")};
+    read_keys(node, keys, drawn, draft);
+    return drawn;
+  }
   const auto name = read_name(node, draft.complaints);
   if (!name) return std::nullopt;
+  if (*name == "drawn") return drawn;
   const auto& heads = draft.config.faces.names;
   const auto head = std::find(heads.begin(), heads.end(), *name);
   if (head != heads.end()) return Parent{head - heads.begin(), *name};
   const auto& recipes = draft.config.recipes;
   const bool known = std::any_of(recipes.begin(), recipes.end(),
                                  [&](const HandRecipe& recipe) { return recipe.id == *name; }) ||
-                     is_member(*name, draft);
+                     is_member(*name, draft) || is_drawn_parent(*name, draft);
   if (!known && draft.heads_known) {
-    draft.complaints.about(node, concat("expected a head, a recipe's id or a member of a family ",
-                                        "before this one (smith_01), found ", quoted(*name)));
+    draft.complaints.about(node,
+                           concat("expected drawn, a head, a recipe's id or a member of ",
+                                  "a family before this one (smith_01), found ", quoted(*name)));
   }
   return Parent{std::nullopt, *name};
 }
 
 void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
-  constexpr const char* kHint = "a head, a recipe or a member of another family";
+  constexpr const char* kHint = "drawn, a head, a recipe or a member of another family";
   const MapReader map(&node, {std::string(word_of(0)), std::string(word_of(1))}, draft.complaints);
   const YamlNode* mother = map.require(word_of(0), kHint);
   const YamlNode* father = map.require(word_of(1), kHint);
   if (mother == nullptr || father == nullptr) return;
-  const auto first = read_parent(*mother, draft);
-  const auto second = read_parent(*father, draft);
+  const auto first = read_parent(*mother, word_of(0), family, draft);
+  const auto second = read_parent(*father, word_of(1), family, draft);
   if (first && second) family.parents = {*first, *second};
 }
 
-std::string write_parents(const FamilyOptions& family, const ConfigWriting&) {
+std::string write_parent(const Parent& parent, const ConfigWriting& writing) {
+  if (!parent.drawn) return write_scalar(parent.id);
+  return parent.group ? flow_map({entry("group", group().write(*parent.group, writing))}) : "drawn";
+}
+
+std::string write_parents(const FamilyOptions& family, const ConfigWriting& writing) {
   if (family.parents.empty()) return "";
   std::vector<std::string> entries;
   for (int p = 0; p < 2; ++p) {
     const Parent& parent = family.parents[static_cast<std::size_t>(p)];
-    entries.push_back(entry(word_of(p), write_scalar(parent.id)));
+    entries.push_back(entry(word_of(p), write_parent(parent, writing)));
   }
   return flow_map(entries);
 }
@@ -99,8 +144,14 @@ void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& 
 }
 
 void refuse_taken_ids(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
+  std::vector<std::string> ids;
   for (int m = 1; m <= family.members; ++m) {
-    const std::string id = member_id(draft.config.crowd.name, family.name, m);
+    ids.push_back(member_id(draft.config.crowd.name, family.name, m));
+  }
+  for (const Parent& parent : family.parents) {
+    if (parent.drawn) ids.push_back(parent_id(draft.config.crowd.name, parent));
+  }
+  for (const std::string& id : ids) {
     for (const HandRecipe& recipe : draft.config.recipes) {
       if (recipe.id == id) {
         draft.complaints.about(node, concat("the recipe ", quoted(id), " is called like a member"));
@@ -114,12 +165,17 @@ const Keys<FamilyOptions>& family_keys() {
   static const Keys<Family> keys = {
       key("name", &Family::name, name(), "such as smith"),
       key("members", &Family::members, whole(1, kMostMembers), "how many faces"),
+      key("group", &Family::group, group()),
       key("target", &Family::target, head()),
       {"parents", read_parents, write_parents},
       {"inherit", read_inherit, write_inherit},
-      key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistance),
-          "how far members may be from their founder, such as \"2.5 mm\""),
+      key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistance)),
       key("min_distance", &Family::min_distance_mm, length(kMaxDistance)),
+      {"twins",
+       [](const YamlNode& node, Family& family, ConfigDraft& draft) {
+         family.twins = word<bool>().read(node, draft).value_or(false);
+       },
+       [](const Family& family, const auto&) { return family.twins ? "true" : ""; }},
       key("age", &Family::age, age())};
   return keys;
 }
@@ -133,6 +189,11 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
     family.inherit.assign(config.region_names().size(), -1);
     if (!read_keys(item, family_keys(), family, draft)) continue;
     if (!family.name.empty()) check_name(item.find("name")->value, family, draft);
+    constexpr double kTwinsMm = 0.1;
+    if (item.find("min_distance") == nullptr && !family.parents.empty()) {
+      family.min_distance_mm =
+          std::min(family.twins ? kTwinsMm : HUGE_VAL, family.max_distance_mm / 4);
+    }
     if (family.max_distance_mm > 0 && family.min_distance_mm > 2 * family.max_distance_mm) {
       draft.complaints.about(item.find("min_distance")->value,
                              "members that are all within max_distance of one founder cannot be "

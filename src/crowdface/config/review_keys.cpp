@@ -4,6 +4,7 @@
 
 #include "crowdface/cast/families.h"
 #include "crowdface/config/config_keys.h"
+#include "crowdface/core/file.h"
 
 namespace crowdface {
 namespace {
@@ -20,6 +21,9 @@ std::vector<std::string> named_ids(const Config& config) {
     for (int m = 1; m <= family.members; ++m) {
       ids.push_back(member_id(config.crowd.name, family.name, m));
     }
+    for (const Parent& parent : family.parents) {
+      if (parent.drawn) ids.push_back(parent_id(config.crowd.name, parent));
+    }
   }
   return ids;
 }
@@ -35,6 +39,14 @@ bool is_sampled_id(const std::string& id, const Config& config) {
 bool is_recipe(const std::string& id, const Config& config) {
   return std::any_of(config.recipes.begin(), config.recipes.end(),
                      [&](const HandRecipe& recipe) { return recipe.id == id; });
+}
+
+bool is_drawn_parent(const std::string& id, const Config& config) {
+  return std::any_of(config.families.begin(), config.families.end(), [&](const auto& family) {
+    return std::any_of(family.parents.begin(), family.parents.end(), [&](const Parent& parent) {
+      return parent.drawn && id == parent_id(config.crowd.name, parent);
+    });
+  });
 }
 
 void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
@@ -89,12 +101,8 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   read_keys(node, keys, mark, draft);
 }
 
-}  // namespace
-
-Review read_review_file(const std::filesystem::path& file, const YamlNode& where,
-                        ConfigDraft& draft) {
+Review read_review_file(const std::filesystem::path& file, ConfigDraft& draft) {
   Review review;
-  if (!expect_file(where, file, draft)) return review;
   const auto root = read_yaml(file.string(), draft.complaints);
   if (!root) return review;
   const MapReader map(&*root, {"schema", "faces"}, draft.complaints);
@@ -116,6 +124,11 @@ Review read_review_file(const std::filesystem::path& file, const YamlNode& where
                            concat("no face of this crowd is called ", quoted(entry.key)));
     }
     read_mark(entry.value, mark, draft);
+    if (mark.verdict == Verdict::kReject && is_drawn_parent(entry.key, draft.config)) {
+      draft.complaints.add(entry.key_place,
+                           concat(quoted(entry.key), " has children who take after it; give the ",
+                                  "family another name in place of rejecting it"));
+    }
     if (mark.verdict == Verdict::kReject && is_recipe(entry.key, draft.config)) {
       draft.complaints.add(entry.key_place,
                            concat(quoted(entry.key), " is written by hand; change ",
@@ -126,12 +139,26 @@ Review read_review_file(const std::filesystem::path& file, const YamlNode& where
   return review;
 }
 
+/// Adds what a review file says, unless one before it says the same to the byte.
+void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
+                ConfigDraft& draft) {
+  if (!expect_file(where, file, draft)) return;
+  Review review = read_review_file(file, draft);
+  std::string text = draft.complaints.empty() ? read_file(file) : std::string();
+  std::vector<std::string>& texts = config.review.texts;
+  if (!text.empty() && std::find(texts.begin(), texts.end(), text) != texts.end()) return;
+  config.review.files.push_back(file);
+  texts.push_back(std::move(text));
+  config.review.reviews.push_back(std::move(review));
+}
+
+}  // namespace
+
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft) {
   const auto read_one = [&](const YamlNode& item) {
-    const auto file = path("a review file").read(item, draft);
-    if (!file) return;
-    config.review.files.push_back(*file);
-    config.review.reviews.push_back(read_review_file(*file, item, draft));
+    if (const auto file = path("a review file").read(item, draft)) {
+      add_review(*file, item, config, draft);
+    }
   };
   if (node.kind != YamlNode::Kind::kList) return read_one(node);
   for (const YamlNode& item : node.items) read_one(item);

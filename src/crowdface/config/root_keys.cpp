@@ -125,6 +125,7 @@ const Keys<Config>& root_keys() {
       section_key("distance", &Config::distance, distance_keys()),
       section_key("diversity", &Config::diversity, diversity_keys()),
       {"believability", read_believability, write_believability, {}, believability_starter()},
+      {"groups", read_groups, write_groups},
       {"recipes", read_recipes, write_recipes},
       {"families", read_families, write_families},
       {"review", read_review, write_review},

@@ -273,6 +273,7 @@ const Keys<SamplingOptions>& sampling_keys() {
               {"[0.9, 1.2]", "", "Above 1 features are stronger than scanned, below 1 weaker."}),
       Key<Sampling>{"max_sources",
                     [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
+                      sampling.max_sources.reset();
                       if (is_word(node, "all")) return;
                       const auto most = whole(1, kMostSources).read(node, draft);
                       if (most) sampling.max_sources = static_cast<int>(*most);

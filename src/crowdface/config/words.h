@@ -70,11 +70,13 @@ inline const auto& all_words() {
                   {"profile", View::kProfile}},
       Words<SheetLabel>{{"id", SheetLabel::kId},
                         {"family", SheetLabel::kFamily},
+                        {"group", SheetLabel::kGroup},
                         {"target", SheetLabel::kTarget},
                         {"nearest", SheetLabel::kNearest},
                         {"nearest_head", SheetLabel::kNearestHead}},
       Words<SheetOrder>{{"plan", SheetOrder::kPlan},
                         {"family", SheetOrder::kFamily},
+                        {"group", SheetOrder::kGroup},
                         {"likeness", SheetOrder::kLikeness}},
       Words<SheetFormat>{
           {"png", SheetFormat::kPng}, {"exr", SheetFormat::kExr}, {"pdf", SheetFormat::kPdf}},

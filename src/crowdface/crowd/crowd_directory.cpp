@@ -39,6 +39,7 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
           directory.head_render("").parent_path(),
           directory.founder_render("").parent_path(),
           directory.sheets(),
+          directory.reviews(),
           directory.gallery(),
           data,
           data / "faces",
@@ -46,8 +47,9 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
 }
 
 std::vector<fs::path> record_files(const CrowdDirectory& directory) {
-  return {directory.plan(),   directory.founders(), directory.table(),    directory.casting(),
-          directory.report(), directory.ledger(),   directory.likeness(), directory.timings()};
+  return {directory.plan(),     directory.founders(), directory.table(),
+          directory.casting(),  directory.report(),   directory.ledger(),
+          directory.likeness(), directory.timings(),  directory.rejected()};
 }
 
 /// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
@@ -73,6 +75,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   }
   for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);
   for (const char* array : kTopologyArrays) remove_file(directory.topology() / array);
+  for (const fs::path& review : directory.kept_reviews()) remove_file(review);
   const std::vector<fs::path> folders = crowd_folders(directory);
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) remove_file(*folder);
   for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
@@ -255,6 +258,17 @@ fs::path CrowdDirectory::sheet(std::size_t page) const {
   return sheets() / concat("sheet_", zero_padded(page, 3), ".png");
 }
 
+fs::path CrowdDirectory::review(std::size_t number) const {
+  return reviews() / concat("review_", zero_padded(number, 3), ".yaml");
+}
+
+std::vector<fs::path> CrowdDirectory::kept_reviews() const {
+  std::vector<fs::path> kept;
+  std::error_code ignored;
+  while (fs::exists(review(kept.size() + 1), ignored)) kept.push_back(review(kept.size() + 1));
+  return kept;
+}
+
 fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
   return meshes() / concat(id, extension_of(format));
 }
@@ -302,6 +316,10 @@ void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& co
                              ? config.difference(read_file(directory.config())).has_value()
                              : holds_other_files(directory, config.text);
   if (is_others && replace == Replace::kForce) remove_crowd(directory);
+  if (!config.reviews.empty()) make_directories(directory.reviews());
+  for (std::size_t i = 0; i < config.reviews.size(); ++i) {
+    write_file(directory.review(i + 1), config.reviews[i]);
+  }
   write_file(directory.config(), config.text);
 }
 

@@ -22,6 +22,12 @@ struct CrowdDirectory {
   std::filesystem::path plan() const { return root / "plan.jsonl"; }
   /// The hidden founders of families, in the form of the plan.
   std::filesystem::path founders() const { return root / "founders.jsonl"; }
+  /// The faces that reviews rejected, in the form of the plan.
+  std::filesystem::path rejected() const { return root / "rejected.jsonl"; }
+  /// The reviews that the crowd is a function of, in their order, and number `number`, from 1.
+  std::filesystem::path reviews() const { return root / "reviews"; }
+  std::filesystem::path review(std::size_t number) const;
+  std::vector<std::filesystem::path> kept_reviews() const;
   std::filesystem::path table() const { return root / "crowd.csv"; }
   std::filesystem::path casting() const { return root / "casting.json"; }
   std::filesystem::path report() const { return root / "report.json"; }
@@ -90,7 +96,8 @@ enum class Replace { kRefuse, kForce };
 
 /// What tells one crowd's folder from another's.
 struct CrowdConfig {
-  std::string text;  ///< that will stand in config.yaml
+  std::string text;                  ///< that will stand in config.yaml
+  std::vector<std::string> reviews;  ///< what stands in each, beside it
   /// The first key in which the text of another config.yaml differs; nothing if it is the same crowd's.
   std::function<std::optional<std::string>(const std::string& other)> difference;
 };

@@ -37,9 +37,17 @@ Json face_to_json(const CastFace& face, const PlanNames& names, const Digest& se
   json["id"] = face.id;
   json["index"] = or_null(face.index);
   json["family"] = or_null(face.family);
+  if (face.group) json["group"] = *face.group;
   json["target"] = name_at(names.heads, face.recipe.target);
+  for (const SourceWeight& part : face.recipe.mixture) {
+    json["mixture"][name_at(names.heads, part.head)] = part.weight;
+  }
   json["attempt"] = face.notes.attempt;
   if (face.age) json["age"] = *face.age;
+  if (!face.parents.empty()) {
+    json["parents"] = {{"mother", face.parents[0]}, {"father", face.parents[1]}};
+    if (face.mother_share > 0) json["mother_share"] = rounded(face.mother_share);
+  }
   if (!face.inherits.empty()) {
     for (std::size_t k = 0; k < face.inherits.size(); ++k) {
       json["inherits"][names.regions[k]] = face.inherits[k];

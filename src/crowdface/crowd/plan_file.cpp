@@ -25,6 +25,8 @@ const std::string& name_at(const std::vector<std::string>& names, Index i) {
   return names[static_cast<std::size_t>(i)];
 }
 
+constexpr double kRounding = 1e-6;  ///< of shares written by hand
+
 /// Reads the fields of one line and says where they are wrong.
 class LineReader {
  public:
@@ -42,7 +44,11 @@ class LineReader {
     if (const Json& family = member(json, "family"); !family.is_null()) {
       face.family = file_name(json, "family", kLongestName);
     }
+    if (json.contains("group")) face.group = file_name(json, "group", kLongestName);
     face.recipe.target = head(text(json, "target"), "target");
+    if (const auto mixture = json.find("mixture"); mixture != json.end()) {
+      set_target(face.recipe, shares(*mixture));
+    }
     face.notes.attempt = attempt(member(json, "attempt"));
     const Json& regions = member(json, "regions");
     if (!regions.is_object() || regions.size() != names_.regions.size()) {
@@ -52,6 +58,12 @@ class LineReader {
       face.recipe.regions.push_back(region(member(regions, name), name));
     }
     if (const auto age = json.find("age"); age != json.end()) face.age = number(*age, "age");
+    if (const auto parents = json.find("parents"); parents != json.end()) {
+      face.parents = {text(*parents, "mother"), text(*parents, "father")};
+    }
+    if (const auto share = json.find("mother_share"); share != json.end()) {
+      face.mother_share = number(*share, "mother_share", 0, 1);
+    }
     if (const auto inherits = json.find("inherits"); inherits != json.end()) {
       for (const std::string& name : names_.regions) {
         face.inherits.push_back(text(*inherits, name));
@@ -129,6 +141,24 @@ class LineReader {
     return number(value, "position", -kMaxPlaneCoordinate, kMaxPlaneCoordinate);
   }
 
+  /// What a target is mixed of; of numbers written by hand the sum is brought to one.
+  std::vector<SourceWeight> shares(const Json& json) const {
+    if (!json.is_object() || json.empty()) {
+      fail("mixture", "heads and their shares", json.dump());
+    }
+    std::vector<SourceWeight> parts;
+    double sum = 0;
+    for (const auto& [key, value] : json.items()) {
+      parts.push_back({head(key, "mixture"), number(value, "mixture", 0, 1)});
+      sum += parts.back().weight;
+    }
+    if (std::abs(sum - 1) > kRounding) fail("mixture", "shares that sum to 1", concat(sum));
+    std::erase_if(parts, [](const SourceWeight& part) { return part.weight == 0; });
+    std::sort(parts.begin(), parts.end(),
+              [](const auto& a, const auto& b) { return a.head < b.head; });
+    return parts;
+  }
+
   RegionRecipe region(const Json& json, const std::string& name) const {
     if (!json.is_object()) fail(name, "an object", json.dump());
     RegionRecipe result;
@@ -143,7 +173,6 @@ class LineReader {
       result.weights.push_back({head(key, "weights"), number(value, "weights", 0, 1)});
       sum += result.weights.back().weight;
     }
-    constexpr double kRounding = 1e-6;  // of numbers written by hand
     if (sum > 1 + kRounding) fail("weights", "a sum of at most 1", concat(sum));
     result.smoothness = number(member(json, "smoothness"), "smoothness", 0, 1);
     result.iterations = whole(member(json, "iterations"), "iterations");
@@ -186,9 +215,9 @@ std::string csv_field(const std::string& text) {
   return out + '"';
 }
 
-std::string csv_weights(const RegionRecipe& region, const PlanNames& names) {
+std::string csv_weights(const std::vector<SourceWeight>& weights, const PlanNames& names) {
   std::vector<std::string> parts;
-  for (const SourceWeight& source : region.weights) {
+  for (const SourceWeight& source : weights) {
     parts.push_back(concat(name_at(names.heads, source.head), ':', source.weight));
   }
   return join(parts, ";");
@@ -228,8 +257,8 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
       header.push_back(csv_field(concat(region, '_', column)));
     }
   }
-  for (const char* column :
-       {"nearest_face", "nearest_face_mm", "nearest_crowd", "nearest_crowd_mm"}) {
+  for (const char* column : {"nearest_face", "nearest_face_mm", "nearest_crowd", "nearest_crowd_mm",
+                             "group", "mixture"}) {
     header.emplace_back(column);
   }
   std::string table = join(header, ",") + "\r\n";
@@ -240,7 +269,7 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
     for (const RegionRecipe& region : face.recipe.regions) {
       row.push_back(region.position ? format_number(region.position->x()) : "");
       row.push_back(region.position ? format_number(region.position->y()) : "");
-      row.push_back(csv_field(csv_weights(region, names)));
+      row.push_back(csv_field(csv_weights(region.weights, names)));
       row.push_back(format_number(region.smoothness));
       row.push_back(concat(region.iterations));
       row.push_back(format_number(region.extrapolation));
@@ -251,6 +280,8 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
     row.push_back(near ? format_number(rounded(face.notes.nearest->head_mm)) : "");
     row.push_back(near_crowd ? csv_field(*face.notes.nearest->crowd) : "");
     row.push_back(near_crowd ? format_number(rounded(face.notes.nearest->crowd_mm)) : "");
+    row.push_back(csv_field(face.group.value_or("")));
+    row.push_back(csv_weights(face.recipe.mixture, names));
     table += join(row, ",") + "\r\n";
   }
   return table;

@@ -2,12 +2,14 @@
 #include "crowdface/pictures/sheets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>
 #include <system_error>
 
+#include "crowdface/blend/blend.h"
 #include "crowdface/config/sheet_page_size.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -100,7 +102,7 @@ class CrowdSheets {
   std::optional<Positions> compared_with(std::size_t face) const {
     switch (sheet_.compare.with) {
       case With::kTarget:
-        return inputs_.faces.heads[static_cast<std::size_t>(crowd_[face].recipe.target)].positions;
+        return target_positions(inputs_.faces, crowd_[face].recipe);
       case With::kNearest:
         if (likeness_.near[face].empty()) return std::nullopt;
         return mesh_of(likeness_.near[face].front().face);
@@ -230,7 +232,7 @@ class CrowdSheets {
                    });
   }
 
-  /// Each family on a sheet of its own, its founder first: whom all members take after.
+  /// Each family on a sheet of its own, after those whom its members take after.
   void write_families() {
     std::map<std::string, std::vector<std::size_t>> families;
     for (std::size_t face = 0; face < crowd_.size(); ++face) {
@@ -239,31 +241,97 @@ class CrowdSheets {
     for (const auto& family : families) write_family(family.first, family.second);
   }
 
+  /// With parents a tree, a generation a row: grandparents, parents, children. Else the founder first.
   void write_family(const std::string& family, const std::vector<std::size_t>& members) {
-    const std::vector<SheetLabel> labels = {SheetLabel::kId, SheetLabel::kNearest};
-    const auto founder = founder_of(family, members.front());
-    const std::size_t before = founder ? 1 : 0;
+    const std::vector<std::string>& parents = crowd_[members.front()].parents;
+    std::vector<Relative> cells;
+    if (!parents.empty()) {
+      std::vector<Relative> grandparents;
+      const std::array<std::string, 2> roles = {"mother", "father"};
+      for (std::size_t p = 0; p < 2; ++p) {
+        cells.push_back(relative(parents[p], roles[p]));
+        const CastFace* parent = face_called(parents[p]);
+        for (std::size_t g = 0; parent != nullptr && g < parent->parents.size(); ++g) {
+          grandparents.push_back(
+              relative(parent->parents[g], concat("the ", roles[p], "'s ", roles[g])));
+        }
+      }
+      fill_row(grandparents);
+      fill_row(cells);
+      cells.insert(cells.begin(), grandparents.begin(), grandparents.end());
+    } else if (const auto founder = founder_of(family, members.front())) {
+      cells.push_back({*founder, "founder\nnot in the crowd"});
+    }
+    for (const std::size_t member : members) {
+      cells.push_back({directory_.render(crowd_[member].id), label_of_member(member)});
+    }
     const auto cell = [&](std::size_t i) -> SheetCell {
-      if (i < before) return {*founder, "founder\nnot in the crowd"};
-      const std::size_t face = members[i - before];
-      return {read_render(directory_.render(crowd_[face].id)),
-              sheet_label(labels, crowd_, face, likeness_, config_.faces.names)};
+      const Relative& shown = cells[i];
+      if (!shown.picture.empty()) return {read_render(shown.picture), shown.label};
+      const Rgb8Image face = read_render(directory_.render(crowd_[members.front()].id));
+      return {padded({}, face.width, face.height), ""};
     };
     // No family's name holds a '+'.
     const auto stem = [&](std::size_t page) {
       return concat("family_", family, page > 1 ? concat('+', page) : std::string());
     };
     add_tall_pages(stem, concat("family ", family), concat("family ", family),
-                   counted(members.size(), "member", "members"), before + members.size(), cell);
+                   counted(members.size(), "member", "members"), cells.size(), cell);
+  }
+
+  /// A cell of a family's sheet; without a picture a blank one.
+  struct Relative {
+    std::filesystem::path picture;
+    std::string label;
+  };
+
+  void fill_row(std::vector<Relative>& cells) const {
+    while (cells.size() % static_cast<std::size_t>(sheet_.columns) != 0) cells.emplace_back();
+  }
+
+  /// The face of that id, if it is one of the crowd and no head.
+  const CastFace* face_called(const std::string& name) const {
+    const auto& heads = config_.faces.names;
+    if (std::find(heads.begin(), heads.end(), name) != heads.end()) return nullptr;
+    const auto found = std::find_if(crowd_.begin(), crowd_.end(),
+                                    [&](const CastFace& face) { return face.id == name; });
+    return found == crowd_.end() ? nullptr : &*found;
+  }
+
+  Relative relative(const std::string& name, const std::string& role) const {
+    return {face_called(name) != nullptr ? directory_.render(name) : directory_.head_render(name),
+            concat(name, '\n', role)};
+  }
+
+  /// Who gave what, or for those of no parents who is nearest.
+  std::string label_of_member(std::size_t member) const {
+    const CastFace& face = crowd_[member];
+    if (face.parents.empty()) {
+      return sheet_label({SheetLabel::kId, SheetLabel::kNearest}, crowd_, member, likeness_,
+                         config_.faces.names);
+    }
+    std::string label = face.id;
+    if (face.mother_share > 0) {
+      label += concat("\nform ", std::lround(100 * face.mother_share), " % mother");
+    }
+    for (const std::string role : {"mother", "father"}) {
+      std::vector<std::string> regions;
+      for (std::size_t k = 0; k < face.inherits.size(); ++k) {
+        if (face.inherits[k] == role) regions.push_back(config_.region_names()[k]);
+      }
+      if (!regions.empty()) label += concat("\n", role, ": ", join(regions));
+    }
+    return label;
   }
 
   /// The picture of a family's founder, if there is one that can stand beside the members'.
-  std::optional<Rgb8Image> founder_of(const std::string& family, std::size_t member) const {
+  std::optional<std::filesystem::path> founder_of(const std::string& family,
+                                                  std::size_t member) const {
     const std::filesystem::path path = directory_.founder_render(family);
     if (!std::filesystem::exists(path)) return std::nullopt;
-    Rgb8Image founder = read_render(path);
+    const Rgb8Image founder = read_render(path);
     const Rgb8Image other = read_render(directory_.render(crowd_[member].id));
-    if (founder.width == other.width && founder.height == other.height) return founder;
+    if (founder.width == other.width && founder.height == other.height) return path;
     log_info(concat("the founder of ", family, " is left out of its sheet: there is no mesh to ",
                     "make a picture of another size from; crowdface generate does it"));
     return std::nullopt;
@@ -280,6 +348,17 @@ class CrowdSheets {
   Positions reference_;  ///< the one mesh that all are compared with, or empty
 };
 
+/// "ann", or of a mixture "ann 60 %, bob 40 %".
+std::string target_label(const Recipe& recipe, const std::vector<std::string>& heads) {
+  if (recipe.mixture.empty()) return heads[static_cast<std::size_t>(recipe.target)];
+  std::vector<std::string> parts;
+  for (const SourceWeight& part : recipe.mixture) {
+    parts.push_back(concat(heads[static_cast<std::size_t>(part.head)], ' ',
+                           std::lround(100 * part.weight), " %"));
+  }
+  return join(parts);
+}
+
 }  // namespace
 
 std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces) {
@@ -293,13 +372,13 @@ std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFac
   if (order == SheetOrder::kLikeness) return likeness.order;
   std::vector<std::size_t> faces(crowd.size());
   std::iota(faces.begin(), faces.end(), std::size_t{0});
-  if (order == SheetOrder::kFamily) {  // those of no family last
-    std::stable_sort(faces.begin(), faces.end(), [&](std::size_t a, std::size_t b) {
-      const auto& left = crowd[a].family;
-      const auto& right = crowd[b].family;
-      return left && (!right || *left < *right);
-    });
-  }
+  if (order == SheetOrder::kPlan) return faces;
+  const auto kin = order == SheetOrder::kFamily ? &CastFace::family : &CastFace::group;
+  std::stable_sort(faces.begin(), faces.end(), [&](std::size_t a, std::size_t b) {
+    const auto& left = crowd[a].*kin;
+    const auto& right = crowd[b].*kin;
+    return left && (!right || *left < *right);  // those of none last
+  });
   return faces;
 }
 
@@ -313,8 +392,10 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
         return labelled.id;
       case SheetLabel::kFamily:
         return labelled.family ? concat("family ", *labelled.family) : std::string();
+      case SheetLabel::kGroup:
+        return labelled.group ? concat("group ", *labelled.group) : std::string();
       case SheetLabel::kTarget:
-        return concat("on ", heads[static_cast<std::size_t>(labelled.recipe.target)]);
+        return concat("on ", target_label(labelled.recipe, heads));
       case SheetLabel::kNearest: {
         if (likeness.near[face].empty()) return {};
         const Neighbour& near = likeness.near[face].front();

@@ -67,7 +67,7 @@ CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_dista
   return distances;
 }
 
-std::vector<FamilyReport> report_families(const CrowdCast& cast) {
+std::vector<FamilyReport> report_families(const Config& config, const CrowdCast& cast) {
   std::vector<FamilyReport> reports;
   FacePointIndex index(cast.points.empty() ? 1 : cast.points[0].as_built.size());
   for (const FaceSpace::Point& point : cast.points) index.add(point);
@@ -88,6 +88,7 @@ std::vector<FamilyReport> report_families(const CrowdCast& cast) {
     }
     report.to_founder = quartiles(std::move(to_founder));
     report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
+    if (!config.families[f].parents.empty()) report.strangers_nearer = family.strangers_nearer;
     report.silhouette = silhouette(cast.families, f, cast.points);
     reports.push_back(std::move(report));
   }
@@ -101,6 +102,8 @@ std::string asked_of(const Config& config, Reason reason) {
       return concat("diversity.min_distance, ", diversity.min_distance_mm, " mm");
     case Reason::kMinDistanceToFaces:
       return concat("diversity.min_distance_to_faces, ", diversity.min_distance_to_faces_mm, " mm");
+    case Reason::kRejected:
+      return "a distance from the faces that reviews rejected (diversity.min_distance_to_rejected)";
     case Reason::kMaxWeight:
       return concat("diversity.max_weight, ", diversity.max_weight);
     case Reason::kImplausible:
@@ -136,6 +139,8 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
              remedy.binding == Reason::kMaxWeight) {
     advice.emplace_back("a larger pull or distribution: uniform, which mix more heads into a face");
     advice.emplace_back("another range of smoothness");
+  } else if (remedy.binding == Reason::kRejected) {
+    advice.emplace_back("a smaller min_distance_to_rejected");
   } else if (remedy.binding == Reason::kFamily) {
     advice.emplace_back(
         "another max_distance or min_distance of the family, fewer members or families");
@@ -175,9 +180,12 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
     message += concat(" (for the next one ", by_main, " of ", thrown,
                       " candidates were thrown away for that)");
   }
-  if (shortfall.quota >= 0) {
-    message += concat("; the next one counts for the quota ",
-                      config.diversity.quotas[static_cast<std::size_t>(shortfall.quota)].name);
+  if (shortfall.kind >= 0) {
+    const auto kind = static_cast<std::size_t>(shortfall.kind);
+    message +=
+        config.groups.empty()
+            ? concat("; the next one counts for the quota ", config.diversity.quotas[kind].name)
+            : concat("; the next one is of the group ", config.groups[kind].name);
   }
   for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
   throw Unsatisfiable(message);
@@ -212,7 +220,34 @@ Casting casting_of(const Config& config, const Inputs& inputs,
           level_scale(config, inputs),
           config.diversity,
           config.families,
-          config.review.reviews};
+          config.review.reviews,
+          config.groups};
+}
+
+std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast) {
+  constexpr double kLeastShare = 0.5;
+  std::vector<std::string> warnings;
+  const auto& quotas = config.diversity.quotas;
+  for (std::size_t q = 0; q < quotas.size(); ++q) {
+    const std::vector<Index>& heads = quotas[q].heads;
+    double own = 0, all = 0;
+    for (const CastFace& face : cast.crowd) {
+      if (!face.index || cast.kinds[*face.index - 1] != static_cast<int>(q)) continue;
+      for (const RegionRecipe& region : face.recipe.regions) {
+        for (const SourceWeight& source : region.weights) {
+          const bool counts = std::find(heads.begin(), heads.end(), source.head) != heads.end();
+          own += counts ? source.weight : 0;
+          all += source.weight;
+        }
+      }
+    }
+    if (all == 0 || own >= kLeastShare * all) continue;
+    warnings.push_back(concat("faces of the quota ", quotas[q].name, " have ",
+                              std::lround(100 * (1 - own / all)), " % of their detail from heads ",
+                              "that are not ", quotas[q].name, ", so they will hardly look it; a ",
+                              "group with sources: [", quotas[q].name, "] binds both"));
+  }
+  return warnings;
 }
 
 Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
@@ -238,14 +273,15 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   }
   Cast result;
   result.distances = measure(space, head_distances, crowd);
-  result.families = report_families(crowd);
+  result.families = report_families(config, crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
   for (FamilyCast& family : crowd.families) {
     result.founders.push_back({family.name, std::move(family.founder)});
   }
   result.points = std::move(crowd.points);
-  result.quotas = std::move(crowd.quotas);
+  result.kinds = std::move(crowd.kinds);
+  result.rejected = std::move(crowd.rejected);
   result.rejections = crowd.rejections;
   return result;
 }

@@ -38,6 +38,7 @@ struct FamilyReport {
   Quartiles to_founder;         ///< of each member
   double nearest_other_mm = 0;  ///< from any member to anyone else; 0 if there is nobody
   double silhouette = 0;
+  std::optional<double> strangers_nearer;  ///< with parents: than one of them to a child, a share
 };
 
 /// The hidden head of a family, who is not in the crowd.
@@ -50,13 +51,17 @@ struct FamilyFounder {
 struct Cast {
   std::vector<PlanePoint> anchors;  ///< #heads
   std::vector<CastFace> crowd;      ///< with their nearest neighbours
-  std::vector<int> quotas;          ///< of each sampled face, or −1
+  std::vector<int> kinds;           ///< quota or group of each sampled face, or −1
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
   std::vector<FamilyFounder> founders;
+  std::vector<CastFace> rejected;        ///< by reviews
   std::vector<FaceSpace::Point> points;  ///< of each face of the crowd
 };
+
+/// A warning for each quota whose faces have most of their detail from heads that do not count for it.
+std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast);
 
 /// Casts the crowd.
 /// \param defects  what is wrong with a candidate's whole mesh; none: meshes are not judged.

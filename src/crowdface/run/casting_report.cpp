@@ -51,8 +51,22 @@ Json quotas_to_json(const std::vector<Quota>& quotas, const Cast& cast) {
   Json json = Json::object();
   for (std::size_t q = 0; q < quotas.size(); ++q) {
     std::uint64_t faces = 0;
-    for (const int quota : cast.quotas) faces += quota == static_cast<int>(q) ? 1U : 0U;
+    for (const int quota : cast.kinds) faces += quota == static_cast<int>(q) ? 1U : 0U;
     json[quotas[q].name] = {{"share", quotas[q].share}, {"faces", faces}};
+  }
+  return json;
+}
+
+/// How many faces each group has, and how they lie among themselves.
+Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
+  Json json = Json::object();
+  for (const Group& group : groups) {
+    std::vector<FaceSpace::Point> points;
+    for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
+      if (cast.crowd[i].group == group.name) points.push_back(cast.points[i]);
+    }
+    json[group.name] = {{"faces", points.size()},
+                        {"within_mm", to_json(quartiles(pair_distances(points)))}};
   }
   return json;
 }
@@ -60,6 +74,7 @@ Json quotas_to_json(const std::vector<Quota>& quotas, const Cast& cast) {
 Json rejections_to_json(const Rejections& rejections) {
   Json json = Json::object();
   for (std::size_t r = 0; r < kReasonCount; ++r) {
+    if (static_cast<Reason>(r) == Reason::kRejected && rejections.count[r] == 0) continue;
     json[std::string(name_of(static_cast<Reason>(r)))] = rejections.count[r];
   }
   return json;
@@ -74,6 +89,9 @@ Json families_to_json(const Cast& cast) {
                     {"to_founder_mm", nearest_to_json(family.to_founder)},
                     {"nearest_other_mm", rounded(family.nearest_other_mm)},
                     {"silhouette", rounded(family.silhouette)}});
+    if (family.strangers_nearer) {
+      json.back()["strangers_nearer_than_a_parent"] = rounded(*family.strangers_nearer);
+    }
   }
   return json;
 }
@@ -98,6 +116,7 @@ Json casting_to_json(const Config& config, const Cast& cast) {
   json["faces"] = cast.crowd.size();
   json["distances"] = distances_to_json(config.region_names(), cast.distances);
   json["quotas"] = quotas_to_json(config.diversity.quotas, cast);
+  if (!config.groups.empty()) json["groups"] = groups_to_json(config.groups, cast);
   json["families"] = families_to_json(cast);
   json["thrown_away"] = rejections_to_json(cast.rejections);
   return json;

@@ -56,7 +56,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
                      const std::vector<FaceFiles>& files) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
-  hasher.add(effective_config(job.config, directory.root)).add(gallery_page_digest(job.config));
+  hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
   // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
   hasher.add(format_plan(job, cast.crowd)).add(format_founders(job, cast.founders));
   std::vector<std::string> ids;

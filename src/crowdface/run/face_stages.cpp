@@ -87,11 +87,13 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
 class FaceOutput {
  public:
   FaceOutput(const MeshWriters& writers, const CrowdDirectory& directory,
-             const CrowdRenders* renders, const SkinCheck* check, const FaceLedger& ledger)
+             const CrowdRenders* renders, const SkinCheck* check, const FaceSet& faces,
+             const FaceLedger& ledger)
       : writers_(writers),
         directory_(directory),
         renders_(renders),
         check_(check),
+        faces_(faces),
         ledger_(ledger) {}
 
   FaceFiles write(const CastFace& face, const Positions& positions) {
@@ -117,7 +119,7 @@ class FaceOutput {
     }
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);
-      files.skin = check_->compare(positions, face.recipe.target);
+      files.skin = compare_with_target(*check_, faces_, face.recipe, positions);
     }
     ledger_.record(face, files);
     return files;
@@ -135,6 +137,7 @@ class FaceOutput {
   const CrowdDirectory& directory_;
   const CrowdRenders* renders_;
   const SkinCheck* check_;
+  const FaceSet& faces_;
   const FaceLedger& ledger_;
   std::atomic<double> encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
 };
@@ -155,7 +158,8 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const FaceBuilder& builder, const std::vector<CastFace>& crowd,
                        std::uint64_t memory)
-    : writes_meshes_(!config.output.meshes.empty()),
+    : faces_(inputs.faces),
+      writes_meshes_(!config.output.meshes.empty()),
       writers_(config, inputs, config.output.meshes, crowd),
       builder_(builder) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
@@ -179,7 +183,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (writes_meshes_) make_directories(directory.meshes());
   if (renders != nullptr) renders->make_folders(directory);
 
-  FaceOutput output(writers_, directory, renders, check_ ? &*check_ : nullptr, ledger);
+  FaceOutput output(writers_, directory, renders, check_ ? &*check_ : nullptr, faces_, ledger);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;

@@ -43,6 +43,7 @@ class FaceStages {
                    const FaceLedger& ledger, const std::vector<CastFace>& faces) const;
 
  private:
+  const FaceSet& faces_;
   bool writes_meshes_;
   MeshWriters writers_;
   const FaceBuilder& builder_;

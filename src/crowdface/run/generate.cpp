@@ -8,7 +8,6 @@
 #include <system_error>
 #include <utility>
 
-#include "crowdface/config/config_writer.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
@@ -90,6 +89,7 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
     return cast(job.config, job.inputs, crowd->prepared, defects);
   });
   log_casting(crowd->cast, job.names.heads);
+  for (const std::string& text : contradicted_quotas(job.config, crowd->cast)) log_warning(text);
   check_compared_crowd(job.config, crowd->cast.crowd);
   return crowd;
 }
@@ -103,6 +103,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cas
   write(directory.plan(), plan);
   write(directory.table(), format_csv(cast.crowd, job.names));
   if (!cast.founders.empty()) write(directory.founders(), format_founders(job, cast.founders));
+  if (!cast.rejected.empty()) write(directory.rejected(), format_plan(job, cast.rejected));
   write(directory.casting(), casting_to_json(job.config, cast).dump(2) + "\n");
 }
 
@@ -110,6 +111,7 @@ std::uint64_t face_count(const Config& config) {
   std::uint64_t faces = config.crowd.count + config.recipes.size();
   for (const FamilyOptions& family : config.families) {
     faces += static_cast<std::uint64_t>(family.members);
+    for (const Parent& parent : family.parents) faces += parent.drawn ? 1U : 0U;
   }
   return faces;
 }
@@ -160,6 +162,9 @@ std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& d
                                          const Cast& cast, Ledger& ledger) {
   std::vector<std::string> warnings = job.inputs.warnings;
   if (auto text = near_heads(cast, job.names.heads)) warnings.push_back(std::move(*text));
+  for (std::string& text : contradicted_quotas(job.config, cast)) {
+    warnings.push_back(std::move(text));
+  }
   const auto& formats = job.config.output.meshes;
   if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) == formats.end()) return warnings;
   for (std::string& text : copy_materials(job.inputs, directory, cast.crowd, ledger)) {
@@ -178,7 +183,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   const auto write = [&](const fs::path& path, std::string_view bytes) {
     ledger.write(directory.relative(path), bytes);
   };
-  write(directory.config(), effective_config(job.config, directory.root));
+  write(directory.config(), config_in_folder(job.config, directory));
   write_plan(job, directory, cast, write);
 
   const auto& sheet = job.config.output.contact_sheet;

@@ -4,10 +4,17 @@
 #include <memory>
 #include <span>
 
+#include "crowdface/blend/blend.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
+SkinDefects compare_with_target(const SkinCheck& check, const FaceSet& faces, const Recipe& recipe,
+                                const Positions& face) {
+  if (recipe.mixture.empty()) return check.compare(face, recipe.target);
+  return check.compare(face, target_positions(faces, recipe));
+}
+
 bool skin_is_judged(const Config& config, const Inputs& inputs) {
   constexpr Index kMostFaces = 200'000;  // polygons; beyond that it would rule the time of a run
   const BelievabilityOptions& believability = config.believability;
@@ -30,11 +37,11 @@ MeshDefects mesh_defects(const Inputs& inputs, const FaceBuilder& builder) {
   std::set<Index> targets;
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
   const auto check = std::make_shared<SkinCheck>(skin_check(inputs, targets));
-  return [&builder, check](const Recipe& recipe) {
+  return [&builder, check, &faces = inputs.faces](const Recipe& recipe) {
     const Recipe* one = &recipe;
     Positions face;
     builder.build(std::span(&one, 1), std::span(&face, 1));
-    return check->compare(face, recipe.target);
+    return compare_with_target(*check, faces, recipe, face);
   };
 }
 

@@ -3,7 +3,6 @@
 
 #include <system_error>
 
-#include "crowdface/config/config_writer.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -42,7 +41,7 @@ void refuse_to_write_over_config(const Config& config, const CrowdDirectory& dir
   std::error_code ignored;
   if (!fs::equivalent(config.file, directory.config(), ignored)) return;
   if (fs::exists(directory.plan(), ignored)) return;  // it is a crowd's own
-  if (read_file(config.file) == effective_config(config, directory.root)) return;
+  if (read_file(config.file) == config_in_folder(config, directory)) return;
   throw UsageError(concat(config.file.string(),
                           ": stands where the crowd's own config would be written; choose another "
                           "folder with --out, or rename it"));

@@ -4,6 +4,8 @@
 #include "crowdface/config/config_difference.h"
 #include "crowdface/config/config_writer.h"
 #include "crowdface/config/input_files.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/load_inputs.h"
 #include "crowdface/heads/settings_digest.h"
@@ -40,6 +42,13 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
     check_smoothness(config.sampling.regions[k].smoothness,
                      concat("sampling.smoothness (", names[k], ')'), config, inputs, problems);
   }
+  for (const Group& group : config.groups) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      check_smoothness(group.sampling.regions[k].smoothness,
+                       concat("group ", group.name, ", smoothness (", names[k], ')'), config,
+                       inputs, problems);
+    }
+  }
   for (const HandRecipe& recipe : config.recipes) {
     for (const HandRecipe::Region& region : recipe.regions) {
       if (!region.smoothness) continue;
@@ -48,11 +57,29 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
   }
 }
 
+/// The config, with the reviews that the crowd's folder keeps if it holds this very crowd.
+ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
+                                     ConfigOverrides overrides, Problems& problems) {
+  ConfigReading reading = read_config_parts(config_file, overrides, problems);
+  const CrowdDirectory directory{reading.config.output.directory};
+  std::error_code ignored;
+  if (!reading.complete || !std::filesystem::exists(directory.config(), ignored)) return reading;
+  overrides.kept_reviews = directory.kept_reviews();
+  if (overrides.kept_reviews.empty()) return reading;
+  const std::string config = effective_config(reading.config, directory.root);
+  const auto difference = config_difference(read_file(directory.config()), config);
+  if (!difference) return read_config_parts(config_file, overrides, problems);
+  log_warning(concat(directory.root.string(), ": keeps reviews of another config's crowd (it ",
+                     "differs in ", *difference,
+                     "), which are not applied; give them with --review"));
+  return reading;
+}
+
 }  // namespace
 
 std::optional<Job> load_job(const std::filesystem::path& config_file,
                             const ConfigOverrides& overrides, Problems& problems) {
-  ConfigReading reading = read_config_parts(config_file, overrides, problems);
+  ConfigReading reading = read_with_kept_reviews(config_file, overrides, problems);
   if (!reading.complete) {
     check_inputs(reading, problems);
     return std::nullopt;
@@ -78,9 +105,17 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
   return std::move(*job);
 }
 
+std::string config_in_folder(Config config, const CrowdDirectory& directory) {
+  for (std::size_t i = 0; i < config.review.files.size(); ++i) {
+    config.review.files[i] = directory.review(i + 1);
+  }
+  return effective_config(config, directory.root);
+}
+
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) {
-  std::string text = effective_config(config, directory.root);
-  return {text, [text](const std::string& other) { return config_difference(other, text); }};
+  std::string text = config_in_folder(config, directory);
+  return {text, config.review.texts,
+          [text](const std::string& other) { return config_difference(other, text); }};
 }
 
 LevelScale level_scale(const Config& config, const Inputs& inputs) {

@@ -30,7 +30,8 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
 /// \throws Error with all problems.
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides);
 
-/// The config as it will stand in that folder.
+/// The config as it will stand in that folder, which keeps the reviews.
+std::string config_in_folder(Config config, const CrowdDirectory& directory);
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
 /// What turns a smoothness into iterations on these heads.

@@ -7,18 +7,28 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
                      const std::vector<Head>& heads, const std::set<Index>& targets)
     : triangles_(triangles_of(topology, components, components.largest())) {
   for (const Index target : targets) {
-    const Positions& positions = heads[static_cast<std::size_t>(target)].positions;
-    const auto pairs = intersecting(triangles_, positions, near_pairs(triangles_, positions, 0));
-    targets_.emplace(target, Target{TargetTriangles(triangles_, positions),
-                                    NewIntersections(triangles_, positions.rows(), pairs)});
+    targets_.emplace(target, prepared(heads[static_cast<std::size_t>(target)].positions));
   }
 }
 
+SkinCheck::Target SkinCheck::prepared(const Positions& positions) const {
+  const auto pairs = intersecting(triangles_, positions, near_pairs(triangles_, positions, 0));
+  return {TargetTriangles(triangles_, positions),
+          NewIntersections(triangles_, positions.rows(), pairs)};
+}
+
 SkinDefects SkinCheck::compare(const Positions& positions, Index target) const {
-  const Target& known = targets_.at(target);
+  return compare(positions, targets_.at(target));
+}
+
+SkinDefects SkinCheck::compare(const Positions& positions, const Positions& target) const {
+  return compare(positions, prepared(target));
+}
+
+SkinDefects SkinCheck::compare(const Positions& positions, const Target& target) const {
   SkinDefects defects;
-  defects.local = known.triangles.compare(positions);
-  defects.intersecting = known.intersections.count(
+  defects.local = target.triangles.compare(positions);
+  defects.intersecting = target.intersections.count(
       intersecting(triangles_, positions, near_pairs(triangles_, positions, 0)));
   return defects;
 }

@@ -26,6 +26,8 @@ class SkinCheck {
 
   /// \param target  one of those named to the constructor.
   SkinDefects compare(const Positions& positions, Index target) const;
+  /// Against a target that is none of the heads, as a mixture of them: twice the work.
+  SkinDefects compare(const Positions& positions, const Positions& target) const;
 
   /// What this object itself takes.
   std::uint64_t memory_bytes() const;
@@ -37,6 +39,9 @@ class SkinCheck {
     TargetTriangles triangles;
     NewIntersections intersections;
   };
+  Target prepared(const Positions& positions) const;
+  SkinDefects compare(const Positions& positions, const Target& target) const;
+
   std::vector<Triangle> triangles_;
   std::map<Index, Target> targets_;
 };

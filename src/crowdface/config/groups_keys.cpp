@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `groups`.
+#include <algorithm>
+
+#include "crowdface/config/config_keys.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+/// A share that is not given: what the others leave is parted evenly.
+constexpr double kOpenShare = -1;
+
+/// Targets and sources are the heads that have all of these tags.
+void read_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
+  const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
+  if (!tags || tags->empty()) return;
+  group.sampling.targets.clear();
+  group.sampling.sources.clear();
+  const auto& of_heads = draft.config.faces.tags;
+  for (std::size_t h = 0; h < of_heads.size(); ++h) {
+    const bool has_all = std::all_of(tags->begin(), tags->end(), [&](const std::string& tag) {
+      return std::find(of_heads[h].begin(), of_heads[h].end(), tag) != of_heads[h].end();
+    });
+    if (!has_all) continue;
+    group.sampling.targets.push_back({static_cast<Eigen::Index>(h), 1});
+    group.sampling.sources.push_back(static_cast<Eigen::Index>(h));
+  }
+  if (group.sampling.targets.empty() && draft.heads_known && draft.tags_known) {
+    draft.complaints.about(node, "no head has all of these tags");
+  }
+}
+
+const Keys<Group>& group_keys() {
+  static const Keys<Group> keys = [] {
+    constexpr std::uint64_t kMostFaces = 1'000'000;
+    Key<Group> share = key("share", &Group::share, number(0, 1));
+    share.write = [write = share.write](const Group& group, const ConfigWriting& writing) {
+      return group.count ? "" : write(group, writing);
+    };
+    Keys<Group> own = {key("name", &Group::name, name(), "such as elderly"),
+                       share,
+                       key("count", &Group::count, whole(0, kMostFaces)),
+                       {"tags", read_tags, [](const auto&...) { return ""; }}};
+    for (const Key<SamplingOptions>& sampled : sampling_keys()) {
+      own.push_back({sampled.name,
+                     [read = sampled.read](const YamlNode& node, Group& group, ConfigDraft& draft) {
+                       read(node, group.sampling, draft);
+                     },
+                     [write = sampled.write](const Group& group, const ConfigWriting& writing) {
+                       return write(group.sampling, writing);
+                     }});
+    }
+    return own;
+  }();
+  return keys;
+}
+
+void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
+  const auto& groups = draft.config.groups;
+  if (std::any_of(groups.begin(), groups.end(),
+                  [&](const Group& other) { return other.name == group.name; })) {
+    draft.complaints.about(node, concat("two groups are called ", quoted(group.name)));
+  }
+  if (node.find("share") != nullptr && node.find("count") != nullptr) {
+    draft.complaints.about(node, "either share or count, not both");
+  }
+}
+
+/// Parts among the groups that name neither what shares and counts leave.
+void part_the_rest(const YamlNode& node, ConfigDraft& draft) {
+  auto& groups = draft.config.groups;
+  std::uint64_t counted = 0;
+  double shared = 0, open = 0;
+  for (const Group& group : groups) {
+    counted += group.count.value_or(0);
+    if (group.count) continue;
+    (group.share == kOpenShare ? open : shared) += group.share == kOpenShare ? 1 : group.share;
+  }
+  if (shared > 1 + kRounding) {
+    draft.complaints.about(node, concat("the shares sum to ", shared, ", more than 1"));
+  }
+  if (counted > draft.config.crowd.count) {
+    draft.complaints.about(
+        node, concat("counts of ", counted, " faces in a crowd of ", draft.config.crowd.count));
+  }
+  for (Group& group : groups) {
+    if (group.share == kOpenShare) group.share = std::max(0.0, 1 - shared) / std::max(open, 1.0);
+  }
+}
+
+}  // namespace
+
+void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  draft.complaints.expect_list(node,
+                               "a list of groups, [{name: elderly, share: 0.3, tags: [old]}]");
+  for (const YamlNode& item : node.items) {
+    Group group;
+    group.share = kOpenShare;
+    group.sampling = config.sampling;
+    if (!read_keys(item, group_keys(), group, draft)) continue;
+    if (group.count) group.share = 0;
+    if (!group.name.empty()) check_group(item, group, draft);
+    config.groups.push_back(std::move(group));
+  }
+  part_the_rest(node, draft);
+  if (!config.groups.empty() && !config.diversity.quotas.empty()) {
+    draft.complaints.about(node,
+                           "groups and diversity.quotas do not go together; a group with a "
+                           "share does what a quota does, and binds the sources too");
+  }
+}
+
+std::string write_groups(const Config& config, const ConfigWriting& writing) {
+  if (config.groups.empty()) return "";
+  std::vector<std::string> items;
+  for (const Group& group : config.groups) {
+    items.push_back(block_map(write_keys(group_keys(), group, writing)));
+  }
+  return block_list(items);
+}
+
+}  // namespace crowdface
