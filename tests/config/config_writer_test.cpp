@@ -225,6 +225,7 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  max_stretch: 3\n"
             "  max_flipped: 0.003\n"
             "  max_intersecting: 0.01\n"
+            "  max_gap: 0.5 mm\n"
             "  meshes: auto\n"
             "recipes: []\n"
             "families: []\n"

@@ -72,10 +72,10 @@ void SmallCrowdFolder::configure(const SmallCrowd& crowd) {
   folder_.write(
       "config.yaml",
       concat("schema: 1\ncrowd: {name: mob, count: ", crowd.count, ", seed: ", crowd.seed,
-             "}\nfaces: {directory: heads, units: ", crowd.units, ", align: none}",
-             "\nregions: ", regions, "\nsmoothing: {", crowd.smoothing_limit,
-             ", boundary: ", crowd.boundary, ", operator: ", crowd.operator_kind,
-             ", levels: ", crowd.levels, "}\nblending: {normalization: ", crowd.normalization,
+             "}\nfaces: {directory: heads, units: ", crowd.units, ", align: none}", "\nregions: ",
+             regions, "\nsmoothing: {", crowd.smoothing_limit, ", boundary: ", crowd.boundary,
+             ", operator: ", crowd.operator_kind, ", levels: ", crowd.levels,
+             "}\nblending: {contacts: none, normalization: ", crowd.normalization,
              "}\nparts: ", crowd.parts, "\nsampling: ", crowd.sampling,
              "\noutput: {directory: out, contact_sheet: ", crowd.contact_sheet, "}\n", crowd.more));
 }

@@ -21,6 +21,7 @@ struct BelievabilityOptions {
   double max_stretch = 3;          ///< of all but one in a hundred triangles of the skin
   double max_flipped = 0.003;      ///< share of the skin's triangles turned over or collapsed
   double max_intersecting = 0.01;  ///< share that passes through others where the target's does not
+  double max_gap_mm = 0.5;  ///< how much farther lips may part than any head's, see SkinContacts
 };
 
 }  // namespace crowdface

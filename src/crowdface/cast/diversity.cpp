@@ -21,6 +21,8 @@ std::string_view name_of(Reason reason) {
       return "max_intersecting";
     case Reason::kRejected:
       return "min_distance_to_rejected";
+    case Reason::kGap:
+      return "max_gap";
     case Reason::kFamily:
       break;
   }

@@ -55,6 +55,7 @@ enum class Reason {
   kFlipped,             ///< a part of the skin turned inside out or collapsed
   kStretched,           ///< a part of the skin stretched too far
   kIntersecting,        ///< the skin passes through itself where the target's does not
+  kGap,                 ///< skin that nearly touches in the heads parts farther than in any
   kFamily,              ///< among another family, or too far from its own
   kRejected,            ///< too like the face that a review rejected
 };

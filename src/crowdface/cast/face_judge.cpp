@@ -15,6 +15,7 @@ std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const Ski
   if (static_cast<double>(skin.intersecting) > limits.max_intersecting * triangles) {
     return Reason::kIntersecting;
   }
+  if (skin.wider_mm > limits.max_gap_mm) return Reason::kGap;
   return std::nullopt;
 }
 

@@ -2,43 +2,20 @@
 #include "crowdface/cast/sample_cells.h"
 
 #include <algorithm>
-#include <cmath>
-#include <queue>
 #include <set>
-#include <tuple>
 
 #include "crowdface/core/error.h"
+#include "crowdface/mesh/edge_distances.h"
 
 namespace crowdface {
-namespace {
-
-/// A vertex reached from a sample; of equally near samples the first.
-using Reached = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, sample, vertex
-
-}  // namespace
 
 SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
                               const FaceSamples& samples) {
+  EdgeDistances distances(adjacency, mean);
+  distances.search(samples);
   SampleCells cells;
-  cells.of_vertex.assign(static_cast<std::size_t>(adjacency.vertex_count()), SampleCells::kNone);
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    open.emplace(0.0, static_cast<std::uint32_t>(s), samples[s]);
-  }
-  while (!open.empty()) {
-    const auto [distance, sample, vertex] = open.top();
-    open.pop();
-    if (cells.of_vertex[vertex] != SampleCells::kNone) continue;
-    cells.of_vertex[vertex] = sample;
-    for (const std::uint32_t next : adjacency.of(vertex)) {
-      if (cells.of_vertex[next] != SampleCells::kNone) continue;
-      double squared = 0;
-      for (int c = 0; c < 3; ++c) {
-        const double d = mean(next, c) - mean(vertex, c);
-        squared += d * d;
-      }
-      open.emplace(distance + std::sqrt(squared), sample, next);
-    }
+  for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(adjacency.vertex_count()); ++v) {
+    cells.of_vertex.push_back(distances.source(v));
   }
   return cells;
 }

@@ -112,6 +112,7 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_stretch", &Believability::max_stretch, number(1, 1000)),
       key("max_flipped", &Believability::max_flipped, number(0, 1)),
       key("max_intersecting", &Believability::max_intersecting, number(0, 1)),
+      key("max_gap", &Believability::max_gap_mm, length(kMaxDistance)),
       word_key("meshes", &Believability::meshes)
           .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertices > kMostJudged) return std::nullopt;

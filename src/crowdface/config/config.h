@@ -21,6 +21,7 @@
 #include "crowdface/core/units.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/parts/follower.h"
+#include "crowdface/parts/skin_contacts.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/view.h"
@@ -97,6 +98,7 @@ struct Config {
 
   struct Blending {
     Normalization normalization = Normalization::kPartition;
+    Contacts contacts = Contacts::kAuto;  ///< lips, and other skin that nearly touches
   } blending;
 
   /// How eyes, teeth and lashes go along. Names are of materials, groups or "component N".

@@ -54,7 +54,8 @@ void check_smoothing(const YamlNode&, bool sound, ConfigDraft& draft) {
 
 const Keys<Config::Blending>& blending_keys() {
   static const Keys<Config::Blending> keys = {
-      word_key("normalization", &Config::Blending::normalization)};
+      word_key("normalization", &Config::Blending::normalization),
+      word_key("contacts", &Config::Blending::contacts)};
   return keys;
 }
 

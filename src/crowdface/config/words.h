@@ -48,6 +48,7 @@ inline const auto& all_words() {
           {"basis", Levels::kBasis}, {"exact", Levels::kExact}, {"cubic", Levels::kCubic}},
       Words<Normalization>{{"partition", Normalization::kPartition},
                            {"printed", Normalization::kPrinted}},
+      Words<Contacts>{{"auto", Contacts::kAuto}, {"none", Contacts::kNone}},
       Words<PartShape>{{"target", PartShape::kTarget}, {"blend", PartShape::kBlend}},
       Words<Layout>{{"circle", Layout::kCircle},
                     {"grid", Layout::kGrid},

@@ -7,13 +7,13 @@ namespace crowdface {
 // anew. What an older version made then counts as not done.
 
 inline constexpr int kBlendVersion =
-    2;  ///< positions of a face's skin; in `settings` of every recipe
+    3;  ///< positions of a face's skin; in `settings` of every recipe
 inline constexpr int kPartsVersion =
     3;  ///< where parts come to lie; in `settings` of heads with parts
 /// Entries of the cache, and so the faces made of them.
 inline constexpr int kPrepareVersion = 4;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
-inline constexpr int kFaceFilesVersion = 4;
+inline constexpr int kFaceFilesVersion = 5;
 inline constexpr int kSheetVersion = 6;  ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

@@ -41,6 +41,7 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   if (config.smoothing.levels == Levels::kBasis) {
     hasher.add(config.smoothing.tolerance_mm / mm_per(config.faces.units));
   }
+  hasher.add(static_cast<int>(config.blending.contacts));
   add_parts(config, inputs.parts, hasher);
   return hasher.digest();
 }

@@ -39,16 +39,6 @@ std::array<double, 4> solve(std::array<std::array<double, 5>, 4> rows) {
   return x;
 }
 
-/// The diagonal of their bounding box.
-double extent_of(const Positions& positions, const std::vector<std::uint32_t>& vertices) {
-  Eigen::Vector3d low = positions.row(vertices[0]).transpose(), high = low;
-  for (const std::uint32_t v : vertices) {
-    low = low.cwiseMin(positions.row(v).transpose());
-    high = high.cwiseMax(positions.row(v).transpose());
-  }
-  return (high - low).norm();
-}
-
 /// |p|² = 2 p·c + (r² − |c|²) in the least-squares sense, about the middle of the vertices.
 void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& vertices,
                 ComponentShape& shape) {
@@ -110,6 +100,15 @@ double distance_to(const PointGrid& skin, const Positions& positions,
 }
 
 }  // namespace
+
+double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices) {
+  Eigen::Vector3d low = positions.row(vertices[0]).transpose(), high = low;
+  for (const std::uint32_t v : vertices) {
+    low = low.cwiseMin(positions.row(v).transpose());
+    high = high.cwiseMax(positions.row(v).transpose());
+  }
+  return (high - low).norm();
+}
 
 std::vector<ComponentShape> component_shapes(const Topology& topology, const Adjacency& adjacency,
                                              const Components& components,

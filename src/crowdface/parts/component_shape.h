@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "crowdface/mesh/adjacency.h"
@@ -33,5 +35,8 @@ struct ComponentShape {
 std::vector<ComponentShape> component_shapes(const Topology& topology, const Adjacency& adjacency,
                                              const Components& components,
                                              const Positions& positions);
+
+/// The diagonal of the bounding box of some vertices, at least one.
+double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices);
 
 }  // namespace crowdface

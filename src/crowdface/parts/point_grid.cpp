@@ -99,4 +99,19 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   return best;
 }
 
+std::vector<std::uint32_t> PointGrid::about(const Eigen::Vector3d& point, double reach) const {
+  std::vector<std::uint32_t> found;
+  if (!in_reach(point, reach)) return found;
+  const Eigen::Vector3d all_sides = Eigen::Vector3d::Constant(reach);
+  const Cell low = cell_of(point - all_sides), high = cell_of(point + all_sides);
+  for (Index z = low[2]; z <= high[2]; ++z) {
+    for (Index y = low[1]; y <= high[1]; ++y) {
+      const std::size_t first = number_of({low[0], y, z}), last = number_of({high[0], y, z});
+      found.insert(found.end(), vertices_.begin() + offsets_[first],
+                   vertices_.begin() + offsets_[last + 1]);
+    }
+  }
+  return found;
+}
+
 }  // namespace crowdface

@@ -27,6 +27,9 @@ class PointGrid {
   Nearest nearest(const Eigen::Vector3d& point, double reach) const;
   Nearest nearest(const Eigen::Vector3d& point) const { return nearest(point, kHugeReach); }
 
+  /// All vertices that may lie within `reach` of a point, some of them farther off.
+  std::vector<std::uint32_t> about(const Eigen::Vector3d& point, double reach) const;
+
  private:
   static constexpr double kHugeReach = 1e300;
   using Cell = std::array<Index, 3>;

@@ -1,14 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/face_builder.h"
 
+#include <algorithm>
+
 #include "crowdface/blend/blend.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
 
 namespace crowdface {
+namespace {
+
+std::vector<std::uint32_t> vertices_of(const Components& components, std::uint32_t component) {
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
+    if (components.of_vertex[v] == component) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+/// The regions at the profiles of each place: #places by #regions, rows summing to one.
+std::vector<std::vector<double>> masks_at(const SkinContacts& contacts,
+                                          const RegionWeights& regions) {
+  std::vector<std::vector<double>> masks;
+  for (std::size_t p = 0; p < contacts.size(); ++p) {
+    std::vector<double> mask(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
+    const ContactPlace& place = contacts.place(p);
+    for (const auto* profile : {&place.low, &place.high}) {
+      const double share = 0.5 / static_cast<double>(profile->size());
+      for (const EdgePoint& point : *profile) {
+        for (std::size_t k = 0; k < mask.size(); ++k) {
+          mask[k] += share * regions.alpha(point.a, static_cast<Index>(k));
+        }
+      }
+    }
+    masks.push_back(std::move(mask));
+  }
+  return masks;
+}
+
+}  // namespace
 
 FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared)
-    : inputs_(inputs), prepared_(prepared), regions_(inputs.regions) {
+    : inputs_(inputs),
+      prepared_(prepared),
+      regions_(inputs.regions),
+      contacts_(inputs.faces, inputs.adjacency, vertices_of(inputs.skin, inputs.skin.largest())),
+      contact_masks_(masks_at(contacts_, inputs.regions)),
+      keeps_contacts_(config.blending.contacts == Contacts::kAuto),
+      mm_per_unit_(mm_per(config.faces.units)) {
   if (config.parts.shape == PartShape::kTarget) {
     for (const Part& part : inputs.parts.parts) {
       for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
@@ -30,11 +70,36 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
     blend_exact(inputs_.faces, *prepared_.filter, regions_, recipes, results);
   }
   require_whole(prepared_);
-  if (!follower_) return;
   parallel_for_each(static_cast<Index>(recipes.size()), [&](Index f) {
     const auto i = static_cast<std::size_t>(f);
-    follower_->follow(recipes[i]->target, results[i]);
+    if (keeps_contacts_) contacts_.bring_into(contact_ranges(*recipes[i]), results[i]);
+    if (follower_) follower_->follow(recipes[i]->target, results[i]);
   });
+}
+
+std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recipe) const {
+  std::vector<SkinContacts::Range> ranges;
+  for (std::size_t p = 0; p < contacts_.size(); ++p) {
+    double of_target = 0;
+    for (const SourceWeight& share : target_shares(recipe)) {
+      of_target += share.weight * contacts_.head_gaps(share.head)[p];
+    }
+    double of_sources = 0;
+    for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+      double sum = 0, weights = 0;
+      for (const SourceWeight& source : recipe.regions[k].weights) {
+        sum += source.weight * contacts_.head_gaps(source.head)[p];
+        weights += source.weight;
+      }
+      of_sources += contact_masks_[p][k] * (weights > 0 ? sum / weights : of_target);
+    }
+    ranges.push_back({std::min(of_target, of_sources), std::max(of_target, of_sources)});
+  }
+  return ranges;
+}
+
+double FaceBuilder::wider_mm(const Positions& face) const {
+  return contacts_.wider(face) * mm_per_unit_;
 }
 
 std::uint64_t FaceBuilder::bytes(std::size_t faces) const {

@@ -8,6 +8,7 @@
 #include "crowdface/config/config.h"
 #include "crowdface/heads/prepare.h"
 #include "crowdface/parts/follower.h"
+#include "crowdface/parts/skin_contacts.h"
 
 namespace crowdface {
 
@@ -23,15 +24,25 @@ class FaceBuilder {
   /// \param results  one for each recipe, #V by 3 in file units; their memory is used again.
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
 
+  /// How much farther lips, or other skin that nearly touches, are apart in a face than in any head.
+  double wider_mm(const Positions& face) const;
+
   /// Memory that building `faces` at once takes, their positions included.
   std::uint64_t bytes(std::size_t faces) const;
 
  private:
+  /// Between the gap that a face's target has at each contact and that of its sources, by weight.
+  std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
+
   const Inputs& inputs_;
   const Prepared& prepared_;
   /// The masks, without those vertices of parts that get other positions anyway.
   RegionWeights regions_;
-  std::optional<CrowdBlender> blender_;   ///< of fitted levels
+  std::optional<CrowdBlender> blender_;  ///< of fitted levels
+  SkinContacts contacts_;
+  std::vector<std::vector<double>> contact_masks_;  ///< #places by #regions, rows summing to one
+  bool keeps_contacts_;
+  double mm_per_unit_;
   std::optional<PartFollower> follower_;  ///< if there are parts beside the skin
 };
 

@@ -45,7 +45,8 @@ Json to_json(const SkinDefects& skin) {
   return {{"compared", skin.local.compared},
           {"flipped", skin.local.flipped},
           {"stretch", skin.local.stretch},
-          {"intersecting", skin.intersecting}};
+          {"intersecting", skin.intersecting},
+          {"wider_mm", skin.wider_mm}};
 }
 
 /// The line's checksum was right, so it is what `to_json` made; a line of another program's version
@@ -57,6 +58,7 @@ SkinDefects skin_of(const std::string& note) {
   skin.local.flipped = json.at("flipped").get<Index>();
   skin.local.stretch = json.at("stretch").get<double>();
   skin.intersecting = json.at("intersecting").get<Index>();
+  skin.wider_mm = json.at("wider_mm").get<double>();
   return skin;
 }
 

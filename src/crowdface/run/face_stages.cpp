@@ -86,10 +86,11 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
 /// Encodes, writes and renders one face after the other, on any thread.
 class FaceOutput {
  public:
-  FaceOutput(const MeshWriters& writers, const CrowdDirectory& directory,
-             const CrowdRenders* renders, const SkinCheck* check, const FaceSet& faces,
-             const FaceLedger& ledger)
-      : writers_(writers),
+  FaceOutput(const FaceBuilder& builder, const MeshWriters& writers,
+             const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
+             const FaceSet& faces, const FaceLedger& ledger)
+      : builder_(builder),
+        writers_(writers),
         directory_(directory),
         renders_(renders),
         check_(check),
@@ -120,6 +121,7 @@ class FaceOutput {
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);
       files.skin = compare_with_target(*check_, faces_, face.recipe, positions);
+      files.skin->wider_mm = builder_.wider_mm(positions);
     }
     ledger_.record(face, files);
     return files;
@@ -133,6 +135,7 @@ class FaceOutput {
   }
 
  private:
+  const FaceBuilder& builder_;
   const MeshWriters& writers_;
   const CrowdDirectory& directory_;
   const CrowdRenders* renders_;
@@ -183,7 +186,8 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (writes_meshes_) make_directories(directory.meshes());
   if (renders != nullptr) renders->make_folders(directory);
 
-  FaceOutput output(writers_, directory, renders, check_ ? &*check_ : nullptr, faces_, ledger);
+  FaceOutput output(builder_, writers_, directory, renders, check_ ? &*check_ : nullptr, faces_,
+                    ledger);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;

@@ -41,7 +41,9 @@ MeshDefects mesh_defects(const Inputs& inputs, const FaceBuilder& builder) {
     const Recipe* one = &recipe;
     Positions face;
     builder.build(std::span(&one, 1), std::span(&face, 1));
-    return compare_with_target(*check, faces, recipe, face);
+    SkinDefects defects = compare_with_target(*check, faces, recipe, face);
+    defects.wider_mm = builder.wider_mm(face);
+    return defects;
   };
 }
 

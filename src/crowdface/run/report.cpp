@@ -99,7 +99,8 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
       face["skin"] = {{"triangles", skin.local.compared},
                       {"flipped", skin.local.flipped},
                       {"stretch", rounded(skin.local.stretch)},
-                      {"intersecting", skin.intersecting}};
+                      {"intersecting", skin.intersecting},
+                      {"wider_mm", rounded(skin.wider_mm)}};
     }
     faces.push_back(std::move(face));
   }

@@ -14,6 +14,9 @@ namespace crowdface {
 struct SkinDefects {
   LocalDefects local;
   Index intersecting = 0;  ///< triangles that pass through others, where the target's do not
+  /// How much farther skin that nearly touches is apart than in any head; measured by whoever knows
+  /// where it touches.
+  double wider_mm = 0;
 };
 
 /// Judges whole meshes of one topology against their targets, from any thread.

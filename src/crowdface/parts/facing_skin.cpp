@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/facing_skin.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/edge_distances.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
+#include "crowdface/parts/grouping.h"
+#include "crowdface/parts/point_grid.h"
+#include "crowdface/smooth/symmetric_eigen.h"
+
+namespace crowdface {
+namespace {
+
+// Shares of the skin's extent, some 43 cm.
+constexpr double kReach = 0.008;    // how near is nearly touching
+constexpr double kSpacing = 0.003;  // between vertices that stand for all
+constexpr double kOverlap =
+    0.0005;  // lips that touch cross a little on the mean head; lids are thicker
+constexpr double kAside = 0.0035;       // how far beside each other two places may be
+constexpr double kLeastAway = 0.02;     // along the surface
+constexpr double kTogether = 0.015;     // middles of pairs of one group, or more in a coarse mesh
+constexpr double kTimesAway = 3;        // along the surface, as a multiple of the distance
+constexpr double kOpposed = -0.3;       // cosine between normals
+constexpr double kEdgesTogether = 2.5;  // edges between pairs of one group
+constexpr double kSideways = 0.75;      // of the gap
+constexpr Index kBlock = 1024;
+
+/// One of those vertices that share a cell of a grid, for all cells, ascending.
+std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const std::uint32_t> skin,
+                                   double width) {
+  using Cell = std::array<double, 3>;
+  std::vector<std::pair<Cell, std::uint32_t>> cells;
+  cells.reserve(skin.size());
+  for (const std::uint32_t v : skin) {
+    Cell cell;
+    for (Index c = 0; c < 3; ++c) {
+      cell[static_cast<std::size_t>(c)] = std::floor(positions(v, c) / width);
+    }
+    cells.emplace_back(cell, v);
+  }
+  std::sort(cells.begin(), cells.end());
+  std::vector<std::uint32_t> first;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i == 0 || cells[i].first != cells[i - 1].first) first.push_back(cells[i].second);
+  }
+  std::sort(first.begin(), first.end());
+  return first;
+}
+
+/// 1 if the faces of a mesh look outward, −1 if they look inward.
+double outward_side(const Positions& positions, const Positions& normals,
+                    std::span<const std::uint32_t> skin) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const std::uint32_t v : skin) middle += positions.row(v).transpose();
+  middle /= static_cast<double>(skin.size());
+  double volume = 0;
+  for (const std::uint32_t v : skin) {
+    volume += dot3(positions.row(v).transpose() - middle, normals.row(v).transpose());
+  }
+  return volume < 0 ? -1 : 1;
+}
+
+struct Candidate {
+  double distance;
+  std::uint32_t vertex;
+  Eigen::Vector3d across;
+};
+
+/// What a vertex looks at, nearest first.
+std::vector<Candidate> opposite(const Positions& positions, const Positions& normals, double side,
+                                const PointGrid& grid, std::uint32_t v, double extent) {
+  const Eigen::Vector3d here = positions.row(v).transpose(), normal = normals.row(v).transpose();
+  std::vector<Candidate> found;
+  for (const std::uint32_t w : grid.about(here, kReach * extent)) {
+    const Eigen::Vector3d other = normals.row(w).transpose();
+    if (dot3(normal, other) > kOpposed) continue;
+    const Eigen::Vector3d from = positions.row(w).transpose() - here;
+    const double distance = length3(from);
+    if (distance > kReach * extent) continue;
+    const Eigen::Vector3d across = side * unit3(normal - other);
+    const double gap = dot3(from, across);
+    const double aside = length3(from - gap * across);
+    if (gap < -kOverlap * extent || aside > kSideways * std::max(gap, kAside * extent)) continue;
+    found.push_back({distance, w, across});
+  }
+  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex;
+  });
+  return found;
+}
+
+/// Turns all pairs of a group the same way.
+void agree_on_sides(FacingGroup& group) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const FacingPair& pair : group) {
+    for (Index i = 0; i < 3; ++i) {
+      for (Index j = 0; j < 3; ++j) spread(i, j) += pair.up(i) * pair.up(j);
+    }
+  }
+  const Eigen::Vector3d up = symmetric_eigen(spread).vectors.col(0);
+  for (FacingPair& pair : group) {
+    if (dot3(pair.up, up) >= 0) continue;
+    std::swap(pair.low, pair.high);
+    pair.up = -pair.up;
+  }
+}
+
+/// The mean length of the edges at the low vertices of some pairs.
+double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
+  double sum = 0, count = 0;
+  for (const FacingPair& pair : pairs) {
+    for (const std::uint32_t n : adjacency.of(pair.low)) {
+      sum += length3((positions.row(n) - positions.row(pair.low)).transpose());
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+std::vector<FacingGroup> grouped(const FacingGroup& pairs, double reach) {
+  if (pairs.empty()) return {};
+  Positions middles(static_cast<Index>(pairs.size()), 3);
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    middles.row(i) = pairs[i].middle.transpose();
+    rows.push_back(i);
+  }
+  Grouping grouping(pairs.size());
+  GroupingTree tree(middles, rows, rows, grouping);
+  for (const std::uint32_t i : rows) tree.join_near(pairs[i].middle, reach, i);
+  std::map<std::uint32_t, FacingGroup> by_root;
+  for (const std::uint32_t i : rows) by_root[grouping.root(i)].push_back(pairs[i]);
+  std::vector<FacingGroup> groups;
+  for (auto& [root, group] : by_root) {
+    agree_on_sides(group);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjacency& adjacency,
+                                          const Positions& positions,
+                                          std::span<const std::uint32_t> skin) {
+  const double extent = extent_of(positions, skin);
+  if (!(extent > 0)) return {};
+  const Positions normals = vertex_normals(topology, positions);
+  const double side = outward_side(positions, normals, skin);
+  const std::vector<std::uint32_t> some = thinned(positions, skin, kSpacing * extent);
+  const PointGrid grid(positions, some);
+  std::vector<std::vector<Candidate>> candidates(some.size());
+  parallel_blocks(static_cast<Index>(some.size()), kBlock, [&](Index begin, Index end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      candidates[i] = opposite(positions, normals, side, grid, some[i], extent);
+    }
+  });
+
+  FacingGroup pairs;
+  EdgeDistances along(adjacency, positions);
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    if (candidates[i].empty()) continue;
+    throw_if_interrupted();
+    along.search(std::span(&some[i], 1),
+                 std::max(kTimesAway * candidates[i].back().distance, kLeastAway * extent));
+    for (const Candidate& candidate : candidates[i]) {
+      const double least = std::max(kTimesAway * candidate.distance, kLeastAway * extent);
+      if (along.distance(candidate.vertex) <= least) continue;
+      pairs.push_back({some[i], candidate.vertex,
+                       (positions.row(some[i]) + positions.row(candidate.vertex)).transpose() / 2,
+                       candidate.across});
+      break;
+    }
+  }
+  return grouped(
+      pairs, std::max(kTogether * extent, kEdgesTogether * mean_edge(adjacency, positions, pairs)));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/skin_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "crowdface/core/fixed_order.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/edge_distances.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
+
+namespace crowdface {
+namespace {
+
+// Shares of the skin's extent, some 43 cm.
+constexpr double kSpacing = 0.008;     // between places
+constexpr double kProfile = 0.015;     // a profile to either side of a place
+constexpr double kReach = 0.07;        // how far the skin around a place moves
+constexpr double kSide = 0.09;         // how far along the surface a side is told from the other
+constexpr double kRounding = 0.006;    // size of what is smoothed out of a side's edges
+constexpr double kTolerance = 1e-5;    // by which a gap may miss its range
+constexpr double kLeastWeight = 1e-3;  // what moves less does not move
+/// Added to what a place does to itself, so that what neighbours ask for differently is evened out.
+constexpr double kEvenness = 0.02;
+constexpr int kSteps = 24;
+
+/// Smooth, 1 at 0 and 0 from 1 on (Wendland 1995, C² in space): with it as kernel, places that ask
+/// for different things always find a solution.
+double bump(double distance) {
+  if (distance >= 1) return 0;
+  const double rest = 1 - distance;
+  return rest * rest * rest * rest * (4 * distance + 1);
+}
+
+/// The skin around a group, and which side of it each vertex is on: 1/2 at the high side of the
+/// pairs, −1/2 at the low one, changing evenly along the surface between them.
+struct Sides {
+  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<double> side;             ///< #V
+};
+
+Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
+                 double reach) {
+  std::vector<std::uint32_t> low, high;
+  for (const FacingPair& pair : group) {
+    low.push_back(pair.low);
+    high.push_back(pair.high);
+  }
+  EdgeDistances from_low(adjacency, mean), from_high(adjacency, mean);
+  from_low.search(low, reach);
+  from_high.search(high, reach);
+  Sides sides{from_low.reached(), std::vector<double>(static_cast<std::size_t>(mean.rows()), 0.0)};
+  sides.vertices.insert(sides.vertices.end(), from_high.reached().begin(),
+                        from_high.reached().end());
+  std::sort(sides.vertices.begin(), sides.vertices.end());
+  sides.vertices.erase(std::unique(sides.vertices.begin(), sides.vertices.end()),
+                       sides.vertices.end());
+  for (const std::uint32_t v : sides.vertices) {
+    const double to_low = std::min(from_low.distance(v), reach);
+    const double to_high = std::min(from_high.distance(v), reach);
+    const double both = to_low + to_high;
+    sides.side[v] = both > 0 ? (to_low - to_high) / both / 2 : 0;
+  }
+  return sides;
+}
+
+/// Averages with the neighbours, half and half, as often as rounds off edges of a given size.
+void round_off(const Adjacency& adjacency, const Positions& mean, double size, Sides& sides) {
+  double squares = 0, count = 0;
+  for (const std::uint32_t v : sides.vertices) {
+    for (const std::uint32_t n : adjacency.of(v)) {
+      const Eigen::Vector3d edge = (mean.row(n) - mean.row(v)).transpose();
+      squares += dot3(edge, edge);
+      ++count;
+    }
+  }
+  if (!(squares > 0)) return;
+  const double edges = size * size * count / squares;
+  constexpr double kMostSteps = 1e4;
+  const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMostSteps));
+  std::vector<double> next = sides.side;
+  for (int step = 0; step < steps; ++step) {
+    for (const std::uint32_t v : sides.vertices) {
+      double sum = 0;
+      for (const std::uint32_t n : adjacency.of(v)) sum += sides.side[n];
+      const auto valence = static_cast<double>(std::max<std::size_t>(adjacency.of(v).size(), 1));
+      next[v] = (sides.side[v] + sum / valence) / 2;
+    }
+    std::swap(next, sides.side);
+  }
+}
+
+}  // namespace
+
+SkinContacts::SkinContacts(const FaceSet& faces, const Adjacency& adjacency,
+                           std::span<const std::uint32_t> skin) {
+  head_gaps_.resize(faces.heads.size());
+  if (skin.empty()) return;
+  const Positions mean = mean_head(faces);
+  const double extent = extent_of(mean, skin);
+  tolerance_ = kTolerance * extent;
+  for (const FacingGroup& group : find_facing_skin(faces.topology, adjacency, mean, skin)) {
+    add(group, adjacency, mean, extent);
+  }
+  for (std::size_t h = 0; h < faces.heads.size(); ++h) {
+    head_gaps_[h] = gaps(faces.heads[h].positions);
+  }
+}
+
+void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
+                       double extent) {
+  Sides sides = find_sides(group, adjacency, mean, kSide * extent);
+  Contact contact;
+  contact.begin = places_.size();
+  for (ContactPlace& place : places_among(group, kSpacing * extent)) {
+    cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, place);
+    if (!place.low.empty() && !place.high.empty()) places_.push_back(std::move(place));
+  }
+  contact.end = places_.size();
+  if (contact.begin == contact.end) return;
+  round_off(adjacency, mean, kRounding * extent, sides);
+  find_shares(mean, sides.vertices, sides.side, extent, contact);
+  find_rises(contact);
+  contacts_.push_back(std::move(contact));
+}
+
+void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint32_t> around,
+                               const std::vector<double>& side, double extent,
+                               Contact& contact) const {
+  const double reach = kReach * extent;
+  contact.offsets = {0};
+  for (const std::uint32_t v : around) {
+    for (std::size_t p = contact.begin; p < contact.end; ++p) {
+      const double distance = length3(mean.row(v).transpose() - places_[p].middle) / reach;
+      const double weight = side[v] * bump(distance);
+      if (std::abs(weight) > kLeastWeight) {
+        contact.shares.push_back({static_cast<std::uint32_t>(p), weight});
+      }
+    }
+    if (contact.shares.size() == contact.offsets.back()) continue;
+    contact.vertices.push_back(v);
+    contact.offsets.push_back(static_cast<std::uint32_t>(contact.shares.size()));
+  }
+  const std::size_t count = contact.end - contact.begin;
+  contact.lower.assign(count, std::vector<double>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactPlace& a = places_[contact.begin + i];
+    for (std::size_t j = 0; j <= i; ++j) {
+      const ContactPlace& b = places_[contact.begin + j];
+      contact.lower[i][j] = bump(length3(a.middle - b.middle) / reach) * dot3(a.up, b.up);
+    }
+    contact.lower[i][i] += kEvenness;
+  }
+  contact.lower = cholesky(std::move(contact.lower), count);
+}
+
+void SkinContacts::find_rises(Contact& contact) const {
+  std::unordered_map<std::uint32_t, std::size_t> row_of;
+  for (std::size_t i = 0; i < contact.vertices.size(); ++i) row_of[contact.vertices[i]] = i;
+  for (std::size_t p = contact.begin; p < contact.end; ++p) {
+    const Eigen::Vector3d& up = places_[p].up;
+    const auto add_vertex = [&](std::uint32_t v, double share, std::vector<double>& rises) {
+      const auto row = row_of.find(v);
+      if (row == row_of.end()) return;
+      for (std::uint32_t s = contact.offsets[row->second]; s < contact.offsets[row->second + 1];
+           ++s) {
+        const auto [place, weight] = contact.shares[s];
+        rises[place - contact.begin] += share * weight * dot3(up, places_[place].up);
+      }
+    };
+    for (const auto* profile : {&places_[p].low, &places_[p].high}) {
+      for (const EdgePoint& point : *profile) {
+        std::vector<double> rises(contact.end - contact.begin, 0.0);
+        add_vertex(point.a, 1 - point.share, rises);
+        add_vertex(point.b, point.share, rises);
+        contact.rises.push_back(std::move(rises));
+      }
+    }
+  }
+}
+
+std::vector<double> SkinContacts::gaps(const Positions& positions) const {
+  std::vector<double> gaps;
+  gaps.reserve(places_.size());
+  for (const ContactPlace& place : places_) gaps.push_back(place.gap(positions));
+  return gaps;
+}
+
+double SkinContacts::wider(const Positions& positions) const {
+  const std::vector<double> here = gaps(positions);
+  double most = 0;
+  for (std::size_t p = 0; p < here.size(); ++p) {
+    double widest = head_gaps_.front()[p];
+    for (const auto& head : head_gaps_) widest = std::max(widest, head[p]);
+    most = std::max(most, here[p] - widest);
+  }
+  return most;
+}
+
+/// What to ask for at each place. Which points of the profiles are nearest to each other changes on the
+/// way, so it is found in steps.
+std::vector<double> SkinContacts::solve(const Contact& contact, std::span<const Range> ranges,
+                                        const Positions& positions) const {
+  std::vector<double> before;  // heights of all points of all profiles
+  for (std::size_t p = contact.begin; p < contact.end; ++p) {
+    for (const auto* profile : {&places_[p].low, &places_[p].high}) {
+      for (const EdgePoint& point : *profile) {
+        before.push_back(height_of(point, places_[p].up, positions));
+      }
+    }
+  }
+  const std::size_t count = contact.end - contact.begin;
+  std::vector<double> asked;
+  for (int step = 0; step < kSteps; ++step) {
+    std::vector<double> missing(count);
+    bool any = false;
+    std::size_t point = 0;
+    const auto extreme = [&](std::size_t points, double sign) {
+      double most = -1e300;
+      for (const std::size_t end = point + points; point < end; ++point) {
+        const double rise = asked.empty() ? 0 : fixed_dot(contact.rises[point], asked);
+        most = std::max(most, sign * (before[point] + rise));
+      }
+      return sign * most;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const ContactPlace& place = places_[contact.begin + i];
+      const double highest = extreme(place.low.size(), 1);
+      const double gap = extreme(place.high.size(), -1) - highest;
+      const Range& range = ranges[contact.begin + i];
+      missing[i] = std::clamp(gap, range.least, range.most) - gap;
+      any = any || std::abs(missing[i]) > tolerance_;
+    }
+    if (!any) break;
+    std::vector<double> more = solve_lower(contact.lower, std::move(missing), count);
+    for (std::size_t i = count; i-- > 0;) {
+      for (std::size_t j = i + 1; j < count; ++j) more[i] -= contact.lower[j][i] * more[j];
+      more[i] /= contact.lower[i][i];
+    }
+    asked.resize(count, 0.0);
+    for (std::size_t i = 0; i < count; ++i) asked[i] += more[i];
+  }
+  return asked;
+}
+
+void SkinContacts::bring_into(std::span<const Range> ranges, Positions& positions) const {
+  for (const Contact& contact : contacts_) {
+    const std::vector<double> asked = solve(contact, ranges, positions);
+    if (asked.empty()) continue;
+    std::vector<Eigen::Vector3d> moves(places_.size());
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      moves[contact.begin + i] = asked[i] * places_[contact.begin + i].up;
+    }
+    for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
+      double x = 0, y = 0, z = 0;
+      for (std::uint32_t s = contact.offsets[i]; s < contact.offsets[i + 1]; ++s) {
+        const auto [place, weight] = contact.shares[s];
+        x += weight * moves[place].x();
+        y += weight * moves[place].y();
+        z += weight * moves[place].z();
+      }
+      positions(contact.vertices[i], 0) += x;
+      positions(contact.vertices[i], 1) += y;
+      positions(contact.vertices[i], 2) += z;
+    }
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/parts/contact_place.h"
+
+namespace crowdface {
+
+/// What becomes of lips, and of other skin that nearly touches skin, in a generated face.
+enum class Contacts {
+  kAuto,  ///< they are as far apart as in the target and the sources
+  kNone,  ///< as blended (Eq. 7)
+};
+
+/// Where skin nearly touches skin. Lips are near each other in space and far along the surface, so
+/// blending parts them or pushes one into the other. Their gap is measured at places some millimetres
+/// apart, and brought to what it should be by a smooth displacement of the skin around them.
+class SkinContacts {
+ public:
+  /// \param faces  heads of one topology, at least one
+  /// \param skin   the skin's vertices, ascending
+  SkinContacts(const FaceSet& faces, const Adjacency& adjacency,
+               std::span<const std::uint32_t> skin);
+
+  std::size_t size() const { return places_.size(); }
+  const ContactPlace& place(std::size_t i) const { return places_[i]; }
+  /// Of all places, in the heads' unit.
+  std::vector<double> gaps(const Positions& positions) const;
+  /// The same of one of the heads.
+  const std::vector<double>& head_gaps(Index head) const {
+    return head_gaps_[static_cast<std::size_t>(head)];
+  }
+
+  /// How much wider the widest gap is than that of any head at its place; 0: none is wider.
+  double wider(const Positions& positions) const;
+
+  struct Range {
+    double least, most;
+  };
+  /// Moves the skin so that the gap of each place lies in its range. Where all do, nothing moves.
+  /// \param ranges     #places
+  /// \param positions  #V by 3
+  void bring_into(std::span<const Range> ranges, Positions& positions) const;
+
+ private:
+  /// How much a vertex moves by what is asked for at a place.
+  struct Share {
+    std::uint32_t place;
+    double weight;  ///< positive on the high side, negative on the low one
+  };
+  /// Places that act on the same skin: a mouth.
+  struct Contact {
+    std::size_t begin = 0, end = 0;          ///< of the places
+    std::vector<std::uint32_t> vertices;     ///< that move
+    std::vector<std::uint32_t> offsets;      ///< #vertices + 1
+    std::vector<Share> shares;               ///< of vertex i: [offsets[i], offsets[i + 1])
+    std::vector<std::vector<double>> lower;  ///< Cholesky factor of how places act on each other
+    /// How much the points of the profiles of each place rise, low ones first, by what is asked for at
+    /// each place: #points by #places.
+    std::vector<std::vector<double>> rises;
+  };
+
+  void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
+           double extent);
+  void find_shares(const Positions& mean, std::span<const std::uint32_t> around,
+                   const std::vector<double>& side, double extent, Contact& contact) const;
+  void find_rises(Contact& contact) const;
+  std::vector<double> solve(const Contact& contact, std::span<const Range> ranges,
+                            const Positions& positions) const;
+
+  double tolerance_ = 0;
+  std::vector<ContactPlace> places_;
+  std::vector<Contact> contacts_;
+  std::vector<std::vector<double>> head_gaps_;  ///< #heads by #places
+};
+
+}  // namespace crowdface

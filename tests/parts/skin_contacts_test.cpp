@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/skin_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/parts/facing_skin.h"
+#include "crowdface/synth/synthetic_head.h"
+
+#include "parts/scene.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kAround = 60, kWall = 10, kLong = 16;  // quads
+constexpr double kRadius = 5;
+
+std::vector<std::uint32_t> all_of(const Topology& topology) {
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(topology.vertex_count));
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+/// A roller, open at both ends, with a slot along its front: two walls that face each other.
+/// \param gap  between the walls
+Mesh slotted(double gap) {
+  std::vector<std::array<double, 2>> profile;  // y, z
+  const double pi = 3.14159265358979323846, front = std::asin(0.05);
+  for (int i = 0; i <= kAround; ++i) {
+    const double angle = front + (2 * pi - 2 * front) * i / kAround;
+    profile.push_back({kRadius * std::sin(angle), kRadius * std::cos(angle)});
+  }
+  for (int i = 0; i < kWall; ++i) profile.push_back({-gap / 2, 4.9 - 0.5 * i});
+  for (int i = kWall; i-- > 0;) profile.push_back({gap / 2, 4.9 - 0.5 * i});
+
+  Mesh mesh;
+  const auto around = static_cast<std::uint32_t>(profile.size());
+  mesh.topology.vertex_count = around * (kLong + 1);
+  mesh.positions.resize(mesh.topology.vertex_count, 3);
+  for (std::uint32_t x = 0; x <= kLong; ++x) {
+    for (std::uint32_t i = 0; i < around; ++i) {
+      mesh.positions.row(x * around + i) << 0.5 * x - 4, profile[i][0], profile[i][1];
+      if (x == kLong) continue;
+      const std::uint32_t a = x * around + i, b = x * around + (i + 1) % around;
+      auto& corners = mesh.topology.corner_vertices;
+      corners.insert(corners.end(), {a, a + around, b + around, b});
+      mesh.topology.face_offsets.push_back(static_cast<std::uint32_t>(corners.size()));
+    }
+  }
+  return mesh;
+}
+
+FaceSet heads_with_gaps(const std::vector<double>& gaps) {
+  FaceSet faces;
+  for (const double gap : gaps) {
+    Mesh mesh = slotted(gap);
+    faces.topology = mesh.topology;
+    faces.heads.push_back({"head", std::move(mesh.positions)});
+  }
+  return faces;
+}
+
+SkinContacts contacts_of(const FaceSet& faces) {
+  return {faces, build_adjacency(faces.topology), all_of(faces.topology)};
+}
+
+std::vector<SkinContacts::Range> everywhere(const SkinContacts& contacts, double least,
+                                            double most) {
+  return std::vector<SkinContacts::Range>(contacts.size(), {least, most});
+}
+
+TEST(FacingSkin, IsWhatLooksAtEachOtherThroughANarrowGap) {
+  Mesh mesh = slotted(0.1);
+  const auto groups = [&] {
+    return find_facing_skin(mesh.topology, build_adjacency(mesh.topology), mesh.positions,
+                            all_of(mesh.topology));
+  };
+  const std::vector<FacingGroup> found = groups();
+  ASSERT_EQ(found.size(), 1U);
+  for (const FacingPair& pair : found.front()) {
+    EXPECT_NEAR(std::abs(pair.up.y()), 1, 1e-9);
+    EXPECT_EQ(pair.up.y() > 0, mesh.positions(pair.high, 1) > mesh.positions(pair.low, 1));
+  }
+  mesh.positions.col(0) *= -1;  // now the faces look inward
+  EXPECT_EQ(groups().size(), 1U);
+  mesh = slotted(1);
+  EXPECT_TRUE(groups().empty()) << "too wide to be a contact";
+}
+
+TEST(FacingSkin, IsNotTheTwoSidesOfThinFlesh) {
+  const Mesh plate = testing::Shapes().ball({0, 0, 0}, 5, 40).mesh();
+  Positions flat = plate.positions;
+  flat.col(2) *= 0.02;
+  EXPECT_TRUE(find_facing_skin(plate.topology, build_adjacency(plate.topology), flat,
+                               all_of(plate.topology))
+                  .empty());
+}
+
+TEST(SkinContacts, AreAsWideAsTheyWereMade) {
+  const FaceSet faces = heads_with_gaps({0.04, 0.08, 0.12});
+  const SkinContacts contacts = contacts_of(faces);
+  ASSERT_GT(contacts.size(), 20U);
+  for (const auto& [head, gap] : {std::pair{0, 0.04}, {1, 0.08}, {2, 0.12}}) {
+    for (const double found : contacts.head_gaps(head)) EXPECT_NEAR(found, gap, 1e-9);
+  }
+  EXPECT_NEAR(contacts.wider(slotted(0.5).positions), 0.38, 1e-9);
+  EXPECT_EQ(contacts.wider(slotted(0.1).positions), 0);
+}
+
+TEST(SkinContacts, AreBroughtIntoTheirRanges) {
+  const FaceSet faces = heads_with_gaps({0.04, 0.12});
+  const SkinContacts contacts = contacts_of(faces);
+  for (const auto& [made, wanted] : {std::pair{0.5, 0.12}, {-0.2, 0.04}}) {
+    Positions face = slotted(made).positions;
+    const Positions before = face;
+    contacts.bring_into(everywhere(contacts, 0.04, 0.12), face);
+    for (const double gap : contacts.gaps(face)) EXPECT_NEAR(gap, wanted, 3e-4);
+    for (Index v = 0; v < face.rows(); ++v) {
+      if (before(v, 2) >= -1) continue;
+      EXPECT_TRUE(face.row(v) == before.row(v)) << "the back stays";
+    }
+    EXPECT_LT((face - before).rowwise().norm().maxCoeff(), 0.4);
+  }
+}
+
+TEST(SkinContacts, AreLeftAloneToTheBitWhereAllIsWell) {
+  const FaceSet faces = heads_with_gaps({0.04, 0.12});
+  const SkinContacts contacts = contacts_of(faces);
+  Positions face = slotted(0.07).positions;
+  contacts.bring_into(everywhere(contacts, 0.04, 0.12), face);
+  EXPECT_TRUE(face == slotted(0.07).positions);
+}
+
+TEST(SkinContacts, OfSyntheticHeadsAreTheirLipsAtAnyResolution) {
+  for (const Index vertices : {5000, 20000, 150000}) {
+    const SyntheticHeads synthetic(vertices, SyntheticHeads::Parts::kSkin);
+    FaceSet faces;
+    faces.topology = synthetic.topology();
+    for (std::uint64_t h = 0; h < 4; ++h) faces.heads.push_back({"h", synthetic.positions(1, h)});
+    const SkinContacts contacts = contacts_of(faces);
+    std::size_t lips = 0;
+    for (std::size_t p = 0; p < contacts.size(); ++p) {
+      const Eigen::Vector3d& middle = contacts.place(p).middle;
+      if (middle.z() > 5 && middle.y() < -5) ++lips;
+    }
+    EXPECT_GE(lips, 12U) << vertices;
+    EXPECT_LE(lips, 24U) << vertices;
+  }
+}
+
+}  // namespace
+}  // namespace crowdface
