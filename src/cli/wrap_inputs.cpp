@@ -10,6 +10,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/region/region_weights.h"
 
 namespace crowdface::cli {
@@ -26,10 +27,6 @@ Axis axis_of(const std::string& option, const std::string& text) {
     throw UsageError(concat(option, ": expected an axis such as +Y, found ", quoted(text)));
   }
   return *axis;
-}
-
-Eigen::Vector3d vector_of(Axis axis) {
-  return axis.sign * Eigen::Vector3d::Unit(axis.index);
 }
 
 /// The unit in which the mesh is as large as a head with its neck.
@@ -90,8 +87,8 @@ std::optional<PoseHint> pose_hint(const WrapOptions& options) {
   if (options.scan_up.empty() || options.scan_front.empty()) {
     throw UsageError("--scan-up and --scan-front belong together: expected both or none");
   }
-  const PoseHint hint = {vector_of(axis_of("--scan-up", options.scan_up)),
-                         vector_of(axis_of("--scan-front", options.scan_front))};
+  const PoseHint hint = {unit_vector(axis_of("--scan-up", options.scan_up)),
+                         unit_vector(axis_of("--scan-front", options.scan_front))};
   if (hint.up.dot(hint.front) != 0) {
     throw UsageError("--scan-up and --scan-front: expected two axes, found one");
   }
@@ -132,7 +129,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   if (!options.model.empty()) read_model(options, inputs, positions, digest);
   inputs.shape =
       make_template(inputs.file.topology, positions,
-                    {.front = vector_of(inputs.frame.front), .up = vector_of(inputs.frame.up)});
+                    {.front = unit_vector(inputs.frame.front), .up = unit_vector(inputs.frame.up)});
   if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.shape);
   if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.shape, digest);
   inputs.hint = pose_hint(options);

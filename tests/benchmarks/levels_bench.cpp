@@ -20,6 +20,7 @@
 #include "crowdface/synth/synthetic_head.h"
 
 #include "benchmarks/bench_size.h"
+#include "support/levels.h"
 
 namespace crowdface {
 namespace {
@@ -104,7 +105,7 @@ void print_table(const Mesh& head) {
   const double cubic_seconds =
       seconds_of([&] { cubic = fit_cubic(filter, head.positions, max_level); });
   print_row("levels: cubic", CubicFit::kRank, levels, cubic_seconds,
-            [&](std::uint64_t level) { return evaluate(cubic, head.positions, level); });
+            [&](std::uint64_t level) { return testing::evaluate(cubic, head.positions, level); });
   cubic.fields = {};
   const LevelNodes nodes(OperatorKind::kUmbrella, max_level);
   NodeFields fields;
@@ -117,7 +118,9 @@ void print_table(const Mesh& head) {
       const double fit_seconds = seconds_of(
           [&] { basis = fit_level_basis(filter, nodes, fields, tolerance_mm / kMmPerCm); });
       print_row(name.c_str(), basis.rank(), levels, filter_seconds + fit_seconds,
-                [&](std::uint64_t level) { return evaluate(basis, nodes, head.positions, level); });
+                [&](std::uint64_t level) {
+                  return testing::evaluate(basis, nodes, head.positions, level);
+                });
     } catch (const std::exception& refused) {
       std::printf("| %s | refused: %s\n", name.c_str(), refused.what());
     }

@@ -13,6 +13,7 @@
 #include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/iterate.h"
 
+#include "support/levels.h"
 #include "support/meshes.h"
 
 namespace crowdface {
@@ -205,11 +206,11 @@ TEST_F(Blend, CubicFollowsItsFormula) {
   Positions expected = Positions::Zero(head(0).rows(), 3);
   for (Index k = 0; k < 2; ++k) {
     const RegionRecipe& r = regions[static_cast<std::size_t>(k)];
-    Positions face = evaluate(fits[0], head(0), r.iterations);  // Eq. 6
+    Positions face = testing::evaluate(fits[0], head(0), r.iterations);  // Eq. 6
     for (const SourceWeight& source : r.weights) {
       const auto i = static_cast<std::size_t>(source.head);
       face += r.extrapolation * source.weight *
-              (head(i) - evaluate(fits[i], head(i), r.iterations));  // Eq. 5
+              (head(i) - testing::evaluate(fits[i], head(i), r.iterations));  // Eq. 5
     }
     expected += two_.alpha.col(k).asDiagonal() * face;
   }

@@ -17,6 +17,10 @@
 namespace crowdface {
 namespace {
 
+CastFace draw_any_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0) {
+  return draw_face(casting, index, attempt, kind_of_group(casting));
+}
+
 constexpr std::uint64_t kMany = 4000;
 
 Casting example() {
@@ -51,7 +55,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
         EXPECT_TRUE(source.head == 1 || source.head == 3);
       }
     }
-    EXPECT_FALSE(draw_face(casting, index).group) << "of none: by the numbers of the crowd";
+    EXPECT_FALSE(draw_face(casting, index, 0, kind_of_group(casting)).group) << "of none: by the numbers of the crowd";
   }
 }
 
@@ -73,7 +77,7 @@ TEST(Diversity, AskingForMoreDrawsNoFewerCandidates) {
 TEST(Ageing, CanBeTakenBack) {
   Casting casting = example();
   casting.sampling.old_heads = {1, 4};
-  const CastFace young = draw_face(casting, 7);
+  const CastFace young = draw_face(casting, 7, 0, kind_of_group(casting));
   CastFace face = young;
   apply_age(face, 0.4, casting.sampling);
   take_back_age(face, casting.sampling);
@@ -92,7 +96,7 @@ TEST(Ageing, CanBeTakenBack) {
 std::vector<CastFace> draw_crowd(const Casting& casting) {
   std::vector<CastFace> crowd;
   for (const HandRecipe& hand : casting.recipes) crowd.push_back(draw_hand_recipe(casting, hand));
-  for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_face(casting, i));
+  for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_any_face(casting, i));
   return crowd;
 }
 
@@ -133,7 +137,7 @@ TEST(DrawRecipe, FacesDoNotDependOnTheCount) {
   casting.count = 10;
   const auto few = draw_crowd(casting);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_TRUE(same(few[i], crowd[i]));
-  EXPECT_TRUE(same(draw_face(casting, 3777), crowd[3776])) << "also beyond the count";
+  EXPECT_TRUE(same(draw_any_face(casting, 3777), crowd[3776])) << "also beyond the count";
 }
 
 TEST(DrawRecipe, SeedsAndIndicesGiveOtherFaces) {
@@ -153,7 +157,7 @@ TEST(DrawRecipe, IdsCountFromOne) {
   EXPECT_EQ(face_id("mob", 1), "mob_0001");
   EXPECT_EQ(face_id("mob", 9999), "mob_9999");
   EXPECT_EQ(face_id("mob", 123456), "mob_123456");
-  const CastFace face = draw_face(example(), 12);
+  const CastFace face = draw_any_face(example(), 12);
   EXPECT_EQ(face.id, "mob_0012");
   EXPECT_EQ(face.index, 12U);
 }
@@ -214,7 +218,7 @@ TEST(DrawRecipe, AnchoredPositionsStayNearASource) {
 
   casting.sampling.regions[1].position.pull = 0;
   casting.sampling.targets = {{2, 1}};
-  const CastFace on_anchor = draw_face(casting, 1);
+  const CastFace on_anchor = draw_any_face(casting, 1);
   ASSERT_EQ(on_anchor.recipe.regions[1].weights.size(), 1U) << "all weight on one head";
 }
 
@@ -222,7 +226,7 @@ TEST(DrawRecipe, AttemptsDrawAnew) {
   const Casting casting = example();
   std::set<double> smoothness;
   for (std::uint32_t attempt = 0; attempt < 50; ++attempt) {
-    const CastFace face = draw_face(casting, 4, attempt);
+    const CastFace face = draw_any_face(casting, 4, attempt);
     EXPECT_EQ(face.notes.attempt, attempt);
     EXPECT_EQ(face.id, "mob_0004");
     smoothness.insert(face.recipe.regions[0].smoothness);
@@ -315,7 +319,7 @@ TEST(DrawRecipe, SizesBecomeTheirIterations) {
     std::uint64_t before = 0;
     for (const double size : {0.0, 8.0, 20.0, 50.0, largest}) {
       casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kSize, {size, size}};
-      const RegionRecipe region = draw_face(casting, 1).recipe.regions[0];
+      const RegionRecipe region = draw_any_face(casting, 1).recipe.regions[0];
       EXPECT_GE(region.iterations, before);
       before = region.iterations;
       // The nearest whole iterations: no neighbour's size is nearer.
@@ -373,7 +377,7 @@ TEST(DrawRecipe, AnotherRegionDisturbsNone) {
   Casting more = casting;
   more.region_names = {"new", "top", "low"};
   more.sampling.regions.resize(3);
-  const CastFace a = draw_face(casting, 5), b = draw_face(more, 5);
+  const CastFace a = draw_any_face(casting, 5), b = draw_any_face(more, 5);
   EXPECT_EQ(a.recipe.target, b.recipe.target);
   EXPECT_EQ(a.recipe.regions[0].position, b.recipe.regions[1].position);
   EXPECT_EQ(a.recipe.regions[1].smoothness, b.recipe.regions[2].smoothness);
@@ -400,7 +404,7 @@ TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
   EXPECT_EQ(crowd[0].recipe.regions[1].weights,
             weights_at(casting.anchors, 3, casting.sampling.sources, PlanePoint(0.5, 0.5),
                        Normalization::kPartition, std::nullopt));
-  EXPECT_TRUE(same(crowd[1], draw_face(casting, 1)));
+  EXPECT_TRUE(same(crowd[1], draw_any_face(casting, 1)));
 
   casting.recipes[0].regions[0].weights = {{4, 0}};
   EXPECT_THROW(draw_crowd(casting), BrokenPrecondition);

@@ -74,9 +74,7 @@ TEST(SmallProgram, FindsWhatSlowAscentFinds) {
 TEST(SmallProgram, PaysForWhatCannotBeHadOnlyWhatItMust) {
   SmallProgram program(2);
   program.want(0, 0, 1);
-  program.want(1, 0, 1);
-  program.charge(1, 100);
-  program.demand(1, 0);
+  program.add_slack(1, 100);
   program.demand({1, 1}, 1);   // at least 1 …
   program.demand({-1, 1}, 0);  // … and at most 0, with a slack
   const Vector x = program.solve(1e-12);

@@ -41,7 +41,8 @@ TEST(MaskSource, NegativeValueIsNamedUnlessAlpha) {
 }
 
 TEST(MaskSource, NothingIsReadUntilAsked) {
-  const auto masks = load_masks({"no/such/file.png", "none.<UDIM>.png"});
+  const std::vector<MaskSource> masks = {MaskSource("no/such/file.png"),
+                                         MaskSource("none.<UDIM>.png")};
   ASSERT_EQ(masks.size(), 2U);
   EXPECT_THROW(masks[0].read(1001), MissingInput);
 }

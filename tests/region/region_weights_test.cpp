@@ -249,9 +249,9 @@ TEST_F(MaskFiles, TilesMustAgreeInChannels) {
 }
 
 TEST_F(MaskFiles, MissingImageIsMissingInput) {
-  EXPECT_THROW(region_weights(three().topology, three().uvs, load_masks({path("none.png")}), 1),
+  EXPECT_THROW(region_weights(three().topology, three().uvs, {MaskSource(path("none.png"))}, 1),
                Error);
-  EXPECT_THAT(message_of(three(), load_masks({path("none.png")}), 1), HasSubstr("none.png"));
+  EXPECT_THAT(message_of(three(), {MaskSource(path("none.png"))}, 1), HasSubstr("none.png"));
 }
 
 TEST_F(MaskFiles, SixteenBitsAreKept) {

@@ -66,7 +66,7 @@ TEST(UvSamples, OnePictureHasOnePlaceAValue) {
   mesh.topology.corner_uvs[4] = 6;
   const UvSamples samples = gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne);
   EXPECT_THAT(samples.of(1), ElementsAre(UvSample{1001, 1, 0}));
-  EXPECT_EQ(samples.samples.size(), 6U);
+  EXPECT_EQ(samples.items.size(), 6U);
 }
 
 TEST(UvSamples, SeamVertexHasTwoPlaces) {

@@ -9,6 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/require.h"
 
+#include "render/project.h"
 #include "render/shapes.h"
 
 namespace crowdface {
@@ -44,7 +45,7 @@ TEST(Camera, EveryHeadFitsWithItsMarginAndTouchesIt) {
     double high = 0;
     for (const Positions& head : heads) {
       for (Index i = 0; i < head.rows(); ++i) {
-        const Eigen::Vector2d place = camera.project(head.row(i));
+        const Eigen::Vector2d place = testing::project(camera, head.row(i));
         low = std::min(low, place.minCoeff());
         high = std::max(high, place.maxCoeff());
       }
@@ -73,7 +74,7 @@ TEST(Camera, StandsWhereTheFaceLooks) {
   const Camera profile = fit_camera(pointers(heads), {}, View::kProfile);
   EXPECT_TRUE(profile.back.isApprox(Eigen::Vector3d::UnitX(), 1e-12));
   // What lies in front of the face appears on the left.
-  EXPECT_LT(profile.project(profile.target + Eigen::Vector3d::UnitZ()).x(), 0.5);
+  EXPECT_LT(testing::project(profile, profile.target + Eigen::Vector3d::UnitZ()).x(), 0.5);
 }
 
 TEST(Camera, FollowsTheAxesOfTheConfig) {
@@ -89,7 +90,8 @@ TEST(Camera, FollowsTheAxesOfTheConfig) {
     const Camera a = fit_camera(pointers(heads), {}, view);
     const Camera b = fit_camera(pointers(turned), {{2, 1}, {0, 1}}, view);
     EXPECT_NEAR(a.distance, b.distance, 1e-9);
-    EXPECT_TRUE(a.project(heads[0].row(3)).isApprox(b.project(turned[0].row(3)), 1e-9));
+    EXPECT_TRUE(
+        testing::project(a, heads[0].row(3)).isApprox(testing::project(b, turned[0].row(3)), 1e-9));
   }
 }
 
@@ -110,7 +112,7 @@ TEST(Camera, CutBelowGivesUpTheLowestPartOnly) {
   for (const Positions& head : heads) {
     for (Index i = 0; i < head.rows(); ++i) {
       if (head(i, 1) < 104.5) continue;
-      const Eigen::Vector2d place = camera.project(head.row(i));
+      const Eigen::Vector2d place = testing::project(camera, head.row(i));
       EXPECT_GE(place.minCoeff(), 0.06 - 1e-9);
       EXPECT_LE(place.maxCoeff(), 0.94 + 1e-9);
     }
@@ -122,7 +124,7 @@ TEST(Camera, OneSinglePointIsNoTrouble) {
   const Positions* heads[] = {&point};
   const Camera camera = fit_camera(heads, {}, View::kFront);
   EXPECT_GT(camera.distance, 0);
-  EXPECT_TRUE(camera.project(point.row(0)).isApprox(Eigen::Vector2d(0.5, 0.5)));
+  EXPECT_TRUE(testing::project(camera, point.row(0)).isApprox(Eigen::Vector2d(0.5, 0.5)));
 }
 
 TEST(Camera, RefusesWhatItCannotSee) {

@@ -13,6 +13,7 @@
 #include "crowdface/core/require.h"
 #include "crowdface/render/shading.h"
 
+#include "render/project.h"
 #include "render/shapes.h"
 
 namespace crowdface {
@@ -170,7 +171,7 @@ TEST(FaceRenderer, OcclusionDarkensACrevice) {
   const Rgb8Image closed =
       FaceRenderer(balls.topology, {.size_px = 64}).render(balls.positions, camera);
   const auto drop = [&](const Eigen::Vector3d& point) {
-    const Eigen::Vector2d place = 64 * camera.project(point);
+    const Eigen::Vector2d place = 64 * testing::project(camera, point);
     const int x = static_cast<int>(place.x());
     const int y = static_cast<int>(place.y());
     return open.at(x, y)[0] - closed.at(x, y)[0];

@@ -120,7 +120,7 @@ TEST(Reference, MasksAgreeOnScatteredQuads) {
     const ObjFile file = read_obj(path);
     const RegionWeights found = region_weights(
         file.topology, file.uvs,
-        load_masks({(folder / (tiles == 1 ? "mask.png" : "mask.<UDIM>.png")).string()}), 3);
+        {MaskSource((folder / (tiles == 1 ? "mask.png" : "mask.<UDIM>.png")).string())}, 3);
     ASSERT_EQ(found.alpha.rows(), static_cast<Index>(expected.size()));
     for (std::size_t i = 0; i < expected.size(); ++i) {
       for (std::size_t k = 0; k < 3; ++k) {

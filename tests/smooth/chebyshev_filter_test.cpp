@@ -132,19 +132,24 @@ TEST_P(Filter, IsLinearAndComposes) {
   EXPECT_LT((smooth(filter_, positions_, 35) - twice).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST_P(Filter, ManyColumnsAreTheSameAsOneHeadAtATime) {
+TEST_P(Filter, SeveralHeadsAreTheSameAsOneAtATime) {
   const std::vector<std::uint64_t> levels = {0, 5, 80, 33, 12, 7};
-  Columns all(155, 18);
-  std::vector<ChebyshevSeries> series;
+  std::vector<Positions> heads;
+  std::vector<FilterInput<double>> inputs;
   for (std::size_t g = 0; g < levels.size(); ++g) {
-    all.middleCols<3>(3 * static_cast<Index>(g)) = random_positions(155, 10 + g);
-    series.push_back(power_series(filter_.kind(), levels[g]));
+    heads.push_back(random_positions(155, 10 + g));
+    inputs.push_back(
+        {filter_.rows_of<double>(heads[g]), {power_series(filter_.kind(), levels[g])}});
   }
-  const Columns together = filter_each(filter_, all, series);
+  const auto together = filter_.run<double>(inputs);
   for (std::size_t g = 0; g < levels.size(); ++g) {
-    const Index column = 3 * static_cast<Index>(g);
-    EXPECT_EQ(together.middleCols<3>(column), smooth(filter_, all.middleCols<3>(column), levels[g]))
-        << g;  // one face alone and a face in a crowd: the same bits
+    const Positions alone = smooth(filter_, heads[g], levels[g]);
+    for (Index v = 0; v < alone.rows(); ++v) {
+      const Row<double>& row = together[g][0][filter_.row_of_vertex()[static_cast<std::size_t>(v)]];
+      for (Index c = 0; c < 3; ++c) {
+        EXPECT_EQ(row.value[c], alone(v, c)) << g;  // one face alone and a face in a crowd
+      }
+    }
   }
 }
 

@@ -5,19 +5,21 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/smooth/iterate.h"
+#include "crowdface/smooth/level_size.h"
 
+#include "support/levels.h"
 #include "support/meshes.h"
 
 namespace crowdface {
 namespace {
 
 TEST(CubicFitLevels, AreAboutFortyAndDenseAtTheStart) {
-  const auto levels = cubic_fit_levels(20000);
+  const auto levels = levels_dense_at_start(20000, kCubicFitSteps);
   EXPECT_EQ(levels.size(), 41U);
   EXPECT_EQ(levels.front(), 0U);
   EXPECT_EQ(levels.back(), 20000U);
   EXPECT_LT(levels[20] - levels[0], levels[40] - levels[20]);
-  EXPECT_EQ(cubic_fit_levels(3), (std::vector<std::uint64_t>{0, 1, 2, 3}));
+  EXPECT_EQ(levels_dense_at_start(3, kCubicFitSteps), (std::vector<std::uint64_t>{0, 1, 2, 3}));
 }
 
 TEST(CubicFit, EqualsLeastSquaresOverStoredLevels) {
@@ -26,7 +28,7 @@ TEST(CubicFit, EqualsLeastSquaresOverStoredLevels) {
                                     OperatorKind::kUmbrella);
   const Positions positions = testing::random_positions(topology.vertex_count, 1);
   constexpr std::uint64_t kMaxLevel = 200;
-  const auto levels = cubic_fit_levels(kMaxLevel);
+  const auto levels = levels_dense_at_start(kMaxLevel, kCubicFitSteps);
   const auto count = static_cast<Index>(levels.size());
   // The paper's way: store the levels, solve for each coordinate of each vertex.
   Eigen::MatrixXd design(count, 4), data(count, positions.size());
@@ -54,7 +56,7 @@ TEST(CubicFit, IsExactWhereFourLevelsAreAll) {
   const Positions positions = testing::random_positions(topology.vertex_count, 2);
   const CubicFit fit = fit_cubic(ChebyshevFilter(smoothing, positions), positions, 3);
   for (std::uint64_t level = 0; level <= 3; ++level) {
-    EXPECT_LT((evaluate(fit, positions, level) - iterate(smoothing, positions, level))
+    EXPECT_LT((testing::evaluate(fit, positions, level) - iterate(smoothing, positions, level))
                   .cwiseAbs()
                   .maxCoeff(),
               1e-5);
@@ -66,8 +68,8 @@ TEST(CubicFit, LeavesFixedVerticesWhereTheyAre) {
   const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
   const Positions positions = testing::random_positions(topology.vertex_count, 3);
-  const Positions moved =
-      evaluate(fit_cubic(ChebyshevFilter(smoothing, positions), positions, 100), positions, 60);
+  const Positions moved = testing::evaluate(
+      fit_cubic(ChebyshevFilter(smoothing, positions), positions, 100), positions, 60);
   for (Index i = 0; i < positions.rows(); ++i) {
     if (smoothing.neighbours(i).empty()) {
       EXPECT_LT((moved.row(i) - positions.row(i)).norm(), 1e-12);

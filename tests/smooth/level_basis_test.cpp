@@ -12,6 +12,7 @@
 #include "crowdface/smooth/symmetric_eigen.h"
 
 #include "support/expect_error.h"
+#include "support/levels.h"
 #include "support/meshes.h"
 
 namespace crowdface {
@@ -108,7 +109,7 @@ TEST_P(Basis, StaysWithinItsToleranceAtEveryLevelAndVertex) {
     Columns level = fitted.positions;  // by plain iteration
     for (std::uint64_t l = 0; l <= 400; ++l) {
       if (l > 0) level = iterate(fitted.smoothing, level, 1);
-      const Positions found = evaluate(basis, fitted.nodes, fitted.positions, l);
+      const Positions found = testing::evaluate(basis, fitted.nodes, fitted.positions, l);
       largest = std::max(largest, (found - level).rowwise().norm().maxCoeff());
     }
     EXPECT_LE(largest, basis.error.max * 1.02) << "what it says of itself, between levels too";
@@ -151,8 +152,8 @@ TEST_P(Basis, LevelZeroAndRimsKeepTheirBits) {
   const auto [kind, boundary] = GetParam();
   const Fitted fitted(kind, 300, boundary);
   const LevelBasis basis = fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, 0.02);
-  EXPECT_EQ(evaluate(basis, fitted.nodes, fitted.positions, 0), fitted.positions);
-  const Positions moved = evaluate(basis, fitted.nodes, fitted.positions, 111);
+  EXPECT_EQ(testing::evaluate(basis, fitted.nodes, fitted.positions, 0), fitted.positions);
+  const Positions moved = testing::evaluate(basis, fitted.nodes, fitted.positions, 111);
   for (Index i = 0; i < moved.rows(); ++i) {
     if (fitted.smoothing.neighbours(i).empty()) {
       EXPECT_EQ(moved.row(i), fitted.positions.row(i)) << i;
@@ -191,7 +192,7 @@ TEST(LevelBasis, FollowsACheckerboardThroughBothParities) {
       fit_level_basis(filter, nodes, filter_nodes(filter, nodes, positions), 0.005);
   for (const std::uint64_t level : {1U, 2U, 33U, 34U, 301U, 402U, 499U}) {
     const double difference =
-        (evaluate(basis, nodes, positions, level) - smooth(filter, positions, level))
+        (testing::evaluate(basis, nodes, positions, level) - smooth(filter, positions, level))
             .rowwise()
             .norm()
             .maxCoeff();

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/mesh/adjacency.h"
+#include "crowdface/synth/quad_counts.h"
 
 namespace crowdface::synth {
 namespace {
@@ -55,7 +56,7 @@ TEST_P(LayoutAt, HasNearlyTheWantedSize) {
   const Layout layout = make_layout(wanted);
   EXPECT_NEAR(static_cast<double>(layout.topology.vertex_count), static_cast<double>(wanted),
               0.1 * static_cast<double>(wanted));
-  EXPECT_EQ(layout.topology.vertex_count, nearest_vertex_count(wanted));
+  EXPECT_EQ(layout.topology.vertex_count, nearest_counts(wanted).vertices());
   EXPECT_EQ(layout.addresses.size(), static_cast<std::size_t>(layout.topology.vertex_count));
 }
 
@@ -140,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, LayoutAt, testing::Values(5000, 20000, 80000));
 
 TEST(Layout, ReachesEverySizeWithinTenPercent) {
   for (double wanted = 5000; wanted <= 1200000; wanted *= 1.13) {
-    const auto found = static_cast<double>(nearest_vertex_count(static_cast<Index>(wanted)));
+    const auto found = static_cast<double>(nearest_counts(static_cast<Index>(wanted)).vertices());
     EXPECT_NEAR(found / wanted, 1, 0.1) << wanted;
   }
 }

@@ -123,7 +123,8 @@ TEST(ScanFile, EveryFormatGivesTheSameSurface) {
 TEST(ScanFile, CornersInOnePlaceAreWelded) {
   const TemporaryFolder folder;
   const Scan scan = read_scan(folder.write("cube.stl", binary_stl(cube())));
-  const std::vector<bool> rim = rim_vertices(scan.triangles, scan.positions.rows());
+  const std::vector<bool> rim =
+      build_adjacency(topology_of(scan.triangles, scan.positions.rows())).boundary;
   EXPECT_EQ(std::count(rim.begin(), rim.end(), true), 0) << "a cube is closed";
 }
 
@@ -134,7 +135,7 @@ TEST(ScanFile, GlbNodesStandWhereTheirParentsPutThem) {
   EXPECT_LT((turned.positions - expected).cwiseAbs().maxCoeff(), 1e-6);
   // A node that mirrors leaves the outside outside.
   const Scan mirrored = parse_glb(glb(cube(), R"({"children":[1],"scale":[-1,1,1]})"), "scan.glb");
-  const Positions normals = scan_normals(mirrored);
+  const Positions normals = vertex_normals(mirrored.triangles, mirrored.positions);
   for (Index v = 0; v < 8; ++v) EXPECT_GT(normals.row(v).dot(mirrored.positions.row(v)), 0);
 }
 

@@ -72,20 +72,5 @@ TEST(SurfaceTree, OnlyTrianglesThatFaceTheRightWayAreFound) {
   EXPECT_EQ(tree.nearest_facing(inside, -Eigen::Vector3d::UnitZ(), 0.5, 1).triangle, kNoIndex);
 }
 
-TEST(SurfaceTree, FollowsPositionsThatChange) {
-  const SyntheticHeads heads(5000);
-  const std::vector<Triangle> triangles = triangles_of(heads.topology());
-  Positions positions = heads.positions(1, 1);
-  SurfaceTree tree(positions, triangles);
-  positions = heads.positions(1, 2);
-  tree.refit();
-  const SurfaceTree fresh(positions, triangles);
-  const Positions points = 15 * random_positions(50, 4);
-  for (Index i = 0; i < points.rows(); ++i) {
-    const Eigen::Vector3d point = points.row(i).transpose();
-    EXPECT_EQ(tree.nearest(point, 1e300).distance, fresh.nearest(point, 1e300).distance);
-  }
-}
-
 }  // namespace
 }  // namespace crowdface::testing

@@ -109,7 +109,8 @@ class Splitter {
 /// Moves each vertex that is on no rim to some place of the triangles around it that leaves none of
 /// them turned over: no vertex of the head is left where it was.
 void scatter(Scan& scan, std::uint64_t seed) {
-  const std::vector<bool> rim = rim_vertices(scan.triangles, scan.positions.rows());
+  const std::vector<bool> rim =
+      build_adjacency(topology_of(scan.triangles, scan.positions.rows())).boundary;
   std::vector<std::vector<std::uint32_t>> around(rim.size());
   for (std::uint32_t t = 0; t < scan.triangles.size(); ++t) {
     for (const std::uint32_t v : scan.triangles[t]) around[v].push_back(t);
@@ -212,7 +213,7 @@ TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandma
   scatter(scan, options.seed);
   cut_holes(scan, options);
   scan = shuffled(scan, options.seed);
-  const Positions normals = scan_normals(scan);
+  const Positions normals = vertex_normals(scan.triangles, scan.positions);
   for (Index v = 0; v < scan.positions.rows(); ++v) {
     const RandomKey key{options.seed, static_cast<std::uint64_t>(v), "truth/noise"};
     scan.positions.row(v) += options.noise_mm * random_normal(key) * normals.row(v);

@@ -32,8 +32,7 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
           },
           judge, casting.diversity, casting.diversity.candidates_for(index));
     }
-    parallel_for_each(static_cast<Index>(searches.size()),
-                      [&](Index i) { searches[static_cast<std::size_t>(i)].prepare(crowd); });
+    parallel_for_each(searches.size(), [&](std::size_t i) { searches[i].prepare(crowd); });
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
       auto found = search.settle(

@@ -212,10 +212,6 @@ CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t at
   return face;
 }
 
-CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt) {
-  return draw_face(casting, index, attempt, kind_of_group(casting));
-}
-
 CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand) {
   return draw_recipe(casting, hand, {0, 0, concat("recipe/", hand.id)}, kind_of_group(casting));
 }

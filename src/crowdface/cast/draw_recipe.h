@@ -69,8 +69,6 @@ CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawK
 /// Attempt `attempt` at sampled face `index` (from 1).
 CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
                    const FaceKind& kind);
-/// The same with any target that may be sampled.
-CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0);
 
 /// A hand-written recipe; what it leaves open is drawn under its own name.
 /// \throws BrokenPrecondition if its weights cannot be normalised.

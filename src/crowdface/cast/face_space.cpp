@@ -33,117 +33,132 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 
 }  // namespace
 
+/// Which rows hold what: the mean head, each head's deviation, then the fields of regions and heads,
+/// mode by mode.
+struct FaceSpace::FunctionRows {
+  Index heads, modes;
+  static Index of_head(Index head) { return 3 + 3 * head; }
+  Index of_field(Index region_and_head, Index mode) const {
+    return 3 + 3 * heads + 3 * (region_and_head * modes + mode);
+  }
+  Index count(Index regions) const { return of_field(regions * heads, 0); }
+};
+
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights)
     : heads_(std::move(heads)) {
-  build_basis(weights);
+  choose_counting(weights);
+  build_basis();
   build_directions();
   if (heads_.alpha.cols() > 1) build_region_metrics();
+}
+
+void FaceSpace::choose_counting(const std::vector<double>& weights) {
+  for (Index s = 0; s < heads_.mean.rows(); ++s) {
+    if (weights[static_cast<std::size_t>(s)] > 0) counting_.push_back(s);
+  }
+  roots_.resize(static_cast<Index>(counting_.size()));
+  for (Index i = 0; i < roots_.size(); ++i) {
+    roots_[i] = static_cast<float>(std::sqrt(weights[static_cast<std::size_t>(sample_at(i))]));
+  }
+}
+
+/// Few directions span the levels of all heads together; fields are made for those alone. (Rows: the
+/// levels; columns: heads, coordinates, samples, times the samples' roots.)
+SpanBasis FaceSpace::level_modes() const {
+  const Index heads = head_count(), size = roots_.size();
+  const auto level_count = static_cast<Index>(heads_.levels.size());
+  FloatRows levels(level_count, heads * 3 * size);
+  for (Index h = 0; h < heads; ++h) {
+    const Trajectory& trajectory = heads_.trajectories[static_cast<std::size_t>(h)];
+    for (Index l = 0; l < level_count; ++l) {
+      for (Index i = 0; i < size; ++i) {
+        for (Index c = 0; c < 3; ++c) {
+          const auto value = static_cast<double>(trajectory(l, 3 * sample_at(i) + c));
+          levels(l, (h * 3 + c) * size + i) =
+              static_cast<float>(value * heads_.mm_per_unit) * roots_[i];
+        }
+      }
+    }
+  }
+  return span_basis(std::move(levels), kFieldTolerance, level_count);
+}
+
+/// A scalar function on the samples, less its mean over the face, which translation takes away.
+template <class Value>
+void FaceSpace::put_function(const Value& value, float* row) const {
+  double mean = 0;
+  for (Index i = 0; i < roots_.size(); ++i) {
+    const double scaled = static_cast<double>(roots_[i]) * value(i);
+    row[i] = static_cast<float>(scaled);
+    mean += static_cast<double>(roots_[i]) * scaled;
+  }
+  for (Index i = 0; i < roots_.size(); ++i) row[i] -= static_cast<float>(mean) * roots_[i];
+}
+
+/// The functions that faces are sums of; three rows, x, y and z, for each of them.
+/// \param peaks  of the modes: a mode's own length is one, so its rows are scaled to what the largest
+///               level takes of them.
+FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
+                               const FunctionRows& rows) const {
+  const Index size = roots_.size(), regions = heads_.alpha.cols();
+  FloatRows functions(rows.count(regions), size);
+  for (Index c = 0; c < 3; ++c) {
+    put_function([&](Index i) { return heads_.mean(sample_at(i), c); }, functions.row(c).data());
+    for (Index h = 0; h < rows.heads; ++h) {
+      const Positions& head = heads_.heads[static_cast<std::size_t>(h)];
+      put_function([&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
+                   functions.row(rows.of_head(h) + c).data());
+    }
+  }
+  parallel_for_each(regions * rows.heads, [&](Index kh) {
+    const Index k = kh / rows.heads, h = kh % rows.heads;
+    for (Index r = 0; r < rows.modes; ++r) {
+      float* const first = functions.row(rows.of_field(kh, r)).data();
+      for (Index c = 0; c < 3; ++c) {
+        const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
+        put_function(
+            [&](Index i) {  // the roots are in the mode already
+              return heads_.alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
+                     static_cast<double>(roots_[i]);
+            },
+            first + c * size);
+      }
+      for (Index i = 0; i < 3 * size; ++i) first[i] *= peaks[static_cast<std::size_t>(r)];
+    }
+  });
+  return functions;
 }
 
 /// Every face is a sum of the heads and of their smoothed-away fields under the masks. Orthonormal
 /// scalar functions that span all of those turn the samples of a face into #P by 3 numbers, in
 /// which rotations and distances are what they are at the samples, and the centre is the origin.
-void FaceSpace::build_basis(const std::vector<double>& weights) {
-  std::vector<Index>& counting = counting_;
-  for (Index s = 0; s < heads_.mean.rows(); ++s) {
-    if (weights[static_cast<std::size_t>(s)] > 0) counting.push_back(s);
+void FaceSpace::build_basis() {
+  const SpanBasis modes = level_modes();
+  std::vector<float> peaks;
+  for (Index r = 0; r < modes.directions.rows(); ++r) {
+    peaks.push_back(modes.coordinates.col(r).cwiseAbs().maxCoeff());
   }
-  const auto size = static_cast<Index>(counting.size());
-  Eigen::VectorXf& roots = roots_;
-  roots.resize(size);
-  for (Index i = 0; i < size; ++i) {
-    const auto s = static_cast<std::size_t>(counting[static_cast<std::size_t>(i)]);
-    roots[i] = static_cast<float>(std::sqrt(weights[s]));
-  }
-  const Index heads = head_count(), regions = heads_.alpha.cols();
-  const auto rows_of_levels = static_cast<Index>(heads_.levels.size());
-
-  // Few directions span the levels of all heads together; the fields are made for those alone.
-  FloatRows levels(rows_of_levels, heads * 3 * size);
-  for (Index h = 0; h < heads; ++h) {
-    const Trajectory& trajectory = heads_.trajectories[static_cast<std::size_t>(h)];
-    for (Index l = 0; l < rows_of_levels; ++l) {
-      for (Index i = 0; i < size; ++i) {
-        for (Index c = 0; c < 3; ++c) {
-          const double value =
-              static_cast<double>(trajectory(l, 3 * counting[static_cast<std::size_t>(i)] + c));
-          levels(l, (h * 3 + c) * size + i) =
-              static_cast<float>(value * heads_.mm_per_unit) * roots[i];
-        }
-      }
-    }
-  }
-  const SpanBasis modes = span_basis(std::move(levels), kFieldTolerance, rows_of_levels);
-  const Index rank = modes.directions.rows();
-
-  // Rows: the mean head's x, y, z, then each head's deviation, then the fields.
-  FloatRows rows(3 + 3 * heads + 3 * rank * heads * regions, size);
-  const auto put = [&](Index row, auto&& value) {
-    double mean = 0;  // of the function over the face, which translation takes away
-    for (Index i = 0; i < size; ++i) {
-      const double scaled = static_cast<double>(roots[i]) * value(i);
-      rows(row, i) = static_cast<float>(scaled);
-      mean += static_cast<double>(roots[i]) * scaled;
-    }
-    for (Index i = 0; i < size; ++i) rows(row, i) -= static_cast<float>(mean) * roots[i];
-  };
-  const auto at = [&](Index i) { return counting[static_cast<std::size_t>(i)]; };
-  for (Index c = 0; c < 3; ++c) {
-    put(c, [&](Index i) { return heads_.mean(at(i), c); });
-    for (Index h = 0; h < heads; ++h) {
-      const Positions& head = heads_.heads[static_cast<std::size_t>(h)];
-      put(3 + 3 * h + c, [&](Index i) { return head(at(i), c) - heads_.mean(at(i), c); });
-    }
-  }
-  const Index first_field = 3 + 3 * heads;
-  const auto field_row = [&](Index k, Index h, Index r) {
-    return first_field + 3 * ((k * heads + h) * rank + r);
-  };
-  parallel_for_each(regions * heads, [&](Index kh) {
-    const Index k = kh / heads, h = kh % heads;
-    for (Index r = 0; r < rank; ++r) {
-      for (Index c = 0; c < 3; ++c) {
-        const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
-        put(field_row(k, h, r) + c, [&](Index i) {
-          // The roots are in the mode already.
-          return heads_.alpha(at(i), k) * static_cast<double>(mode[i]) /
-                 static_cast<double>(roots[i]);
-        });
-      }
-    }
-  });
-  // A mode's own length is one, so its rows are scaled to what the largest level takes of them.
-  std::vector<float> scale(static_cast<std::size_t>(rank), 0.F);
-  for (Index r = 0; r < rank; ++r) {
-    float& largest = scale[static_cast<std::size_t>(r)];
-    for (Index l = 0; l < rows_of_levels; ++l) {
-      largest = std::max(largest, std::abs(modes.coordinates(l, r)));
-    }
-    for (Index kh = 0; kh < regions * heads; ++kh) {
-      const Index row = field_row(kh / heads, kh % heads, r);
-      for (Index i = 0; i < 3 * size; ++i) rows.row(row).data()[i] *= largest;
-    }
-  }
-  const SpanBasis basis = span_basis(std::move(rows), kFieldTolerance, kMostFunctions);
+  const FunctionRows rows{head_count(), modes.directions.rows()};
+  const SpanBasis basis =
+      span_basis(functions(modes, peaks, rows), kFieldTolerance, kMostFunctions);
   basis_ = basis.directions;
-  const Index functions = basis_.rows();
-  const auto shape_at = [&](Index row) {
-    Shape shape(functions, 3);
-    for (Index p = 0; p < functions; ++p) {
-      for (Index c = 0; c < 3; ++c) shape(p, c) = basis.coordinates(row + c, p);
-    }
-    return shape;
+  const auto shape_at = [&](Index row) -> Shape {
+    return basis.coordinates.middleRows<3>(row).transpose();
   };
   mean_shape_ = shape_at(0);
-  for (Index h = 0; h < heads; ++h) shapes_.push_back(mean_shape_ + shape_at(3 + 3 * h));
-  fields_.assign(static_cast<std::size_t>(regions * heads * rows_of_levels * functions * 3), 0.F);
-  parallel_for_each(regions * heads, [&](Index kh) {
-    for (Index r = 0; r < rank; ++r) {
-      const Shape mode = shape_at(field_row(kh / heads, kh % heads, r));
-      for (Index l = 0; l < rows_of_levels; ++l) {
-        const float factor = modes.coordinates(l, r) / scale[static_cast<std::size_t>(r)];
-        float* out = fields_.data() + (kh * rows_of_levels + l) * functions * 3;
-        for (Index i = 0; i < functions * 3; ++i) out[i] += factor * mode.data()[i];
+  for (Index h = 0; h < rows.heads; ++h) {
+    shapes_.push_back(mean_shape_ + shape_at(rows.of_head(h)));
+  }
+  const auto levels = static_cast<Index>(heads_.levels.size());
+  const Index fields = heads_.alpha.cols() * rows.heads, size = mean_shape_.size();
+  fields_.assign(static_cast<std::size_t>(fields * levels * size), 0.F);
+  parallel_for_each(fields, [&](Index kh) {
+    for (Index r = 0; r < rows.modes; ++r) {
+      const Shape mode = shape_at(rows.of_field(kh, r));
+      for (Index l = 0; l < levels; ++l) {
+        const float factor = modes.coordinates(l, r) / peaks[static_cast<std::size_t>(r)];
+        float* out = fields_.data() + (kh * levels + l) * size;
+        for (Index i = 0; i < size; ++i) out[i] += factor * mode.data()[i];
       }
     }
   });
@@ -288,7 +303,7 @@ void FaceSpace::build_region_metrics() {
     double share = 0;
     FloatRows masked = basis_;  // its values hold √w_s
     for (Index i = 0; i < basis_.cols(); ++i) {
-      const double alpha = heads_.alpha(counting_[static_cast<std::size_t>(i)], k);
+      const double alpha = heads_.alpha(sample_at(i), k);
       share += static_cast<double>(roots_[i]) * static_cast<double>(roots_[i]) * alpha;
       const auto root = static_cast<float>(std::sqrt(std::max(alpha, 0.0)));
       for (Index p = 0; p < functions; ++p) masked(p, i) *= root;

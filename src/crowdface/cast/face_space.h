@@ -56,7 +56,17 @@ class FaceSpace {
   /// A face as a combination of the basis of scalar functions, #P by 3, not yet aligned.
   using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  void build_basis(const std::vector<double>& weights);
+  struct FunctionRows;
+
+  /// The sample behind row i of what counts.
+  Index sample_at(Index i) const { return counting_[static_cast<std::size_t>(i)]; }
+  void choose_counting(const std::vector<double>& weights);
+  SpanBasis level_modes() const;
+  template <class Value>
+  void put_function(const Value& value, float* row) const;
+  FloatRows functions(const SpanBasis& modes, const std::vector<float>& peaks,
+                      const FunctionRows& rows) const;
+  void build_basis();
   void build_directions();
   void build_region_metrics();
   Shape shape_of(const Recipe& recipe, Variant variant) const;

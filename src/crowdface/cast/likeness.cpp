@@ -8,16 +8,12 @@
 namespace crowdface {
 namespace {
 
-constexpr std::ptrdiff_t kBlock = 64;
+constexpr std::size_t kBlock = 64;
 
 std::vector<double> distances_from(const std::vector<FaceSpace::Point>& points, std::size_t face) {
   std::vector<double> mm(points.size());
-  const auto count = static_cast<std::ptrdiff_t>(points.size());
-  parallel_blocks(count, 16 * kBlock, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t i = begin; i < end; ++i) {
-      const auto other = static_cast<std::size_t>(i);
-      mm[other] = FaceSpace::distance(points[face], points[other]);
-    }
+  parallel_for_each(points.size(), 16 * kBlock, [&](std::size_t other) {
+    mm[other] = FaceSpace::distance(points[face], points[other]);
   });
   return mm;
 }
@@ -64,12 +60,8 @@ Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t 
   likeness.order = walk(points);
   likeness.near.resize(points.size());
   if (neighbours == 0) return likeness;
-  const auto count = static_cast<std::ptrdiff_t>(points.size());
-  parallel_blocks(count, kBlock, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t i = begin; i < end; ++i) {
-      const auto face = static_cast<std::size_t>(i);
-      likeness.near[face] = nearest_of(points, face, neighbours);
-    }
+  parallel_for_each(points.size(), kBlock, [&](std::size_t face) {
+    likeness.near[face] = nearest_of(points, face, neighbours);
   });
   return likeness;
 }

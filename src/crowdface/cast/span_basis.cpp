@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/span_basis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -20,35 +21,26 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
   const Index count = rows.rows(), size = rows.cols();
   const double enough = tolerance * tolerance;
   std::vector<double> left(static_cast<std::size_t>(count));
-  parallel_blocks(count, kRowsAtATime, [&](Index begin, Index end) {
-    for (Index n = begin; n < end; ++n) {
-      left[static_cast<std::size_t>(n)] = fixed_dot(rows.row(n).data(), rows.row(n).data(), size);
-    }
+  parallel_for_each(count, kRowsAtATime, [&](Index n) {
+    left[static_cast<std::size_t>(n)] = fixed_dot(rows.row(n).data(), rows.row(n).data(), size);
   });
   std::vector<Eigen::VectorXf> directions, coordinates;
   while (static_cast<Index>(directions.size()) < most) {
-    Index pivot = 0;
-    for (Index n = 1; n < count; ++n) {
-      if (left[static_cast<std::size_t>(n)] > left[static_cast<std::size_t>(pivot)]) pivot = n;
-    }
-    if (count == 0 || left[static_cast<std::size_t>(pivot)] <= enough ||
-        left[static_cast<std::size_t>(pivot)] == 0) {
-      break;
-    }
+    const auto longest = std::max_element(left.begin(), left.end());
+    if (longest == left.end() || *longest <= enough || *longest == 0) break;
+    const auto pivot = static_cast<Index>(longest - left.begin());
     Eigen::VectorXf& q = directions.emplace_back(size);
-    const auto scale = static_cast<float>(1 / std::sqrt(left[static_cast<std::size_t>(pivot)]));
+    const auto scale = static_cast<float>(1 / std::sqrt(*longest));
     for (Index i = 0; i < size; ++i) q[i] = rows(pivot, i) * scale;
     Eigen::VectorXf& along = coordinates.emplace_back(Eigen::VectorXf::Zero(count));
-    parallel_blocks(count, kRowsAtATime, [&](Index begin, Index end) {
-      for (Index n = begin; n < end; ++n) {
-        double& rest = left[static_cast<std::size_t>(n)];
-        if (rest <= enough) continue;  // well enough already
-        float* row = rows.row(n).data();
-        const auto part = static_cast<float>(fixed_dot(q.data(), row, size));
-        along[n] = part;
-        for (Index i = 0; i < size; ++i) row[i] -= part * q[i];
-        rest = n == pivot ? 0 : fixed_dot(row, row, size);
-      }
+    parallel_for_each(count, kRowsAtATime, [&](Index n) {
+      double& rest = left[static_cast<std::size_t>(n)];
+      if (rest <= enough) return;  // well enough already
+      float* row = rows.row(n).data();
+      const auto part = static_cast<float>(fixed_dot(q.data(), row, size));
+      along[n] = part;
+      for (Index i = 0; i < size; ++i) row[i] -= part * q[i];
+      rest = n == pivot ? 0 : fixed_dot(row, row, size);
     });
   }
   SpanBasis basis;

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kCandidatesAtATime = 256;
+constexpr std::size_t kCandidatesAtATime = 256;
 
 /// The squared distance, or anything above `limit` once it is sure to exceed that.
 double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
@@ -49,8 +49,7 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
   const std::vector<int> schedule = schedule_kinds(casting, size, times);
   std::vector<std::optional<std::pair<CastFace, FaceSpace::Point>>> drawn(size);
   std::vector<Rejections> rejections(size);
-  parallel_for_each(static_cast<Index>(size), [&](Index p) {
-    const auto at = static_cast<std::size_t>(p);
+  parallel_for_each(size, [&](std::size_t at) {
     if (at % 1024 == 0) throw_if_interrupted();
     const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
     for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
@@ -78,8 +77,7 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
 
 FarthestPoints::FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd)
     : pool_(pool), squared_(pool.points.size(), HUGE_VAL), gone_(pool.points.size(), false) {
-  parallel_for_each(static_cast<Index>(squared_.size()), [&](Index p) {
-    const auto at = static_cast<std::size_t>(p);
+  parallel_for_each(squared_.size(), [&](std::size_t at) {
     const double mm = crowd.index().nearest(pool_.points[at]).mm;
     squared_[at] = mm * mm;
   });
@@ -100,15 +98,10 @@ FarthestPoints::Pick FarthestPoints::farthest(int kind) const {
 void FarthestPoints::pick(Index candidate) {
   drop(candidate);
   const FaceSpace::Point& picked = pool_.points[static_cast<std::size_t>(candidate)];
-  parallel_blocks(
-      static_cast<Index>(squared_.size()), kCandidatesAtATime, [&](Index begin, Index end) {
-        for (Index p = begin; p < end; ++p) {
-          const auto at = static_cast<std::size_t>(p);
-          if (gone_[at]) continue;
-          squared_[at] =
-              std::min(squared_[at], squared_up_to(picked, pool_.points[at], squared_[at]));
-        }
-      });
+  parallel_for_each(squared_.size(), kCandidatesAtATime, [&](std::size_t at) {
+    if (gone_[at]) return;
+    squared_[at] = std::min(squared_[at], squared_up_to(picked, pool_.points[at], squared_[at]));
+  });
 }
 
 void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,

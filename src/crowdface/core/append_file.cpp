@@ -9,15 +9,11 @@
 
 namespace crowdface {
 
-struct AppendFile::Handle {
-  Descriptor descriptor;
-};
-
 AppendFile::AppendFile(const std::filesystem::path& path)
     : path_(path),
-      handle_(std::make_unique<Handle>(Handle{Descriptor(
-          ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666))})) {
-  if (!handle_->descriptor.valid()) {
+      file_(std::make_unique<Descriptor>(
+          ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666))) {
+  if (!file_->valid()) {
     throw CannotCreate(concat(path.string(), ": cannot be opened to append: ", reason()));
   }
 }
@@ -26,7 +22,7 @@ AppendFile::~AppendFile() = default;
 
 void AppendFile::append(std::string_view bytes) {
   const std::lock_guard lock(mutex_);
-  const int fd = handle_->descriptor.get();
+  const int fd = file_->get();
   if (!write_all(fd, bytes) || !sync(fd)) {
     throw IoError(concat(path_.string(), ": appending failed: ", reason()));
   }

@@ -8,6 +8,8 @@
 
 namespace crowdface {
 
+class Descriptor;
+
 /// A file that only grows. What `append` has returned from survives a power cut; what it was at when
 /// the process died may be there in part. Any thread may append.
 class AppendFile {
@@ -22,9 +24,8 @@ class AppendFile {
   void append(std::string_view bytes);
 
  private:
-  struct Handle;
   std::filesystem::path path_;
-  std::unique_ptr<Handle> handle_;
+  std::unique_ptr<Descriptor> file_;
   std::mutex mutex_;
 };
 

@@ -30,33 +30,25 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// Wrong command line or config (64).
-struct UsageError : Error {
-  explicit UsageError(const std::string& message);
+/// One with a code of its own, so that it can be caught alone.
+template <ExitCode kCode>
+struct ErrorOf : Error {
+  explicit ErrorOf(const std::string& message) : Error(kCode, message) {}
 };
-/// Unusable input data (65). A broken precondition of our own is no Error: core/require.h.
-struct InvalidInput : Error {
-  explicit InvalidInput(const std::string& message);
-};
-/// An input that does not exist or cannot be opened (66).
-struct MissingInput : Error {
-  explicit MissingInput(const std::string& message);
-};
-/// The constraints of a plan cannot be met (3).
-struct Unsatisfiable : Error {
-  explicit Unsatisfiable(const std::string& message);
-};
-/// An output file or folder that cannot be created (73).
-struct CannotCreate : Error {
-  explicit CannotCreate(const std::string& message);
-};
-/// A read or write that failed after it began (74).
-struct IoError : Error {
-  explicit IoError(const std::string& message);
-};
-/// The run was stopped by a signal (75).
-struct Interrupted : Error {
-  explicit Interrupted(const std::string& message);
-};
+
+/// Wrong command line or config.
+using UsageError = ErrorOf<ExitCode::kUsage>;
+/// Unusable input data. A broken precondition of our own is no Error: core/require.h.
+using InvalidInput = ErrorOf<ExitCode::kBadData>;
+/// An input that does not exist or cannot be opened.
+using MissingInput = ErrorOf<ExitCode::kMissingInput>;
+/// The constraints of a plan cannot be met.
+using Unsatisfiable = ErrorOf<ExitCode::kUnsatisfiable>;
+/// An output file or folder that cannot be created.
+using CannotCreate = ErrorOf<ExitCode::kCannotCreate>;
+/// A read or write that failed after it began.
+using IoError = ErrorOf<ExitCode::kIoError>;
+/// The run was stopped by a signal.
+using Interrupted = ErrorOf<ExitCode::kInterrupted>;
 
 }  // namespace crowdface

@@ -36,10 +36,6 @@ bool names(const fs::path& path, const Descriptor& file) {
 
 }  // namespace
 
-struct FileLock::Handle {
-  Descriptor file;
-};
-
 FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void()>& waiting)
     : path_(path) {
   const int operation = (kind == LockKind::kExclusive ? LOCK_EX : LOCK_SH) | LOCK_NB;
@@ -59,12 +55,12 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
     throw_if_interrupted();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  handle_ = std::make_unique<Handle>(Handle{std::move(file)});
+  file_ = std::make_unique<Descriptor>(std::move(file));
 }
 
 FileLock::~FileLock() {
   // Only who has it alone removes it; others find out by `names` that it is gone.
-  if (::flock(handle_->file.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(path_.c_str());
+  if (::flock(file_->get(), LOCK_EX | LOCK_NB) == 0) ::unlink(path_.c_str());
 }
 
 }  // namespace crowdface

@@ -7,6 +7,8 @@
 
 namespace crowdface {
 
+class Descriptor;
+
 /// Who may hold a lock at the same time.
 enum class LockKind {
   kShared,     ///< others that share
@@ -28,9 +30,8 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
 
  private:
-  struct Handle;
   std::filesystem::path path_;
-  std::unique_ptr<Handle> handle_;
+  std::unique_ptr<Descriptor> file_;
 };
 
 }  // namespace crowdface

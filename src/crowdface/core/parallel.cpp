@@ -13,6 +13,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "crowdface/core/fixed_order.h"
 #include "crowdface/core/hand_over.h"
 #include "crowdface/core/interrupt.h"
 
@@ -76,8 +77,8 @@ int thread_count() {
       static_cast<std::size_t>(std::max(1, tbb::info::default_concurrency()))));
 }
 
-void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
-                     const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body) {
+void detail::run_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
+                        const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body) {
   if (count <= 0) return;
   const std::ptrdiff_t blocks = (count + block - 1) / block;
   if (blocks == 1) return body(0, count);
@@ -95,7 +96,7 @@ void parallel_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   items.end();
 }
 
-void parallel_for_each(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body) {
+void detail::run_items(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body) {
   const tbb::blocked_range<std::ptrdiff_t> all(0, std::max<std::ptrdiff_t>(count, 0), 1);
   LoopItems items;
   items.begin();
@@ -143,6 +144,13 @@ double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,
   double sum = 0;
   for (const double value : partial) sum += value;
   return sum;
+}
+
+double parallel_dot(const double* a, const double* b, std::ptrdiff_t count, std::ptrdiff_t block) {
+  return parallel_sum(count, block, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    const auto size = static_cast<std::size_t>(end - begin);
+    return fixed_dot({a + begin, size}, {b + begin, size});
+  });
 }
 
 }  // namespace crowdface

@@ -47,17 +47,14 @@ inline std::string quoted(const char* text) {
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
 
+/// What stands between blanks, tabs and returns.
+std::vector<std::string> words_of(std::string_view text);
+
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 namespace detail {
 inline void append(std::string& out, std::string_view text) {
-  out += text;
-}
-inline void append(std::string& out, const std::string& text) {
-  out += text;
-}
-inline void append(std::string& out, const char* text) {
   out += text;
 }
 inline void append(std::string& out, char c) {

@@ -55,7 +55,8 @@ std::vector<ObjFile> read_heads(const std::vector<std::filesystem::path>& paths,
 /// Opens the mask images as far as that goes without texture coordinates, which alone tell the UDIM
 /// tiles in use.
 void check_masks(const std::vector<std::string>& files, Problems& problems) {
-  for (const MaskSource& mask : load_masks(files)) {
+  for (const std::string& file : files) {
+    const MaskSource mask(file);
     if (mask.tiled()) continue;
     try {
       mask.read(0);
@@ -147,7 +148,8 @@ std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
 RegionWeights load_regions(const Config& config, const FaceSet& faces) {
   const auto names = config.region_names();
   if (config.regions.names.empty()) return whole_head(faces.topology);
-  return region_weights(faces.topology, faces.uvs, load_masks(config.regions.mask),
+  return region_weights(faces.topology, faces.uvs,
+                        {config.regions.mask.begin(), config.regions.mask.end()},
                         static_cast<Index>(names.size()));
 }
 

@@ -179,30 +179,9 @@ void add_primitives(Json& scene, BufferLayout& buffer, const std::vector<Triangl
   if (!materials.empty()) scene["materials"] = std::move(materials);
 }
 
-struct Bounds {
-  std::array<float, 3> low = {std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
-                              std::numeric_limits<float>::max()};
-  std::array<float, 3> high = {std::numeric_limits<float>::lowest(),
-                               std::numeric_limits<float>::lowest(),
-                               std::numeric_limits<float>::lowest()};
-};
-
-Bounds bounds_of(const Positions& positions) {
-  Bounds bounds;
-  for (Index i = 0; i < positions.rows(); ++i) {
-    for (Index c = 0; c < 3; ++c) {
-      const float value = to_single(positions(i, c));
-      const auto axis = static_cast<std::size_t>(c);
-      bounds.low[axis] = std::min(bounds.low[axis], value);
-      bounds.high[axis] = std::max(bounds.high[axis], value);
-    }
-  }
-  return bounds;
-}
-
-Json to_json(const std::array<float, 3>& vector) {
+Json to_json(const Eigen::RowVector3d& vector) {
   Json json = Json::array();
-  for (const float part : vector) json.push_back(static_cast<double>(part));
+  for (const double part : vector) json.push_back(static_cast<double>(to_single(part)));
   return json;
 }
 
@@ -215,7 +194,7 @@ void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32
       const Index row = i < rows.rows()
                             ? i
                             : static_cast<Index>(split[static_cast<std::size_t>(i - rows.rows())]);
-      for (Index c = 0; c < 3; ++c) at = put_number(at, to_single(rows(row, c)));
+      at = put_row(at, rows, row);
     }
   });
 }
@@ -265,9 +244,8 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   require_finite(positions, vertices_, name);
   require_finite(normals, vertices_, name);
   Json scene = Json::parse(json_);
-  const Bounds bounds = bounds_of(positions);
-  scene["accessors"][0]["min"] = to_json(bounds.low);
-  scene["accessors"][0]["max"] = to_json(bounds.high);
+  scene["accessors"][0]["min"] = to_json(positions.colwise().minCoeff());
+  scene["accessors"][0]["max"] = to_json(positions.colwise().maxCoeff());
   scene["nodes"][0]["name"] = name;
   scene["meshes"][0]["name"] = name;
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);

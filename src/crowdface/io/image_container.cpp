@@ -15,18 +15,11 @@ namespace {
 
 using namespace std::string_view_literals;
 
-std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = at; i < at + 4; ++i)
-    value = value << 8U | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
 /// Whether the chunks of a PNG run unbroken to its end mark: libpng is content without the last.
 bool png_is_whole(std::string_view bytes) {
   std::size_t at = 8;
   while (at + 12 <= bytes.size()) {
-    const std::size_t next = at + 12 + big_endian(bytes, at);
+    const std::size_t next = at + 12 + big_endian_at(bytes.data() + at);
     if (bytes.substr(at + 4, 4) == "IEND") return next <= bytes.size();
     at = next;
   }
@@ -40,7 +33,7 @@ bool jpeg_is_whole(std::string_view bytes) {
   std::size_t at = 2;
   while (at + 4 <= bytes.size() && bytes[at] == '\xFF') {
     if (bytes[at + 1] == kStartOfScan) return bytes.find("\xFF\xD9"sv, at) != bytes.npos;
-    at += bytes[at + 1] == '\xFF' ? 1 : 2 + (big_endian(bytes, at) & 0xFFFFU);
+    at += bytes[at + 1] == '\xFF' ? 1 : 2 + (big_endian_at(bytes.data() + at) & 0xFFFFU);
   }
   return false;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <string>
 
@@ -23,6 +24,11 @@ Number number_at(const char* bytes) {
   Number number;
   std::memcpy(&number, bytes, sizeof number);
   return number;
+}
+
+/// The same of a format that is big endian.
+inline std::uint32_t big_endian_at(const char* bytes) {
+  return __builtin_bswap32(number_at<std::uint32_t>(bytes));
 }
 
 template <class Number>

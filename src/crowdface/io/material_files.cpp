@@ -24,18 +24,6 @@ namespace fs = std::filesystem;
 constexpr const char* kBlanks = " \t\r";
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
-std::vector<std::string> words_of(std::string_view line) {
-  std::vector<std::string> words;
-  for (std::size_t i = 0; i < line.size();) {
-    const std::size_t begin = line.find_first_not_of(kBlanks, i);
-    if (begin == line.npos) break;
-    const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
-    words.emplace_back(line.substr(begin, end - begin));
-    i = end;
-  }
-  return words;
-}
-
 /// What stands from each word of a text to its end, the longest first: a name may hold blanks, and
 /// options come before it. Of more words than any line has, the last ones.
 std::vector<std::string_view> tails_of(std::string_view text) {

@@ -7,6 +7,15 @@
 
 namespace crowdface {
 
+namespace {
+
+struct Known {
+  std::string_view name, extension;
+};
+constexpr Known kKnown[] = {{"obj", ".obj"}, {"ply", ".ply"}, {"glb", ".glb"}, {"points", ".npy"}};
+
+}  // namespace
+
 const std::vector<MeshFormat>& all_mesh_formats() {
   static const std::vector<MeshFormat> all = {MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kGlb,
                                               MeshFormat::kPoints};
@@ -14,31 +23,11 @@ const std::vector<MeshFormat>& all_mesh_formats() {
 }
 
 std::string_view name_of(MeshFormat format) {
-  switch (format) {
-    case MeshFormat::kPly:
-      return "ply";
-    case MeshFormat::kGlb:
-      return "glb";
-    case MeshFormat::kPoints:
-      return "points";
-    case MeshFormat::kObj:
-      break;
-  }
-  return "obj";
+  return kKnown[static_cast<std::size_t>(format)].name;
 }
 
 std::string_view extension_of(MeshFormat format) {
-  switch (format) {
-    case MeshFormat::kPly:
-      return ".ply";
-    case MeshFormat::kGlb:
-      return ".glb";
-    case MeshFormat::kPoints:
-      return ".npy";
-    case MeshFormat::kObj:
-      break;
-  }
-  return ".obj";
+  return kKnown[static_cast<std::size_t>(format)].extension;
 }
 
 std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& file) {

@@ -78,9 +78,7 @@ EncodedFile encode_npy(const Positions& positions, const std::string& what) {
   char* data = file.reserve(data_size(positions.rows()));
   parallel_blocks(positions.rows(), kRowsPerBlock, [&](Index begin, Index end) {
     char* out = data + data_size(begin);
-    for (Index i = 3 * begin; i < 3 * end; ++i) {
-      out = put_number(out, to_single(positions.data()[i]));
-    }
+    for (Index i = begin; i < end; ++i) out = put_row(out, positions, i);
   });
   file.refer_to({data, data_size(positions.rows())});
   return file;

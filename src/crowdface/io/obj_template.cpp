@@ -151,11 +151,10 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
   EncodedFile file;
   char* buffer = file.reserve(buffer_size_);
   std::vector<std::string_view> pieces(blocks_.size());
-  parallel_blocks(static_cast<Index>(blocks_.size()), 1, [&](Index b, Index) {
-    const Block& block = blocks_[static_cast<std::size_t>(b)];
-    char* begin = buffer + block.buffer;
-    const char* end = encode_block(block, rows, begin);
-    pieces[static_cast<std::size_t>(b)] = {begin, static_cast<std::size_t>(end - begin)};
+  parallel_for_each(blocks_.size(), [&](std::size_t b) {
+    char* begin = buffer + blocks_[b].buffer;
+    const char* end = encode_block(blocks_[b], rows, begin);
+    pieces[b] = {begin, static_cast<std::size_t>(end - begin)};
   });
   for (const std::string_view piece : pieces) file.refer_to(piece);
   file.refer_to(text_.substr(blocks_.empty() ? 0 : blocks_.back().end));

@@ -76,8 +76,8 @@ EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,
   const auto faces = format_blocks(topology.face_count(), [&](std::string& out, Index f) {
     if (const auto line = material_lines.find(f); line != material_lines.end()) out += line->second;
     out += 'f';
-    for (auto c = topology.face_offsets[static_cast<std::size_t>(f)];
-         c < topology.face_offsets[static_cast<std::size_t>(f) + 1]; ++c) {
+    const auto [begin, end] = topology.corners(f);
+    for (auto c = begin; c < end; ++c) {
       out += concat(' ', topology.corner_vertices[c] + 1);
       if (!topology.corner_uvs.empty() && topology.corner_uvs[c] != kNoIndex) {
         out += concat('/', topology.corner_uvs[c] + 1);

@@ -7,6 +7,7 @@
 
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/little_endian.h"
 
 namespace crowdface {
 namespace {
@@ -21,14 +22,6 @@ struct PackedPicture {
   std::string data;
 };
 
-std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
-  }
-  return value;
-}
-
 PackedPicture unwrap(const std::string& png) {
   constexpr std::size_t kSignature = 8, kChunkFrame = 12, kHeader = 13;
   const auto check = [](bool sound) {
@@ -36,13 +29,13 @@ PackedPicture unwrap(const std::string& png) {
   };
   PackedPicture picture;
   for (std::size_t at = kSignature; at + kChunkFrame <= png.size();) {
-    const std::size_t length = big_endian(png, at);
+    const std::size_t length = big_endian_at(png.data() + at);
     check(length <= png.size() - at - kChunkFrame);
     const std::string_view kind(png.data() + at + 4, 4);
     const std::size_t content = at + 8;
     if (kind == "IHDR" && length == kHeader) {
-      picture.width = big_endian(png, content);
-      picture.height = big_endian(png, content + 4);
+      picture.width = big_endian_at(png.data() + content);
+      picture.height = big_endian_at(png.data() + content + 4);
       // Eight bits, RGB, no interlacing.
       check(png[content + 8] == 8 && png[content + 9] == 2 && png[content + 12] == 0);
     } else if (kind == "IDAT") {

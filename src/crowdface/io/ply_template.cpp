@@ -15,11 +15,6 @@ namespace {
 
 constexpr Index kRowsPerBlock = 1 << 15;
 
-char* put_row(char* out, const Positions& rows, Index i) {
-  for (Index c = 0; c < 3; ++c) out = put_number(out, to_single(rows(i, c)));
-  return out;
-}
-
 std::string ply_header(Index vertices, Index faces, bool with_normals) {
   return concat("ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
                 "\nproperty float x\nproperty float y\nproperty float z\n",

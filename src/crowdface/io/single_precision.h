@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "crowdface/io/little_endian.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -13,6 +14,12 @@ namespace crowdface {
 inline float to_single(double value) {
   const auto single = static_cast<float>(value);
   return single == 0 ? 0.0F : single;
+}
+
+/// Writes a row's three numbers as binary formats hold them. \return where they end.
+inline char* put_row(char* out, const Positions& rows, Index i) {
+  for (Index c = 0; c < 3; ++c) out = put_number(out, to_single(rows(i, c)));
+  return out;
 }
 
 /// Rows of three single-precision numbers each, as binary formats hold them.

@@ -61,8 +61,8 @@ SplitVertices split_vertices(const Topology& topology) {
         splitter.find(topology.corner_vertices[c], has_uvs ? topology.corner_uvs[c] : kNoIndex);
   }
   SplitVertices split;
-  for (std::size_t f = 0; f + 1 < topology.face_offsets.size(); ++f) {
-    const std::uint32_t begin = topology.face_offsets[f], end = topology.face_offsets[f + 1];
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto [begin, end] = topology.corners(f);
     for (std::uint32_t c = begin + 1; c + 1 < end; ++c) {
       split.triangles.push_back({corners[begin], corners[c], corners[c + 1]});
       split.triangle_faces.push_back(static_cast<std::uint32_t>(f));

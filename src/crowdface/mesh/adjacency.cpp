@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "crowdface/core/parallel.h"
@@ -10,69 +12,47 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kBlock = 16384;
+constexpr std::size_t kBlock = 16384;
 
 /// Both directions of every face's edges, grouped by their first vertex: with repetitions, one for
 /// each face at the edge.
-Adjacency half_edges_by_vertex(const Topology& topology) {
-  Adjacency all;
-  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  all.offsets.assign(vertices + 1, 0);
-  const auto for_each_edge = [&](auto&& visit) {
-    for (Index f = 0; f < topology.face_count(); ++f) {
-      const auto face = topology.face(f);
-      for (std::size_t c = 0; c < face.size(); ++c) {
-        const std::uint32_t a = face[c], b = face[(c + 1) % face.size()];
-        if (a != b) visit(a, b);
-      }
-    }
-  };
-  for_each_edge([&](std::uint32_t a, std::uint32_t b) {
-    ++all.offsets[a + 1];
-    ++all.offsets[b + 1];
-  });
-  for (std::size_t i = 0; i < vertices; ++i) all.offsets[i + 1] += all.offsets[i];
-  all.neighbours.resize(all.offsets.back());
-  std::vector<std::uint32_t> next(all.offsets.begin(), all.offsets.end() - 1);
-  for_each_edge([&](std::uint32_t a, std::uint32_t b) {
-    all.neighbours[next[a]++] = b;
-    all.neighbours[next[b]++] = a;
-  });
-  return all;
+Grouped<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
+  return grouped<std::uint32_t>(
+      static_cast<std::size_t>(topology.vertex_count), [&](const auto& put) {
+        for (Index f = 0; f < topology.face_count(); ++f) {
+          const auto face = topology.face(f);
+          for (std::size_t c = 0; c < face.size(); ++c) {
+            const std::uint32_t a = face[c], b = face[(c + 1) % face.size()];
+            if (a == b) continue;
+            put(a, b);
+            put(b, a);
+          }
+        }
+      });
 }
 
 }  // namespace
 
 Adjacency build_adjacency(const Topology& topology) {
-  Adjacency all = half_edges_by_vertex(topology);
+  Grouped<std::uint32_t> all = half_edges_by_vertex(topology);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
   // A neighbour met once belongs to an edge with one face.
   std::vector<std::uint8_t> on_boundary(vertices, 0);
-  std::vector<std::uint32_t> kept(vertices, 0);
-  parallel_blocks(topology.vertex_count, kBlock, [&](Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const auto first = all.neighbours.begin() + all.offsets[i];
-      const auto last = all.neighbours.begin() + all.offsets[i + 1];
-      std::sort(first, last);
-      auto out = first;
-      for (auto run = first; run != last;) {
-        const auto run_end = std::find_if(run, last, [&](std::uint32_t n) { return n != *run; });
-        if (run_end - run == 1) on_boundary[i] = 1;
-        *out++ = *run;
-        run = run_end;
-      }
-      kept[i] = static_cast<std::uint32_t>(out - first);
+  std::vector<std::size_t> kept(vertices, 0);
+  parallel_for_each(vertices, kBlock, [&](std::size_t i) {
+    const std::span<std::uint32_t> ring = all.of(i);
+    std::sort(ring.begin(), ring.end());
+    for (auto run = ring.begin(); run != ring.end();) {
+      const auto run_end = std::find_if(run, ring.end(), [&](auto n) { return n != *run; });
+      if (run_end - run == 1) on_boundary[i] = 1;
+      ring[kept[i]++] = *run;
+      run = run_end;
     }
   });
   Adjacency result;
   result.boundary.assign(on_boundary.begin(), on_boundary.end());
-  result.offsets.assign(vertices + 1, 0);
-  for (std::size_t i = 0; i < vertices; ++i) result.offsets[i + 1] = result.offsets[i] + kept[i];
-  result.neighbours.resize(result.offsets.back());
-  for (std::size_t i = 0; i < vertices; ++i) {
-    std::copy_n(all.neighbours.begin() + all.offsets[i], kept[i],
-                result.neighbours.begin() + result.offsets[i]);
-  }
+  result.reserve(vertices, std::accumulate(kept.begin(), kept.end(), std::size_t{0}));
+  for (std::size_t i = 0; i < vertices; ++i) result.add_group(all.of(i).first(kept[i]));
   return result;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
@@ -11,17 +10,10 @@ namespace crowdface {
 
 /// The edge-neighbours (one-ring) of every vertex, ascending, and where the surface is open.
 /// Opposite corners of a quad are no neighbours.
-struct Adjacency {
-  std::vector<std::uint32_t> offsets;     ///< #V + 1
-  std::vector<std::uint32_t> neighbours;  ///< those of vertex i: [offsets[i], offsets[i + 1])
-  std::vector<bool> boundary;             ///< #V: on an edge that has exactly one face
+struct Adjacency : Grouped<std::uint32_t> {
+  std::vector<bool> boundary;  ///< #V: on an edge that has exactly one face
 
-  Index vertex_count() const { return static_cast<Index>(offsets.size()) - 1; }
-  std::span<const std::uint32_t> of(Index vertex) const {
-    const auto begin = offsets[static_cast<std::size_t>(vertex)];
-    const auto end = offsets[static_cast<std::size_t>(vertex) + 1];
-    return {neighbours.data() + begin, end - begin};
-  }
+  Index vertex_count() const { return static_cast<Index>(group_count()); }
 };
 
 /// Edges with three or more faces are kept and are no boundary; a face that names a vertex twice

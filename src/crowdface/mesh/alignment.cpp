@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -36,7 +37,7 @@ double Similarity::angle_degrees() const {
                                       std::pow(rotation(0, 2) - rotation(2, 0), 2) +
                                       std::pow(rotation(1, 0) - rotation(0, 1), 2));
   const double cosine = 0.5 * (rotation.trace() - 1);
-  return std::atan2(sine, cosine) * 180 / 3.14159265358979323846;
+  return std::atan2(sine, cosine) * 180 / std::numbers::pi;
 }
 
 Positions Similarity::apply(const Positions& positions) const {

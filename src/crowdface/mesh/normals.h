@@ -28,19 +28,15 @@ class NormalFans {
   /// The same from what face_area_vectors gives.
   Positions normals(const Positions& areas, const Eigen::RowVector3d& nowhere) const;
 
-  Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
+  Index rows() const { return static_cast<Index>(faces_.group_count()); }
   /// The faces around one row, ascending.
-  std::span<const std::uint32_t> around(Index row) const {
-    const auto r = static_cast<std::size_t>(row);
-    return {faces_.data() + offsets_[r], offsets_[r + 1] - offsets_[r]};
-  }
+  std::span<const std::uint32_t> around(Index row) const { return faces_.of(row); }
   std::size_t memory_bytes() const {
-    return (offsets_.size() + faces_.size()) * sizeof(std::uint32_t);
+    return (faces_.offsets.size() + faces_.items.size()) * sizeof(std::uint32_t);
   }
 
  private:
-  std::vector<std::uint32_t> offsets_;  ///< #rows + 1
-  std::vector<std::uint32_t> faces_;    ///< around each row, ascending
+  Grouped<std::uint32_t> faces_;  ///< around each row, ascending
 };
 
 /// #V by 3 unit normals of the vertices, as NormalFans gives them; (0, 0, 1) where the sum

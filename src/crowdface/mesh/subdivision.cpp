@@ -23,8 +23,7 @@ Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& ind
   std::vector<Side> sides;
   sides.reserve(indices.size());
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto begin = topology.face_offsets[static_cast<std::size_t>(f)];
-    const auto end = topology.face_offsets[static_cast<std::size_t>(f) + 1];
+    const auto [begin, end] = topology.corners(f);
     for (auto c = begin; c < end; ++c) {
       const auto [low, high] = std::minmax(indices[c], indices[c + 1 == end ? begin : c + 1]);
       sides.push_back({low, high, c});
@@ -55,8 +54,7 @@ std::vector<std::uint32_t> split_corners(const Topology& topology,
   const auto first_edge = static_cast<std::uint32_t>(index_count);
   const auto first_face = static_cast<std::uint32_t>(index_count + edges.ends.size());
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto begin = topology.face_offsets[static_cast<std::size_t>(f)];
-    const auto end = topology.face_offsets[static_cast<std::size_t>(f) + 1];
+    const auto [begin, end] = topology.corners(f);
     for (auto c = begin; c < end; ++c) {
       const auto before = edges.of_corner[c == begin ? end - 1 : c - 1];
       out.push_back(indices[c]);
@@ -73,8 +71,7 @@ Rows face_means(const Topology& topology, const std::vector<std::uint32_t>& indi
                 const Rows& rows) {
   Rows means = Rows::Zero(topology.face_count(), rows.cols());
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto begin = topology.face_offsets[static_cast<std::size_t>(f)];
-    const auto end = topology.face_offsets[static_cast<std::size_t>(f) + 1];
+    const auto [begin, end] = topology.corners(f);
     for (auto c = begin; c < end; ++c) means.row(f) += rows.row(indices[c]);
     means.row(f) /= end - begin;
   }
@@ -122,8 +119,7 @@ Positions edge_points(const Mesh& mesh, const Edges& edges, const Positions& fac
   const auto count = static_cast<Index>(edges.ends.size());
   Positions of_faces = Positions::Zero(count, 3), points(count, 3);
   for (Index f = 0; f < mesh.topology.face_count(); ++f) {
-    const auto begin = mesh.topology.face_offsets[static_cast<std::size_t>(f)];
-    const auto end = mesh.topology.face_offsets[static_cast<std::size_t>(f) + 1];
+    const auto [begin, end] = mesh.topology.corners(f);
     for (auto c = begin; c < end; ++c) of_faces.row(edges.of_corner[c]) += faces.row(f);
   }
   for (Index e = 0; e < count; ++e) {

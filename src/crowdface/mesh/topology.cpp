@@ -18,14 +18,36 @@ std::string list_from_one(std::span<const std::uint32_t> indices) {
   return out;
 }
 
-std::span<const std::uint32_t> uvs_of_face(const Topology& topology, Index f) {
-  if (topology.corner_uvs.empty()) return {};
-  const auto begin = topology.face_offsets[static_cast<std::size_t>(f)];
-  const auto end = topology.face_offsets[static_cast<std::size_t>(f) + 1];
-  return {topology.corner_uvs.data() + begin, end - begin};
+}  // namespace
+
+void Topology::add_face(std::span<const std::uint32_t> vertices,
+                        std::span<const std::uint32_t> uvs) {
+  corner_vertices.insert(corner_vertices.end(), vertices.begin(), vertices.end());
+  corner_uvs.insert(corner_uvs.end(), uvs.begin(), uvs.end());
+  face_offsets.push_back(static_cast<std::uint32_t>(corner_vertices.size()));
 }
 
-}  // namespace
+FacesAround::FacesAround(const Topology& topology) {
+  const auto for_each_corner = [&](const auto& put) {
+    for (Index f = 0; f < topology.face_count(); ++f) {
+      for (const std::uint32_t v : topology.face(f)) put(v, static_cast<std::uint32_t>(f));
+    }
+  };
+  Grouped<std::uint32_t>::operator=(
+      grouped<std::uint32_t>(static_cast<std::size_t>(topology.vertex_count), for_each_corner));
+}
+
+std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count) {
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(count), kNoIndex), used;
+  for (const std::uint32_t i : indices) number[i] = 0;
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    if (number[i] == kNoIndex) continue;
+    number[i] = static_cast<std::uint32_t>(used.size());
+    used.push_back(i);
+  }
+  for (std::uint32_t& i : indices) i = number[i];
+  return used;
+}
 
 Positions mean_head(const FaceSet& faces) {
   Positions mean = Positions::Zero(faces.topology.vertex_count, 3);
@@ -44,7 +66,7 @@ std::string first_difference(const Topology& expected, const Topology& found) {
       return concat("face ", f + 1, ": expected vertices ", list_from_one(a), ", found ",
                     list_from_one(b));
     }
-    const auto ua = uvs_of_face(expected, f), ub = uvs_of_face(found, f);
+    const auto ua = expected.face_uvs(f), ub = found.face_uvs(f);
     if (!std::ranges::equal(ua, ub)) {
       return concat("face ", f + 1, ": expected texture coordinates ", list_from_one(ua),
                     ", found ", ub.empty() ? std::string("none") : list_from_one(ub));

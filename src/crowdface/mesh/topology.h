@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "crowdface/core/grouped.h"
 
 namespace crowdface {
 
@@ -30,12 +33,28 @@ struct Topology {
 
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }
   Index corner_count() const { return static_cast<Index>(corner_vertices.size()); }
+  void add_face(std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> uvs = {});
   /// The vertices of face f in order.
   std::span<const std::uint32_t> face(Index f) const {
-    const auto begin = face_offsets[static_cast<std::size_t>(f)];
-    const auto end = face_offsets[static_cast<std::size_t>(f) + 1];
+    const auto [begin, end] = corners(f);
     return {corner_vertices.data() + begin, end - begin};
   }
+  /// Its rows of the UVs; empty if there are none.
+  std::span<const std::uint32_t> face_uvs(Index f) const {
+    const auto [begin, end] = corners(f);
+    if (corner_uvs.empty()) return {};
+    return {corner_uvs.data() + begin, end - begin};
+  }
+  /// Its first corner, and the first of the next face.
+  std::pair<std::uint32_t, std::uint32_t> corners(Index f) const {
+    return {face_offsets[static_cast<std::size_t>(f)],
+            face_offsets[static_cast<std::size_t>(f) + 1]};
+  }
+};
+
+/// The faces that meet at each vertex, ascending.
+struct FacesAround : Grouped<std::uint32_t> {
+  explicit FacesAround(const Topology& topology);
 };
 
 /// A mesh by itself: what a generator makes and a writer writes.
@@ -57,6 +76,10 @@ struct FaceSet {
   TextureCoordinates uvs;
   std::vector<Head> heads;
 };
+
+/// Numbers what is used anew, in ascending order. \return the old number of each.
+/// \param indices  each < count; become the new numbers.
+std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);
 
 /// The mean of all heads, #V by 3.
 Positions mean_head(const FaceSet& faces);

@@ -5,7 +5,20 @@
 
 #include <Eigen/Core>
 
+#include "crowdface/core/units.h"
+#include "crowdface/mesh/topology.h"
+
 namespace crowdface {
+
+/// Where an axis points.
+inline Eigen::Vector3d unit_vector(Axis axis) {
+  return axis.sign * Eigen::Vector3d::Unit(axis.index);
+}
+
+/// Row `i` of positions, or of normals, as a vector.
+inline Eigen::Vector3d row3(const Positions& positions, Index i) {
+  return positions.row(i).transpose();
+}
 
 // Eigen's own products choose their order by the instruction set; these stay in meshes.
 

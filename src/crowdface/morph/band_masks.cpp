@@ -7,6 +7,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/require.h"
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/tile_files.h"
 
@@ -19,11 +20,6 @@ using Eigen::Vector2d;
 // nose and lips; half as wide to either side as they are soft.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.12;
 constexpr int kBleed = 6;  // pixels beyond a texture's border
-
-double soft_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 std::uint8_t to_byte(double x) {
   return static_cast<std::uint8_t>(std::floor(255 * x + 0.5));
@@ -79,8 +75,8 @@ class Tile {
     std::vector<std::uint8_t> out(3 * count(), 0);
     for (std::size_t i = 0; i < count(); ++i) {
       if (!painted_[i]) continue;
-      const auto top = to_byte(soft_step(upper - soft, upper + soft, height_[i]));
-      const auto bottom = to_byte(soft_step(lower + soft, lower - soft, height_[i]));
+      const auto top = to_byte(smooth_step(upper - soft, upper + soft, height_[i]));
+      const auto bottom = to_byte(smooth_step(lower + soft, lower - soft, height_[i]));
       out[3 * i] = top;
       out[3 * i + 1] = static_cast<std::uint8_t>(255 - top - bottom);
       out[3 * i + 2] = bottom;
@@ -123,12 +119,10 @@ std::map<int, std::vector<std::uint8_t>> band_masks(const Mesh& neutral, const F
   if (topology.corner_uvs.empty()) throw InvalidInput("a mask needs texture coordinates");
   std::map<int, Tile> tiles;
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto begin = topology.face_offsets[static_cast<std::size_t>(f)];
     const auto corners = topology.face(f);
     std::vector<Vector2d> at;
     Vector2d middle = Vector2d::Zero();
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::uint32_t uv = topology.corner_uvs[begin + k];
+    for (const std::uint32_t uv : topology.face_uvs(f)) {
       if (uv == kNoIndex) throw InvalidInput(concat("face ", f + 1, " has no texture coordinates"));
       at.emplace_back(neutral.uvs.row(uv).transpose());
       middle += at.back();

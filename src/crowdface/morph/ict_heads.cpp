@@ -39,14 +39,14 @@ IctHeads::IctHeads(const fs::path& checkout)
       neutral_{file_.topology, file_.positions, file_.uvs} {
   const std::vector<fs::path> files = identity_files(checkout / "FaceXModel");
   modes_.resize(files.size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(files.size()), [&](std::ptrdiff_t i) {
-    const ObjFile mode = read_obj(files[static_cast<std::size_t>(i)]);
+  parallel_for_each(files.size(), [&](std::size_t i) {
+    const ObjFile mode = read_obj(files[i]);
     const std::string difference = first_difference(neutral_.topology, mode.topology);
     if (!difference.empty()) {
       throw InvalidInput(concat(mode.path.string(), ": not the same mesh as ", file_.path.string(),
                                 ": ", difference));
     }
-    modes_[static_cast<std::size_t>(i)] = mode.positions - neutral_.positions;
+    modes_[i] = mode.positions - neutral_.positions;
   });
 }
 

@@ -102,19 +102,6 @@ struct Part {
 constexpr std::array<Part, 3> kParts = {
     {{"body", "skin"}, {"helper-r-eye", "eyeball_r"}, {"helper-l-eye", "eyeball_l"}}};
 
-/// Numbers used items in ascending order. \return the places of those that are used.
-std::vector<std::uint32_t> renumber(std::vector<std::uint32_t>& indices, Index count) {
-  std::vector<std::uint32_t> number(static_cast<std::size_t>(count), kNoIndex), used;
-  for (const std::uint32_t i : indices) number[i] = 0;
-  for (std::uint32_t i = 0; i < number.size(); ++i) {
-    if (number[i] == kNoIndex) continue;
-    number[i] = static_cast<std::uint32_t>(used.size());
-    used.push_back(i);
-  }
-  for (std::uint32_t& i : indices) i = number[i];
-  return used;
-}
-
 /// Mean height of the corners of these helpers' faces.
 double mean_height(const FileMesh& mesh, const std::array<std::string_view, 2>& helpers,
                    const std::filesystem::path& file) {
@@ -143,10 +130,7 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
     for (const FileMesh::Face& face : all.faces) {
       if (all.material_of(face) != part.in_file || !std::ranges::all_of(face.vertices, above_cut))
         continue;
-      topology.corner_vertices.insert(topology.corner_vertices.end(), face.vertices.begin(),
-                                      face.vertices.end());
-      topology.corner_uvs.insert(topology.corner_uvs.end(), face.uvs.begin(), face.uvs.end());
-      topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
+      topology.add_face(face.vertices, face.uvs);
     }
     if (out.materials.back().first_face == topology.face_count()) {
       refuse(file, concat("expected a head of material ", part.in_file, " above the neck's cut, ",

@@ -43,9 +43,8 @@ Anchors::Anchors(const Topology& topology, const FacesAround& faces, const Posit
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const std::uint32_t r : ring) middle += positions.row(r).transpose();
     middle /= static_cast<double>(ring.size());
-    const Eigen::Vector3d first = positions.row(place.corners[0]).transpose();
-    const Eigen::Vector3d second = positions.row(place.corners[1]).transpose();
-    const Eigen::Vector3d along = unit3(second - first);
+    const Eigen::Vector3d along =
+        unit3(row3(positions, place.corners[1]) - row3(positions, place.corners[0]));
     const Eigen::Vector3d across = cross3(normal_at(positions, place), along);
     for (const std::uint32_t r : ring) {
       const Eigen::Vector3d from = positions.row(r).transpose() - middle;
@@ -73,19 +72,12 @@ Anchors::Frame Anchors::frame_at(const Site& site, const Positions& positions) c
 }
 
 Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const {
-  const Site& site = sites_[site_of_[i]];
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {
-    point += shares_[i][k] * positions.row(site.corners[k]).transpose();
-  }
-  return point;
+  return point_on(positions, sites_[site_of_[i]].corners, shares_[i]);
 }
 
 bool Anchors::unmoved(const Site& site, const Positions& before, const Positions& after) const {
   return std::all_of(ring_.begin() + site.begin, ring_.begin() + site.end, [&](const auto& ring) {
-    return before(ring.vertex, 0) == after(ring.vertex, 0) &&
-           before(ring.vertex, 1) == after(ring.vertex, 1) &&
-           before(ring.vertex, 2) == after(ring.vertex, 2);
+    return before.row(ring.vertex) == after.row(ring.vertex);
   });
 }
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/small_program.h"
-#include "crowdface/parts/some_of.h"
 
 namespace crowdface {
 namespace {
@@ -61,12 +63,10 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
   side_ = sum < 0 ? -1 : 1;
   find_starts(positions, skin, heads);
   find_clusters(positions, heads);
-  parallel_blocks(static_cast<std::ptrdiff_t>(pairs_.size()), 64, [&](auto begin, auto end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      for (const Head& head : heads) {
-        const Eigen::Vector3d point = head.positions.row(pairs_[i].vertex).transpose();
-        pairs_[i].least = std::min(pairs_[i].least, height(i, point, head.positions).height);
-      }
+  parallel_for_each(pairs_.size(), 64, [&](std::size_t i) {
+    for (const Head& head : heads) {
+      const Eigen::Vector3d point = row3(head.positions, pairs_[i].vertex);
+      pairs_[i].least = std::min(pairs_[i].least, height(i, point, head.positions).height);
     }
   });
 }
@@ -76,12 +76,10 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
   // Starts nearer to each other than this lead to the same place.
   const double apart = 0.3 * reach_;
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(heads.size()), [&](std::ptrdiff_t h) {
-    const auto i = static_cast<std::size_t>(h);
+  parallel_for_each(heads.size(), [&](std::size_t i) {
     const PointGrid grid(heads[i].positions, skin);
     for (const Pair& pair : pairs_) {
-      nearest[i].push_back(
-          grid.nearest(heads[i].positions.row(pair.vertex).transpose(), 2 * reach_).vertex);
+      nearest[i].push_back(grid.nearest(row3(heads[i].positions, pair.vertex), 2 * reach_).vertex);
     }
   });
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -110,13 +108,10 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
       if (begin < end) clusters_.push_back({begin, end, 0});
       continue;
     }
-    Eigen::RowVector3d low = positions.row(pairs_[begin].vertex), high = low;
-    for (std::size_t i = begin; i < end; ++i) {
-      low = low.cwiseMin(positions.row(pairs_[i].vertex));
-      high = high.cwiseMax(positions.row(pairs_[i].vertex));
-    }
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = begin; i < end; ++i) box.extend(row3(positions, pairs_[i].vertex));
     Index axis = 0;
-    (high - low).maxCoeff(&axis);
+    box.sizes().maxCoeff(&axis);
     std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin),
               pairs_.begin() + static_cast<std::ptrdiff_t>(end), [&](const Pair& a, const Pair& b) {
                 const double at = positions(a.vertex, axis), bt = positions(b.vertex, axis);
@@ -142,11 +137,8 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
 
 double Contact::rough_height(const Pair& pair, const Eigen::Vector3d& point,
                              const Positions& skin) const {
-  const Eigen::Vector3d a = skin.row(pair.corners[0]).transpose();
-  const Eigen::Vector3d b = skin.row(pair.corners[1]).transpose();
-  const Eigen::Vector3d c = skin.row(pair.corners[2]).transpose();
-  const Eigen::Vector3d place = pair.shares[0] * a + pair.shares[1] * b + pair.shares[2] * c;
-  return side_ * dot3(unit3(cross3(b - a, c - a)), point - place);
+  const Eigen::Vector3d place = point_on(skin, pair.corners, pair.shares);
+  return side_ * dot3(unit3(area_vector(skin, pair.corners)), point - place);
 }
 
 Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions& skin) const {
@@ -244,16 +236,9 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
     program.want(kTurn + i, 0, kHoldTurn);
   }
   program.want(kSize, -grown, kHoldSize);
-  SmallProgram::Vector smaller = {};
-  smaller[kSize] = -1;
-  program.demand(kSize, -kSmaller * radius - grown);
-  program.demand(smaller, -(kLarger * radius - grown));
-  const std::pair<Unknown, double> slacks[] = {{kNewSlack, kNewPrice}, {kDeepSlack, kDeepPrice}};
-  for (const auto& [slack, price] : slacks) {
-    program.want(slack, 0, 1);
-    program.charge(slack, price * reach_);
-    program.demand(slack, 0);
-  }
+  program.demand_between(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
+  program.add_slack(kNewSlack, kNewPrice * reach_);
+  program.add_slack(kDeepSlack, kDeepPrice * reach_);
   const SmallProgram::Vector x = program.solve(1e-5 * reach_);
   motion =
       nudged(motion, middle, {x[0], x[1], x[2]},

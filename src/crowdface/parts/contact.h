@@ -48,7 +48,7 @@ class Contact {
   using Starts = std::array<std::uint32_t, kStarts>;
   struct Pair {
     std::uint32_t vertex;
-    std::array<std::uint32_t, 3> corners;
+    Triangle corners;
     std::array<double, 3> shares;
     /// Vertices to start from when the nearest skin is looked for: of both lips, where both are near.
     Starts starts;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/small_program.h"
-#include "crowdface/parts/some_of.h"
 
 namespace crowdface {
 namespace {
@@ -79,7 +79,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
     if (best.vertex != kNoIndex) rim.push_back(best.vertex);
   }
   std::sort(rim.begin(), rim.end());
-  const std::vector<std::uint32_t> some = some_of<std::uint32_t>(near, kMostLids);
+  const std::vector<std::uint32_t> some = some_of(near, kMostLids);
   std::set_union(some.begin(), some.end(), rim.begin(), rim.end(),
                  std::back_inserter(lids.vertices));
   for (const std::uint32_t v : rim) {
@@ -187,17 +187,10 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     program.want(kShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
   program.want(kSize, -grown, kHoldSize);
-  SmallProgram::Vector smaller = {};
-  smaller[kSize] = -1;
-  program.demand(kSize, -kSmaller * radius - grown);
-  program.demand(smaller, -(kLarger * radius - grown));
-  const std::pair<Unknown, double> slacks[] = {
-      {kMeanSlack, kMeanPrice}, {kNewSlack, kNewPrice}, {kDeepSlack, kDeepPrice}};
-  for (const auto& [slack, price] : slacks) {
-    program.want(slack, 0, 1);
-    program.charge(slack, price * radius);
-    program.demand(slack, 0);
-  }
+  program.demand_between(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
+  program.add_slack(kMeanSlack, kMeanPrice * radius);
+  program.add_slack(kNewSlack, kNewPrice * radius);
+  program.add_slack(kDeepSlack, kDeepPrice * radius);
   const SmallProgram::Vector x = program.solve(1e-5 * radius);
   return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kSize] / radius);
 }

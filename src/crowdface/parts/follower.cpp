@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/parts/anchors.h"
 #include "crowdface/parts/contact.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/parts/socket.h"
-#include "crowdface/parts/some_of.h"
 #include "crowdface/parts/ties.h"
 
 namespace crowdface {
@@ -54,8 +54,7 @@ EyeSocket bind_eye(const FaceSet& faces, const FacesAround& around, const Part& 
                    Lids lids) {
   const std::vector<double> ones(part.vertices.size(), 1.0);
   std::vector<BallMap> maps(faces.heads.size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(maps.size()), [&](std::ptrdiff_t h) {
-    const auto i = static_cast<std::size_t>(h);
+  parallel_for_each(maps.size(), [&](std::size_t i) {
     const Positions& head = faces.heads[i].positions;
     const RigidMotion motion = fit_rigid_motion(mean, head, part.vertices, ones);
     maps[i] = BallMap(faces.topology, around, head, part.surface, motion.apply(ball.centre),
@@ -93,7 +92,7 @@ std::vector<std::uint32_t> skin_vertices(const PartList& parts, const FacesAroun
 /// far from the skin follows what is nearest to it.
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
   // How far skin is from a part need not be known better than the part's points lie apart.
-  const PointGrid rough_grid(skin.mean, some_of<std::uint32_t>(part.vertices, kMostRough));
+  const PointGrid rough_grid(skin.mean, some_of(part.vertices, kMostRough));
   Socket socket;
   for (int tries = 0; tries < 8 && socket.vertices.size() < 12; ++tries, reach *= 2) {
     socket = find_socket(skin.mean, rough_grid, skin.vertices, skin.areas, reach);
@@ -166,10 +165,8 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
   }
   std::sort(bound.begin(), bound.end());
   state->rigid.resize(rigid.size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(rigid.size()), [&](std::ptrdiff_t p) {
-    const Part& part = *rigid[static_cast<std::size_t>(p)];
-    state->rigid[static_cast<std::size_t>(p)] = bind_rigid(part, parts, skin);
-  });
+  parallel_for_each(rigid.size(),
+                    [&](std::size_t p) { state->rigid[p] = bind_rigid(*rigid[p], parts, skin); });
 
   std::vector<std::span<const std::uint32_t>> tying;
   for (const RigidPart& part : state->rigid) {
@@ -178,16 +175,13 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
   state->ties = Ties(mean, tying, bound, kTieReach * state->extent);
   state->anchors = Anchors(faces.topology, state->around, mean, skin.grid, std::move(bound));
   state->places.resize(faces.heads.size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(faces.heads.size()), [&](std::ptrdiff_t h) {
-    const auto i = static_cast<std::size_t>(h);
+  parallel_for_each(faces.heads.size(), [&](std::size_t i) {
     state->places[i] = state->anchors.places(faces.heads[i].positions);
   });
   state_ = std::move(state);
 }
 
 PartFollower::~PartFollower() = default;
-PartFollower::PartFollower(PartFollower&&) noexcept = default;
-PartFollower& PartFollower::operator=(PartFollower&&) noexcept = default;
 
 RigidMotion PartFollower::State::follow_rigid(const RigidPart& part, std::size_t target,
                                               Positions& result) const {

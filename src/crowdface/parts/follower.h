@@ -32,8 +32,6 @@ class PartFollower {
   PartFollower(const FaceSet& faces, const PartList& parts, const HeadAxes& axes,
                PartShape shape = PartShape::kTarget);
   ~PartFollower();
-  PartFollower(PartFollower&&) noexcept;
-  PartFollower& operator=(PartFollower&&) noexcept;
 
   /// Puts the parts of a blended face in their places.
   /// \param target  the head it was built on.

@@ -2,7 +2,6 @@
 #include "crowdface/parts/grouping.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "crowdface/mesh/vector3.h"
@@ -14,25 +13,6 @@ constexpr std::uint32_t kMostInLeaf = 8;
 
 }  // namespace
 
-Grouping::Grouping(std::size_t components) : parent_(components) {
-  std::iota(parent_.begin(), parent_.end(), 0U);
-}
-
-std::uint32_t Grouping::root(std::uint32_t component) {
-  std::uint32_t c = component;
-  while (parent_[c] != c) {
-    parent_[c] = parent_[parent_[c]];  // the way is half as long for whoever comes next
-    c = parent_[c];
-  }
-  return c;
-}
-
-void Grouping::join(std::uint32_t a, std::uint32_t b) {
-  a = root(a);
-  b = root(b);
-  parent_[std::max(a, b)] = std::min(a, b);
-}
-
 GroupingTree::GroupingTree(const Positions& points, std::vector<std::uint32_t> rows,
                            const std::vector<std::uint32_t>& components, Grouping& groups)
     : points_(points), rows_(std::move(rows)), components_(components), groups_(groups) {
@@ -41,15 +21,12 @@ GroupingTree::GroupingTree(const Positions& points, std::vector<std::uint32_t> r
 
 void GroupingTree::build(std::uint32_t begin, std::uint32_t end) {
   const auto n = static_cast<std::uint32_t>(nodes_.size());
-  Eigen::Vector3d low = points_.row(rows_[begin]).transpose(), high = low;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    low = low.cwiseMin(points_.row(rows_[i]).transpose());
-    high = high.cwiseMax(points_.row(rows_[i]).transpose());
-  }
-  nodes_.push_back({low, high, begin, end});
+  Eigen::AlignedBox3d box;
+  for (std::uint32_t i = begin; i < end; ++i) box.extend(row3(points_, rows_[i]));
+  nodes_.push_back({box, begin, end});
   if (end - begin > kMostInLeaf) {
     Index axis = 0;
-    (high - low).maxCoeff(&axis);
+    box.sizes().maxCoeff(&axis);
     const std::uint32_t middle = begin + (end - begin) / 2;
     std::nth_element(rows_.begin() + begin, rows_.begin() + middle, rows_.begin() + end,
                      [&](auto a, auto b) { return points_(a, axis) < points_(b, axis); });
@@ -68,17 +45,15 @@ void GroupingTree::join_near(std::uint32_t n, const Eigen::Vector3d& place, doub
                              std::uint32_t component) {
   Node& node = nodes_[n];
   // Computed as a point's distance is below, so that rounding cannot make a box the farther one.
-  const Eigen::Vector3d outside =
-      (node.low - place).cwiseMax(place - node.high).cwiseMax(Eigen::Vector3d::Zero());
-  if (length3(outside) > reach) return;
+  if (node.box.exteriorDistance(place) > reach) return;
   if (node.component != kNoIndex && groups_.root(node.component) == groups_.root(component)) return;
   if (node.second != 0) {
     join_near(n + 1, place, reach, component);
     join_near(node.second, place, reach, component);
   } else {
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const Eigen::Vector3d point = points_.row(rows_[i]).transpose();
-      if (length3(point - place) <= reach) groups_.join(component, components_[rows_[i]]);
+      const double distance = length3(row3(points_, rows_[i]) - place);
+      if (distance <= reach) groups_.join(component, components_[rows_[i]]);
     }
   }
   if (node.component == kNoIndex) node.component = only_group(n);

@@ -4,24 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Geometry>
+
+#include "crowdface/mesh/grouping.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
-
-/// Which components move as one. At first each is a group by itself.
-class Grouping {
- public:
-  explicit Grouping(std::size_t components);
-
-  /// The smallest number in the group of a component: parts are called after their first one.
-  std::uint32_t root(std::uint32_t component);
-  void join(std::uint32_t a, std::uint32_t b);
-  /// Undoes what was joined: for all of a group at once.
-  void release(std::uint32_t c) { parent_[c] = c; }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Points of components in a tree of boxes, to join components whose points lie near each other.
 /// A box all of whose points are of the asking group is not looked into: so the time grows little
@@ -40,7 +28,7 @@ class GroupingTree {
 
  private:
   struct Node {
-    Eigen::Vector3d low, high;
+    Eigen::AlignedBox3d box;
     std::uint32_t begin, end;            ///< of the rows
     std::uint32_t second = 0;            ///< the first child is the next node; 0: it has none
     std::uint32_t component = kNoIndex;  ///< one of its only group; kNoIndex: several were seen

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/grouping.h"
@@ -41,31 +43,26 @@ bool is_eyeball(const ComponentShape& shape, double extent) {
 }
 
 /// How a component stands in the head, along the side, up and front.
-struct Box {
-  Eigen::Vector3d low, high;
-  double height() const { return (low.y() + high.y()) / 2; }
-  void add(const Box& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-  double shared(const Box& other, Index axis) const {
-    return std::min(high(axis), other.high(axis)) - std::max(low(axis), other.low(axis));
-  }
-  double lesser(const Box& other, Index axis) const {
-    return std::min(high(axis) - low(axis), other.high(axis) - other.low(axis));
-  }
-};
+using Box = Eigen::AlignedBox3d;
 
 Box box_of(const Positions& positions, const std::vector<std::uint32_t>& vertices,
            const HeadAxes& axes) {
-  Box box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
+  Box box;
   for (const std::uint32_t v : vertices) {
-    const Eigen::Vector3d point = positions.row(v).transpose();
-    const Eigen::Vector3d place(dot3(point, axes.side()), dot3(point, axes.up),
-                                dot3(point, axes.front));
-    box.add({place, place});
+    const Eigen::Vector3d point = row3(positions, v);
+    box.extend(
+        Eigen::Vector3d(dot3(point, axes.side()), dot3(point, axes.up), dot3(point, axes.front)));
   }
   return box;
+}
+
+double height_of(const Box& box) {
+  return box.center().y();
+}
+
+/// What two boxes share along an axis beyond half the length of the shorter one; negative if less.
+double overlap(const Box& a, const Box& b, Index axis) {
+  return a.intersection(b).sizes()(axis) - std::min(a.sizes()(axis), b.sizes()(axis)) / 2;
 }
 
 /// How many of some components, lowest first, are the teeth of the lower jaw: those below the widest
@@ -75,7 +72,7 @@ std::size_t lower_row(const std::vector<Box>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;
   for (std::size_t i = 1; i < lowest_first.size(); ++i) {
-    const double gap = lowest_first[i].height() - lowest_first[i - 1].height();
+    const double gap = height_of(lowest_first[i]) - height_of(lowest_first[i - 1]);
     if (gap <= widest) continue;
     widest = gap;
     lower = i;
@@ -83,13 +80,13 @@ std::size_t lower_row(const std::vector<Box>& lowest_first) {
   if (lower == 0) return 0;
   Box below = lowest_first.front(), above = lowest_first.back();
   for (std::size_t i = 0; i < lowest_first.size(); ++i) {
-    (i < lower ? below : above).add(lowest_first[i]);
+    (i < lower ? below : above).extend(lowest_first[i]);
   }
-  const double spread = std::max(lowest_first[lower - 1].height() - lowest_first.front().height(),
-                                 lowest_first.back().height() - lowest_first[lower].height());
-  const bool stacked = spread < widest && below.shared(above, 1) < below.lesser(above, 1) / 2;
-  const bool over = below.shared(above, 0) > below.lesser(above, 0) / 2 &&
-                    below.shared(above, 2) > below.lesser(above, 2) / 2;
+  const double spread =
+      std::max(height_of(lowest_first[lower - 1]) - height_of(lowest_first.front()),
+               height_of(lowest_first.back()) - height_of(lowest_first[lower]));
+  const bool stacked = spread < widest && overlap(below, above, 1) < 0;
+  const bool over = overlap(below, above, 0) > 0 && overlap(below, above, 2) > 0;
   return stacked && over ? lower : 0;
 }
 
@@ -142,7 +139,7 @@ void split_jaws(const Positions& positions, const std::vector<std::vector<std::u
     std::vector<std::pair<Box, std::uint32_t>> boxes;
     for (const std::uint32_t c : group) boxes.emplace_back(box_of(positions, members[c], axes), c);
     std::stable_sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) {
-      return a.first.height() < b.first.height();
+      return height_of(a.first) < height_of(b.first);
     });
     std::vector<Box> lowest_first;
     for (const auto& [box, c] : boxes) lowest_first.push_back(box);

@@ -169,18 +169,24 @@ void SmallProgram::want(std::size_t unknown, double wanted, double weight) {
   linear_[unknown] += weight * wanted;
 }
 
-void SmallProgram::charge(std::size_t unknown, double price) {
-  linear_[unknown] -= price;
-}
-
 void SmallProgram::demand(const Vector& a, double least) {
   bounds_.push_back({a, least});
 }
 
-void SmallProgram::demand(std::size_t unknown, double least) {
+void SmallProgram::demand_between(std::size_t unknown, double least, double most) {
   Vector a{};
   a[unknown] = 1;
   demand(a, least);
+  a[unknown] = -1;
+  demand(a, -most);
+}
+
+void SmallProgram::add_slack(std::size_t unknown, double price) {
+  want(unknown, 0, 1);
+  linear_[unknown] -= price;
+  Vector a{};
+  a[unknown] = 1;
+  demand(a, 0);
 }
 
 SmallProgram::Vector SmallProgram::solve(double tolerance) const {

@@ -23,11 +23,11 @@ class SmallProgram {
   /// Adds weight/2 (a·x − wanted)². \param weight  positive.
   void want(const Vector& a, double wanted, double weight);
   void want(std::size_t unknown, double wanted, double weight);
-  /// Adds price·x_unknown.
-  void charge(std::size_t unknown, double price);
   /// Bounds a·x from below.
   void demand(const Vector& a, double least);
-  void demand(std::size_t unknown, double least);
+  void demand_between(std::size_t unknown, double least, double most);
+  /// Makes an unknown a slack of what demands name it: not negative, for a price a unit.
+  void add_slack(std::size_t unknown, double price);
 
   /// The solution, by a dual active set (Goldfarb & Idnani 1983). Every unknown must be wanted with
   /// some weight. Where no x satisfies all bounds: one that satisfies some.

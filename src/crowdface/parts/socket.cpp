@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "crowdface/parts/some_of.h"
+#include "crowdface/core/selection.h"
 
 namespace crowdface {
 namespace {
@@ -22,7 +22,7 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
     if (part.in_reach(positions.row(v).transpose(), reach)) around.push_back(v);
   }
   Socket all;
-  for (const std::uint32_t v : some_of<std::uint32_t>(around, kMostMeasured)) {
+  for (const std::uint32_t v : some_of(around, kMostMeasured)) {
     const auto nearest = part.nearest(positions.row(v).transpose(), reach);
     if (nearest.vertex == kNoIndex) continue;
     const double t = nearest.distance / reach;
@@ -31,16 +31,13 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
     all.vertices.push_back(v);
     all.weights.push_back(weight);
   }
-  return {some_of<std::uint32_t>(all.vertices, kMostVertices),
-          some_of<double>(all.weights, kMostVertices)};
+  return {some_of(all.vertices, kMostVertices), some_of(all.weights, kMostVertices)};
 }
 
 bool unmoved(const Positions& before, const Positions& after,
              std::span<const std::uint32_t> vertices) {
-  return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
-    return before(v, 0) == after(v, 0) && before(v, 1) == after(v, 1) &&
-           before(v, 2) == after(v, 2);
-  });
+  return std::all_of(vertices.begin(), vertices.end(),
+                     [&](std::uint32_t v) { return before.row(v) == after.row(v); });
 }
 
 }  // namespace crowdface

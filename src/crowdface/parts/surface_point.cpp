@@ -9,53 +9,34 @@
 namespace crowdface {
 namespace {
 
-/// Barycentric coordinates of the point of a triangle nearest to p (Ericson 2005, "Real-Time
-/// Collision Detection", §5.1.5).
-std::array<double, 3> nearest_in_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                          const Eigen::Vector3d& c, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = dot3(ab, ap), d2 = dot3(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = dot3(ab, bp), d4 = dot3(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double d5 = dot3(ab, cp), d6 = dot3(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const double v = d1 / (d1 - d3);
-    return {1 - v, v, 0};
-  }
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const double w = d2 / (d2 - d6);
-    return {1 - w, 0, w};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
+SurfacePoint bare_vertex(const Positions& positions, std::uint32_t vertex,
+                         const Eigen::Vector3d& point) {
+  const Eigen::Vector3d place = row3(positions, vertex);
+  return {{vertex, vertex, vertex}, {1, 0, 0}, place, length3(point - place)};
 }
 
-Eigen::Vector3d row3(const Positions& positions, std::uint32_t vertex) {
-  return positions.row(vertex).transpose();
+/// Makes the best place one of this face's if that is nearer, or if the best is a bare vertex.
+void try_face(std::span<const std::uint32_t> face, const Positions& positions,
+              const Eigen::Vector3d& point, SurfacePoint& best) {
+  for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+    const Triangle corners = {face[0], face[k], face[k + 1]};
+    const std::array<double, 3> shares =
+        nearest_in_triangle(row3(positions, corners[0]), row3(positions, corners[1]),
+                            row3(positions, corners[2]), point);
+    const Eigen::Vector3d place = point_on(positions, corners, shares);
+    const double distance = length3(point - place);
+    if (distance < best.distance || best.corners[0] == best.corners[1]) {
+      best = {corners, shares, place, distance};
+    }
+  }
 }
 
 }  // namespace
 
-FacesAround::FacesAround(const Topology& topology)
-    : offsets_(static_cast<std::size_t>(topology.vertex_count) + 1, 0) {
-  for (const std::uint32_t vertex : topology.corner_vertices) ++offsets_[vertex + 1];
-  for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
-  std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
-  faces_.resize(topology.corner_vertices.size());
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    for (const std::uint32_t vertex : topology.face(f)) {
-      faces_[next[vertex]++] = static_cast<std::uint32_t>(f);
-    }
-  }
+Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
+                         const std::array<double, 3>& shares) {
+  return shares[0] * row3(positions, corners[0]) + shares[1] * row3(positions, corners[1]) +
+         shares[2] * row3(positions, corners[2]);
 }
 
 SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
@@ -69,27 +50,8 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  SurfacePoint best;
-  best.corners = {vertex, vertex, vertex};
-  best.shares = {1, 0, 0};
-  best.position = positions.row(vertex).transpose();
-  best.distance = length3(point - best.position);
-  for (const std::uint32_t f : near) {
-    const auto face = topology.face(f);
-    for (std::size_t k = 1; k + 1 < face.size(); ++k) {
-      const Eigen::Vector3d a = positions.row(face[0]).transpose();
-      const Eigen::Vector3d b = positions.row(face[k]).transpose();
-      const Eigen::Vector3d c = positions.row(face[k + 1]).transpose();
-      const std::array<double, 3> shares = nearest_in_triangle(a, b, c, point);
-      const Eigen::Vector3d place = shares[0] * a + shares[1] * b + shares[2] * c;
-      const double distance = length3(point - place);
-      // Of equals the first, but a triangle rather than the bare vertex.
-      if (distance < best.distance ||
-          (distance == best.distance && best.corners[0] == best.corners[1])) {
-        best = {{face[0], face[k], face[k + 1]}, shares, place, distance};
-      }
-    }
-  }
+  SurfacePoint best = bare_vertex(positions, vertex, point);
+  for (const std::uint32_t f : near) try_face(topology.face(f), positions, point, best);
   return best;
 }
 
@@ -119,25 +81,11 @@ SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point) {
   constexpr int kMostSteps = 64;
-  SurfacePoint best;
-  best.corners = {start, start, start};
-  best.shares = {1, 0, 0};
-  best.position = row3(positions, start);
-  best.distance = length3(point - best.position);
+  SurfacePoint best = bare_vertex(positions, start, point);
   std::uint32_t vertex = start;
   for (int step = 0; step < kMostSteps; ++step) {
     for (const std::uint32_t f : faces.of(vertex)) {
-      const auto face = topology.face(f);
-      const Eigen::Vector3d a = row3(positions, face[0]);
-      for (std::size_t k = 1; k + 1 < face.size(); ++k) {
-        const Eigen::Vector3d b = row3(positions, face[k]), c = row3(positions, face[k + 1]);
-        const std::array<double, 3> shares = nearest_in_triangle(a, b, c, point);
-        const Eigen::Vector3d place = shares[0] * a + shares[1] * b + shares[2] * c;
-        const double distance = length3(point - place);
-        if (distance < best.distance || best.corners[0] == best.corners[1]) {
-          best = {{face[0], face[k], face[k + 1]}, shares, place, distance};
-        }
-      }
+      try_face(topology.face(f), positions, point, best);
     }
     std::size_t most = 0;
     for (std::size_t k = 1; k < 3; ++k) {
@@ -150,10 +98,7 @@ SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
 }
 
 Eigen::Vector3d normal_at(const Positions& positions, const SurfacePoint& place) {
-  const Eigen::Vector3d a = positions.row(place.corners[0]).transpose();
-  const Eigen::Vector3d b = positions.row(place.corners[1]).transpose();
-  const Eigen::Vector3d c = positions.row(place.corners[2]).transpose();
-  return unit3(cross3(b - a, c - a));
+  return unit3(area_vector(positions, place.corners));
 }
 
 }  // namespace crowdface

@@ -3,34 +3,23 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <vector>
 
-#include "crowdface/mesh/topology.h"
+#include "crowdface/mesh/triangles.h"
 #include "crowdface/parts/point_grid.h"
 
 namespace crowdface {
 
-/// The faces that meet at each vertex, ascending.
-class FacesAround {
- public:
-  explicit FacesAround(const Topology& topology);
-  std::span<const std::uint32_t> of(std::uint32_t vertex) const {
-    return {faces_.data() + offsets_[vertex], faces_.data() + offsets_[vertex + 1]};
-  }
-
- private:
-  std::vector<std::uint32_t> offsets_;  ///< #V + 1
-  std::vector<std::uint32_t> faces_;
-};
-
 /// A place on a triangle of a mesh; larger polygons are cut into fans from their first corner.
 struct SurfacePoint {
-  std::array<std::uint32_t, 3> corners = {};
+  Triangle corners = {};
   std::array<double, 3> shares = {};  ///< barycentric, not negative, of sum one
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double distance = 0;  ///< from the point that was asked about
 };
+
+/// Of a triangle the point with these barycentric coordinates.
+Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
+                         const std::array<double, 3>& shares);
 
 /// The place nearest to a point among the triangles around one vertex and its neighbours.
 SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,

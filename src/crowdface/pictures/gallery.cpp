@@ -150,14 +150,13 @@ Digest gallery_page_digest(const Config& config) {
 }
 
 GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
-    : config_(config), inputs_(inputs) {
+    : config_(config), inputs_(inputs), around_(inputs.faces.topology) {
   const FaceSet& faces = inputs.faces;
   std::vector<bool> drawn;
   for (const SurfaceKind kind : surfaces_of(config, inputs).kinds) {
     drawn.push_back(kind != SurfaceKind::kHidden);
   }
   mesh_ = reduce_mesh(faces.topology, mean_head(faces), drawn, kMostTriangles);
-  fans_ = reduced_fans(faces.topology, mesh_);
   const std::vector<const Positions*> heads = positions_of(faces);
   frame_ = PackingFrame::around(heads);
   low_ = heads.front()->colwise().minCoeff().transpose();
@@ -192,7 +191,7 @@ std::string GalleryMeshes::shared_script() const {
 }
 
 std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions) const {
-  const std::string bytes = pack_face(inputs_.faces.topology, mesh_, fans_, frame_, positions);
+  const std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions);
   return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), "\");\n");
 }
 

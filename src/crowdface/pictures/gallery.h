@@ -42,7 +42,7 @@ class GalleryMeshes {
   const Config& config_;
   const Inputs& inputs_;
   ReducedMesh mesh_;
-  ReducedFans fans_;
+  FacesAround around_;
   PackingFrame frame_;
   Eigen::Vector3d low_, high_;  ///< of the heads' boxes
 };

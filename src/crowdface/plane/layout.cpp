@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Eigenvalues>
 
@@ -12,8 +13,6 @@ namespace crowdface {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// To 10⁻⁹: what differs between C libraries lies far below.
 double rounded(double value) {
@@ -30,7 +29,7 @@ double cross(const PlanePoint& o, const PlanePoint& a, const PlanePoint& b) {
 std::vector<PlanePoint> circle_layout(Index heads) {
   std::vector<PlanePoint> anchors;
   for (Index i = 0; i < heads; ++i) {
-    const double angle = 2 * kPi * static_cast<double>(i) / static_cast<double>(heads);
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(heads);
     anchors.emplace_back(rounded(std::cos(angle)), rounded(std::sin(angle)));
   }
   return anchors;

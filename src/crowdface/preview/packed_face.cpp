@@ -2,6 +2,7 @@
 #include "crowdface/preview/packed_face.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -50,29 +51,7 @@ PackingFrame PackingFrame::around(std::span<const Positions* const> heads) {
   return {box.center() - Eigen::Vector3d::Constant(half), 2 * half / kSteps};
 }
 
-ReducedFans reduced_fans(const Topology& topology, const ReducedMesh& mesh) {
-  std::vector<std::uint32_t> number(static_cast<std::size_t>(topology.vertex_count), kNoIndex);
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    number[mesh.vertices[i]] = static_cast<std::uint32_t>(i);
-  }
-  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    for (const std::uint32_t vertex : topology.face(f)) {
-      if (number[vertex] != kNoIndex) {
-        around[number[vertex]].push_back(static_cast<std::uint32_t>(f));
-      }
-    }
-  }
-  ReducedFans fans;
-  fans.offsets.push_back(0);
-  for (const std::vector<std::uint32_t>& faces : around) {
-    fans.faces.insert(fans.faces.end(), faces.begin(), faces.end());
-    fans.offsets.push_back(static_cast<std::uint32_t>(fans.faces.size()));
-  }
-  return fans;
-}
-
-std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const ReducedFans& fans,
+std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
                       const PackingFrame& frame, const Positions& positions) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
@@ -83,10 +62,8 @@ std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const R
       append(bytes, (positions(vertex, axis) - frame.low[axis]) / frame.step);
     }
   }
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const std::span faces(fans.faces.data() + fans.offsets[i],
-                          fans.offsets[i + 1] - fans.offsets[i]);
-    const Eigen::Vector2d square = unfolded(normal_at(topology, positions, faces));
+  for (const std::uint32_t vertex : mesh.vertices) {
+    const Eigen::Vector2d square = unfolded(normal_at(topology, positions, around.of(vertex)));
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);
   }
   return bytes;
@@ -113,13 +90,8 @@ std::string base64(std::string_view bytes) {
 }
 
 std::string little_endian(std::span<const std::uint32_t> numbers) {
-  std::string bytes;
-  bytes.reserve(4 * numbers.size());
-  for (const std::uint32_t number : numbers) {
-    for (unsigned shift = 0; shift < 32; shift += 8)
-      bytes += static_cast<char>(number >> shift & 0xFFU);
-  }
-  return bytes;
+  static_assert(std::endian::native == std::endian::little);
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
 }
 
 }  // namespace crowdface

@@ -20,18 +20,11 @@ struct PackingFrame {
   static PackingFrame around(std::span<const Positions* const> heads);
 };
 
-/// Which faces of the whole mesh meet at each vertex of the reduced one, so that a preview is shaded
-/// as smoothly as the mesh itself.
-struct ReducedFans {
-  std::vector<std::uint32_t> offsets;  ///< #vertices + 1
-  std::vector<std::uint32_t> faces;
-};
-ReducedFans reduced_fans(const Topology& topology, const ReducedMesh& mesh);
-
 /// A face's reduced mesh as little-endian 16-bit numbers: three a vertex, steps from the frame's low
 /// corner (clamped to it), then two a vertex, its unit normal on the octahedron unfolded over a
 /// square (Meyer et al. 2010, "On floating-point normal vectors"), 0 … 65,535 for −1 … 1.
-std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const ReducedFans& fans,
+/// \param around  of the whole mesh, so that a preview is shaded as smoothly as the mesh itself.
+std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
                       const PackingFrame& frame, const Positions& positions);
 
 /// Bytes as text (RFC 4648).

@@ -27,12 +27,11 @@ std::vector<unsigned int> triangles_of(const Topology& topology, const std::vect
 /// Numbers the vertices anew in the order in which triangles first use them, which suits both the
 /// graphics card and compression.
 ReducedMesh compact(const std::vector<unsigned int>& triangles, std::size_t vertex_count) {
-  constexpr std::uint32_t kUnused = 0xffffffffU;
-  std::vector<std::uint32_t> number(vertex_count, kUnused);
+  std::vector<std::uint32_t> number(vertex_count, kNoIndex);
   ReducedMesh mesh;
   mesh.triangles.reserve(triangles.size());
   for (const unsigned int vertex : triangles) {
-    if (number[vertex] == kUnused) {
+    if (number[vertex] == kNoIndex) {
       number[vertex] = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.vertices.push_back(vertex);
     }
@@ -53,9 +52,7 @@ ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
   std::vector<unsigned int> triangles = triangles_of(topology, drawn);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
   if (triangles.size() > 3 * most_triangles) {
-    std::vector<float> points(3 * vertices);
-    std::transform(typical.data(), typical.data() + typical.size(), points.begin(),
-                   [](double value) { return static_cast<float>(value); });
+    const std::vector<float> points(typical.data(), typical.data() + typical.size());
     constexpr float kAnyError = 1e30F;  // the count alone decides when to stop
     const std::size_t kept =
         meshopt_simplify(triangles.data(), triangles.data(), triangles.size(), points.data(),

@@ -46,13 +46,6 @@ Image MaskSource::read(int tile) const {
   return image;
 }
 
-std::vector<MaskSource> load_masks(const std::vector<std::string>& paths) {
-  std::vector<MaskSource> masks;
-  masks.reserve(paths.size());
-  for (const std::string& path : paths) masks.emplace_back(path);
-  return masks;
-}
-
 std::vector<int> mask_channels(const Image& image) {
   std::vector<int> channels;
   for (int c = 0; c < image.channels; ++c) {

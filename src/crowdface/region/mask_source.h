@@ -32,9 +32,6 @@ class MaskSource {
   std::optional<Image> image_;
 };
 
-/// One source a path, in this order.
-std::vector<MaskSource> load_masks(const std::vector<std::string>& paths);
-
 /// Channels of an image that hold masks: all but alpha, in order.
 std::vector<int> mask_channels(const Image& image);
 

@@ -143,13 +143,11 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
 
   RegionWeights weights{RegionWeights::Alpha::Zero(topology.vertex_count, regions), 0};
   std::vector<std::uint8_t> uncovered(static_cast<std::size_t>(topology.vertex_count), 0);
-  parallel_blocks(topology.vertex_count, kBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const auto places = samples.of(i);
-      if (!places.empty() && normalised_mean(loaded, places, weights.alpha.row(i))) continue;
-      weights.alpha(i, regions - 1) = 1;
-      uncovered[static_cast<std::size_t>(i)] = places.empty() ? 0 : 1;
-    }
+  parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
+    const auto places = samples.of(i);
+    if (!places.empty() && normalised_mean(loaded, places, weights.alpha.row(i))) return;
+    weights.alpha(i, regions - 1) = 1;
+    uncovered[static_cast<std::size_t>(i)] = places.empty() ? 0 : 1;
   });
   weights.uncovered_vertices = std::count(uncovered.begin(), uncovered.end(), 1);
   return weights;

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "crowdface/core/grouped.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -24,16 +25,7 @@ struct UvSample {
 
 /// The distinct places of every vertex: those of its corners, each value once (a value on the
 /// border of two tiles once for each of the tiles its faces lie in).
-struct UvSamples {
-  std::vector<std::uint32_t> offsets;  ///< #V + 1
-  std::vector<UvSample> samples;       ///< those of vertex i: [offsets[i], offsets[i + 1])
-
-  std::span<const UvSample> of(Index vertex) const {
-    const auto begin = offsets[static_cast<std::size_t>(vertex)];
-    const auto end = offsets[static_cast<std::size_t>(vertex) + 1];
-    return {samples.data() + begin, end - begin};
-  }
-};
+using UvSamples = Grouped<UvSample>;
 
 /// The column (for u) or row (for v) of the tile that a coordinate of a corner lies in: its whole
 /// part, and where the coordinate is a whole number and so lies on a border, that of the mean of

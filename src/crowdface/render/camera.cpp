@@ -11,13 +11,10 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
-
-Eigen::Vector3d unit_vector(Axis axis) {
-  return axis.sign * Eigen::Vector3d::Unit(axis.index);
-}
 
 double turn_degrees(View view) {
   switch (view) {
@@ -81,12 +78,6 @@ double lowest_shown(std::span<const Positions* const> heads, const Eigen::Vector
 }
 
 }  // namespace
-
-Eigen::Vector2d Camera::project(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d relative = point - position();
-  const double scale = 0.5 / (half_tangent * -relative.dot(back));
-  return {0.5 + scale * relative.dot(right), 0.5 - scale * relative.dot(up)};
-}
 
 Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
                   const FramingOptions& options) {

@@ -24,8 +24,6 @@ struct Camera {
   Eigen::Vector3d position() const { return target + distance * back; }
   /// Half the side of what the image shows in the plane through the target.
   double half_extent() const { return distance * half_tangent; }
-  /// Where a point appears, as fractions of the image's side, (0, 0) the upper left corner.
-  Eigen::Vector2d project(const Eigen::Vector3d& point) const;
 };
 
 /// How heads stand in their files.

@@ -9,6 +9,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
@@ -25,7 +26,7 @@ void check_finite(const Positions& positions) {
 }  // namespace
 
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis) {
-  const Eigen::Vector3d d = axis.sign * Eigen::Vector3d::Unit(axis.index);
+  const Eigen::Vector3d d = unit_vector(axis);
   return Eigen::Vector3d(d.dot(camera.right), d.dot(camera.up), d.dot(camera.back)).cast<float>();
 }
 
@@ -36,12 +37,9 @@ std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
   axes /= camera.half_extent();
   std::vector<float> points(static_cast<std::size_t>(positions.rows()) * 3);
   points.reserve(points.size() + 1);  // RayScene adds one
-  parallel_blocks(positions.rows(), kVertexBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const Eigen::Vector3f point =
-          (axes * (positions.row(i).transpose() - camera.target)).cast<float>();
-      std::copy_n(point.data(), 3, points.begin() + 3 * i);
-    }
+  parallel_for_each(positions.rows(), kVertexBlock, [&](Index i) {
+    const Eigen::Vector3f point = (axes * (row3(positions, i) - camera.target)).cast<float>();
+    std::copy_n(point.data(), 3, points.begin() + 3 * i);
   });
   return points;
 }
@@ -73,25 +71,21 @@ std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Norm
     return Eigen::Map<const Vector>(points.data() + std::size_t{3} * vertex);
   };
   std::vector<Vector> areas(static_cast<std::size_t>(topology.face_count()));
-  parallel_blocks(topology.face_count(), kVertexBlock, [&](Index begin, Index end) {
-    for (Index f = begin; f < end; ++f) {
-      const auto face = topology.face(f);
-      Vector sum = Vector::Zero();
-      for (std::size_t c = 1; c + 1 < face.size(); ++c) {
-        sum += (point(face[c]) - point(face[0])).cross(point(face[c + 1]) - point(face[0]));
-      }
-      areas[static_cast<std::size_t>(f)] = sum;
+  parallel_for_each(topology.face_count(), kVertexBlock, [&](Index f) {
+    const auto face = topology.face(f);
+    Vector sum = Vector::Zero();
+    for (std::size_t c = 1; c + 1 < face.size(); ++c) {
+      sum += (point(face[c]) - point(face[0])).cross(point(face[c + 1]) - point(face[0]));
     }
+    areas[static_cast<std::size_t>(f)] = sum;
   });
   std::vector<Vector> normals(static_cast<std::size_t>(fans.rows()));
-  parallel_blocks(fans.rows(), kVertexBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      Vector sum = Vector::Zero();
-      for (const std::uint32_t face : fans.around(i)) sum += areas[face];
-      const float length = sum.norm();
-      normals[static_cast<std::size_t>(i)] =
-          length > 0 ? Vector(sum * (sign / length)) : Vector(sign * Vector::UnitZ());
-    }
+  parallel_for_each(fans.rows(), kVertexBlock, [&](Index i) {
+    Vector sum = Vector::Zero();
+    for (const std::uint32_t face : fans.around(i)) sum += areas[face];
+    const float length = sum.norm();
+    normals[static_cast<std::size_t>(i)] =
+        length > 0 ? Vector(sum * (sign / length)) : Vector(sign * Vector::UnitZ());
   });
   return normals;
 }

@@ -22,12 +22,6 @@ constexpr std::array<std::uint8_t, 3> kBackground = {34, 35, 37};
 constexpr int kLargestSide = 65500;
 constexpr std::int64_t kMostPixels = 500'000'000;
 
-void paste(const Rgb8Image& from, Rgb8Image& onto, int left, int top) {
-  for (int y = 0; y < from.height; ++y) {
-    std::copy_n(from.at(0, y), 3 * from.width, onto.at(left, top + y));
-  }
-}
-
 int lines_of(const std::string& label) {
   return 1 + static_cast<int>(std::count(label.begin(), label.end(), '\n'));
 }
@@ -41,8 +35,9 @@ void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& l
   int top = layout.top(cell) + layout.cell_height;
   for (std::size_t begin = 0; begin <= label.size(); top += line_height) {
     const std::size_t end = std::min(label.find('\n', begin), label.size());
-    paste(label_strip(label.substr(begin, end - begin), layout.cell_width, line_height, style),
-          sheet, layout.left(cell), top);
+    sheet.paste(
+        label_strip(label.substr(begin, end - begin), layout.cell_width, line_height, style),
+        layout.left(cell), top);
     style.text = {160, 161, 164};
     begin = end + 1;
   }
@@ -55,14 +50,14 @@ void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions
   style.text_px = layout.header_height * 2 / 5;
   style.align = TextAlign::kLeft;
   const int title_width = options.note.empty() ? inner : inner * 2 / 3;
-  paste(label_strip(options.title, title_width, layout.header_height, style), sheet, layout.margin,
-        0);
+  sheet.paste(label_strip(options.title, title_width, layout.header_height, style), layout.margin,
+              0);
   if (options.note.empty()) return;
   style.text_px = layout.header_height * 3 / 10;
   style.text = {150, 151, 154};
   style.align = TextAlign::kRight;
-  paste(label_strip(options.note, inner - title_width, layout.header_height, style), sheet,
-        layout.margin + title_width, 0);
+  sheet.paste(label_strip(options.note, inner - title_width, layout.header_height, style),
+              layout.margin + title_width, 0);
 }
 
 /// \throws InvalidInput if pictures differ in size.
@@ -144,15 +139,14 @@ Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& op
   if (options.legend) {
     const int width = std::min(layout.width() - 2 * layout.margin, 900);
     const int margin = layout.legend_height / 6;
-    paste(heat_scale(options.legend->most_mm, options.legend->title, width,
-                     layout.legend_height - margin, kBackground),
-          sheet, layout.margin, layout.height() - layout.margin - layout.legend_height + margin);
+    sheet.paste(heat_scale(options.legend->most_mm, options.legend->title, width,
+                           layout.legend_height - margin, kBackground),
+                layout.margin, layout.height() - layout.margin - layout.legend_height + margin);
   }
   // Each cell is written by one task only.
-  parallel_for_each(static_cast<std::ptrdiff_t>(cells.size()), [&](std::ptrdiff_t i) {
-    const int cell = static_cast<int>(i);
-    const SheetCell& content = cells[static_cast<std::size_t>(i)];
-    paste(content.image, sheet, layout.left(cell), layout.top(cell));
+  parallel_for_each(static_cast<int>(cells.size()), [&](int cell) {
+    const SheetCell& content = cells[static_cast<std::size_t>(cell)];
+    sheet.paste(content.image, layout.left(cell), layout.top(cell));
     draw_label(content.label, sheet, layout, cell);
   });
   return sheet;
@@ -171,24 +165,21 @@ Rgb8Image shrunk(const Rgb8Image& image, int width_px) {
   const auto from = [](int at, int of, int whole) {
     return static_cast<int>(std::int64_t{at} * whole / of);
   };
-  parallel_blocks(height_px, 16, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto y = static_cast<int>(begin); y < end; ++y) {
-      for (int x = 0; x < width_px; ++x) {
-        Light sum = Light::Zero();
-        int count = 0;
-        for (int v = from(y, height_px, image.height); v < from(y + 1, height_px, image.height);
-             ++v) {
-          for (int u = from(x, width_px, image.width); u < from(x + 1, width_px, image.width);
-               ++u) {
-            const std::uint8_t* p = image.at(u, v);
-            sum += Light(linear[p[0]], linear[p[1]], linear[p[2]]);
-            ++count;
-          }
+  parallel_for_each(height_px, 16, [&](int y) {
+    for (int x = 0; x < width_px; ++x) {
+      Light sum = Light::Zero();
+      int count = 0;
+      for (int v = from(y, height_px, image.height); v < from(y + 1, height_px, image.height);
+           ++v) {
+        for (int u = from(x, width_px, image.width); u < from(x + 1, width_px, image.width); ++u) {
+          const std::uint8_t* p = image.at(u, v);
+          sum += Light(linear[p[0]], linear[p[1]], linear[p[2]]);
+          ++count;
         }
-        const Eigen::Array3f colour = to_srgb(sum / static_cast<float>(count));
-        for (int c = 0; c < 3; ++c) {
-          small.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
-        }
+      }
+      const Eigen::Array3f colour = to_srgb(sum / static_cast<float>(count));
+      for (int c = 0; c < 3; ++c) {
+        small.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
       }
     }
   });
@@ -199,7 +190,7 @@ Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px) {
   require(image.width <= width_px && image.height <= height_px, "pad ", image.width, " x ",
           image.height, " pixels to ", width_px, " x ", height_px);
   Rgb8Image sheet(width_px, height_px, kBackground);
-  paste(image, sheet, 0, 0);
+  sheet.paste(image, 0, 0);
   return sheet;
 }
 
@@ -216,7 +207,7 @@ Rgb8Image side_by_side(std::span<const Rgb8Image> images) {
   Rgb8Image out(width, images[0].height);
   int left = 0;
   for (const Rgb8Image& image : images) {
-    paste(image, out, left, 0);
+    out.paste(image, left, 0);
     left += image.width;
   }
   return out;

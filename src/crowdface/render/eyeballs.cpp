@@ -2,19 +2,14 @@
 #include "crowdface/render/eyeballs.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
+#include "crowdface/mesh/grouping.h"
 #include "crowdface/render/perpendicular.h"
 
 namespace crowdface {
 namespace {
-
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
-  while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
-  return vertex;
-}
 
 /// 0 well inside `edge`, 1 well outside.
 float beyond(float edge, float x) {
@@ -28,22 +23,20 @@ Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>&
   Eyeballs eyeballs;
   if (std::find(kinds.begin(), kinds.end(), SurfaceKind::kEye) == kinds.end()) return eyeballs;
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  std::vector<std::uint32_t> parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0U);
+  Grouping groups(vertices);
   std::vector<bool> in_eye(vertices, false);
   for (Index f = 0; f < topology.face_count(); ++f) {
     if (kinds[static_cast<std::size_t>(f)] != SurfaceKind::kEye) continue;
     for (const std::uint32_t vertex : topology.face(f)) {
       in_eye[vertex] = true;
-      parent[root_of(parent, vertex)] = root_of(parent, topology.face(f)[0]);
+      groups.join(vertex, topology.face(f)[0]);
     }
   }
   eyeballs.of_vertex.assign(vertices, Eyeballs::kNone);
   for (std::uint32_t i = 0; i < vertices; ++i) {
-    if (in_eye[i] && parent[i] == i) eyeballs.of_vertex[i] = eyeballs.count++;
-  }
-  for (std::uint32_t i = 0; i < vertices; ++i) {
-    if (in_eye[i]) eyeballs.of_vertex[i] = eyeballs.of_vertex[root_of(parent, i)];
+    if (!in_eye[i]) continue;
+    const std::uint32_t first = groups.root(i);
+    eyeballs.of_vertex[i] = first == i ? eyeballs.count++ : eyeballs.of_vertex[first];
   }
   return eyeballs;
 }

@@ -104,12 +104,8 @@ void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
 void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, Index face,
                      std::vector<TexturedQuad>& quads) {
   if (uvs.rows() == 0 || topology.corner_uvs.empty()) return;
-  const auto f = static_cast<std::size_t>(face);
-  const std::span<const std::uint32_t> corners(
-      topology.corner_uvs.data() + topology.face_offsets[f],
-      topology.face_offsets[f + 1] - topology.face_offsets[f]);
   std::vector<Quad> fan;
-  add_fan(corners, fan);
+  add_fan(topology.face_uvs(face), fan);
   for (const Quad& quad : fan) {
     TexturedQuad textured{static_cast<std::uint32_t>(face), {}};
     for (std::size_t c = 0; c < 4; ++c) {
@@ -124,14 +120,6 @@ void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, In
 void check_size(const Topology& topology, const Positions& positions) {
   require(positions.rows() == topology.vertex_count, "render: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
-}
-
-/// Whatever the camera: it turns a tree and makes it larger, but another tree is none the better.
-std::vector<float> unscaled(const Positions& positions) {
-  std::vector<float> points(static_cast<std::size_t>(positions.size()));
-  std::transform(positions.data(), positions.data() + positions.size(), points.begin(),
-                 [](double value) { return static_cast<float>(value); });
-  return points;
 }
 
 void check(const Topology& topology, const RenderOptions& options, const Surfaces& surfaces) {
@@ -167,16 +155,11 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
     prepared_->quad_paints.resize(prepared_->quads.size(),
                                   paint ? std::optional<Light>(from_srgb(*paint)) : std::nullopt);
   }
-  prepared_->scenes.start(prepared_->device, prepared_->quads,
-                          typical == nullptr ? std::vector<float>() : unscaled(*typical));
+  std::vector<float> first;  // whatever the camera: it turns a tree and scales it, no more
+  if (typical != nullptr) first.assign(typical->data(), typical->data() + typical->size());
+  prepared_->scenes.start(prepared_->device, prepared_->quads, std::move(first));
 }
 FaceRenderer::~FaceRenderer() = default;
-FaceRenderer::FaceRenderer(FaceRenderer&&) noexcept = default;
-FaceRenderer& FaceRenderer::operator=(FaceRenderer&&) noexcept = default;
-
-const RenderOptions& FaceRenderer::options() const {
-  return prepared_->options;
-}
 
 Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                                const VertexColours* colours, const TextureCoat* coat) const {

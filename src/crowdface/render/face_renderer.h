@@ -35,8 +35,6 @@ class FaceRenderer {
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
                         const Surfaces& surfaces = {}, const Positions* typical = nullptr);
   ~FaceRenderer();
-  FaceRenderer(FaceRenderer&&) noexcept;
-  FaceRenderer& operator=(FaceRenderer&&) noexcept;
 
   /// \param positions  #V by 3, in the camera's unit. If the whole mesh is wound inside out (as a
   ///                   mirrored one is), it is turned.
@@ -45,8 +43,6 @@ class FaceRenderer {
   /// \throws BrokenPrecondition if a size does not fit, InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
                    const VertexColours* colours = nullptr, const TextureCoat* coat = nullptr) const;
-
-  const RenderOptions& options() const;
 
  private:
   struct Prepared;

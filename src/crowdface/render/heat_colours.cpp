@@ -24,12 +24,6 @@ std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
 }
 
-void paste(const Rgb8Image& from, Rgb8Image& onto, int left, int top) {
-  for (int y = 0; y < from.height; ++y) {
-    std::copy_n(from.at(0, y), 3 * from.width, onto.at(left, top + y));
-  }
-}
-
 }  // namespace
 
 Eigen::Vector3f heat_colour(double share) {
@@ -91,10 +85,10 @@ Rgb8Image heat_scale(double most_mm, const std::string& title, int width_px, int
     const std::string text = concat(format_number(tick), last ? " mm" : "");
     const int middle = left + static_cast<int>(tick / most_mm * bar_width);
     const int from = std::clamp(middle - tick_width / 2, 0, width_px - tick_width);
-    paste(label_strip(text, tick_width, height_px - tick_top, style), image, from, tick_top);
+    image.paste(label_strip(text, tick_width, height_px - tick_top, style), from, tick_top);
   }
   style.align = TextAlign::kLeft;
-  paste(label_strip(title, left - std::max(8, tick_width / 2), height_px, style), image, 0, 0);
+  image.paste(label_strip(title, left - std::max(8, tick_width / 2), height_px, style), 0, 0);
   return image;
 }
 

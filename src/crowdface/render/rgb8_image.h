@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,12 @@ struct Rgb8Image {
   std::uint8_t* at(int x, int y) { return pixels.data() + offset(x, y); }
   const std::uint8_t* at(int x, int y) const { return pixels.data() + offset(x, y); }
   bool operator==(const Rgb8Image&) const = default;
+  /// Puts another image onto this one, which it must not stick out of.
+  void paste(const Rgb8Image& other, int left, int top) {
+    for (int y = 0; y < other.height; ++y) {
+      std::copy_n(other.at(0, y), 3 * other.width, at(left, top + y));
+    }
+  }
 
  private:
   std::size_t offset(int x, int y) const {

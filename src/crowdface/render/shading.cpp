@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -54,8 +55,6 @@ const Studio& studio() {
   return lamps;
 }
 
-constexpr float kPi = 3.14159265358979F;
-
 /// Diffuse light with the terminator moved to a cosine of −wrap: the mean of a linear and a quadratic
 /// fall-off, in all five sixths of Lambert's light whatever the wrap.
 Light wrapped(float cosine, const Light& wrap) {
@@ -76,13 +75,13 @@ float highlight(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye,
   const float alpha = material.roughness * material.roughness;
   const float a2 = alpha * alpha;
   const float spread = n_h * n_h * (a2 - 1) + 1;
-  const float facets = a2 / (kPi * spread * spread);
+  const float facets = a2 / (std::numbers::pi_v<float> * spread * spread);
   const float away = 1 - v_h;
   const float fresnel =
       material.reflectance + (1 - material.reflectance) * away * away * away * away * away;
   const float shadowing = n_l + std::sqrt(a2 + (1 - a2) * n_l * n_l);
   const float masking = n_v + std::sqrt(a2 + (1 - a2) * n_v * n_v);
-  return n_l * facets * fresnel / (shadowing * masking) * kPi;
+  return n_l * facets * fresnel / (shadowing * masking) * std::numbers::pi_v<float>;
 }
 
 /// Light that bounces inside a crevice is not lost: it comes out in the surface's colour (fit by

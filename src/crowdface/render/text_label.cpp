@@ -8,26 +8,21 @@
 #include <OpenImageIO/imagebufalgo.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/utf8.h"
 
 namespace crowdface {
 namespace {
 
 constexpr const char* kFont = "DejaVuSans";
 
-/// The character that begins at `at`, which moves behind it; 0xFFFD for a byte that begins none.
-char32_t next_character(std::string_view text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const unsigned lead = byte(at++);
-  if (lead < 0x80) return lead;
-  const std::size_t more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC2 ? 1 : 0;
-  char32_t code = more == 0 ? 0xFFFD : lead & (0x3FU >> more);
-  for (std::size_t k = 0; k < more; ++k) {
-    if ((byte(at + k) & 0xC0U) != 0x80) return 0xFFFD;
-    code = code << 6U | (byte(at + k) & 0x3FU);
+/// The number of a character of these bytes; 0xFFFD of a byte that is none.
+char32_t code_of(std::string_view character, std::size_t length) {
+  if (length == 0) return 0xFFFD;
+  const auto lead = static_cast<unsigned char>(character[0]);
+  char32_t code = length == 1 ? lead : lead & (0x7FU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    code = code << 6U | (static_cast<unsigned char>(character[i]) & 0x3FU);
   }
-  at += more;
   return code;
 }
 
@@ -38,8 +33,10 @@ std::string drawable(std::string_view text) {
   constexpr std::string_view kPlain =
       "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYTsaaaaaaaceeeeiiiidnooooo/ouuuuyty";
   std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const char32_t code = next_character(text, at);
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const char32_t code = code_of(text, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
     if (code < 0x20 || code == 0x7F || code == 0xA0) {
       out += ' ';
     } else if (code < 0x7F) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/perpendicular.h"
 #include "crowdface/render/shading.h"
@@ -18,17 +19,6 @@ constexpr std::array<std::array<float, 3>, 6> kPalette = {{{0.84F, 0.37F, 0.00F}
                                                            {0.80F, 0.47F, 0.65F},
                                                            {0.90F, 0.62F, 0.00F},
                                                            {0.34F, 0.71F, 0.91F}}};
-
-Eigen::Vector3f gaze_of(Axis front) {
-  return static_cast<float>(front.sign) * Eigen::Vector3f::Unit(front.index);
-}
-
-std::vector<float> in_single(const Positions& positions) {
-  std::vector<float> points(static_cast<std::size_t>(positions.size()));
-  std::transform(positions.data(), positions.data() + positions.size(), points.begin(),
-                 [](double value) { return static_cast<float>(value); });
-  return points;
-}
 
 bool is_painted(const Surfaces& surfaces, Eigen::Index face) {
   return !surfaces.paints.empty() && surfaces.paints[static_cast<std::size_t>(face)];
@@ -57,8 +47,8 @@ VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces
   VertexColours colours = paint(albedo_of(SurfaceKind::kSkin)).replicate(positions.rows(), 1);
   const std::vector<SurfaceKind>& kinds = surfaces.kinds;
   if (kinds.empty()) return colours;
-  const Eigen::Vector3f gaze = gaze_of(front);
-  const std::vector<float> points = in_single(positions);
+  const Eigen::Vector3f gaze = unit_vector(front).cast<float>();
+  const std::vector<float> points(positions.data(), positions.data() + positions.size());
   const Eyeballs eyeballs = find_eyeballs(topology, kinds);
   const std::vector<PlacedEye> eyes = place_eyes(eyeballs, points, gaze);
   for (Eigen::Index f = 0; f < topology.face_count(); ++f) {
@@ -85,9 +75,10 @@ std::optional<EyeCoordinates> eye_coordinates(const Topology& topology, const Su
                                               const Positions& positions, Axis front) {
   const Eyeballs eyeballs = find_eyeballs(topology, surfaces.kinds);
   if (eyeballs.count == 0) return std::nullopt;
-  const Eigen::Vector3f gaze = gaze_of(front);
+  const Eigen::Vector3f gaze = unit_vector(front).cast<float>();
   const auto [across, along] = perpendicular(gaze);
-  const std::vector<PlacedEye> eyes = place_eyes(eyeballs, in_single(positions), gaze);
+  const std::vector<PlacedEye> eyes =
+      place_eyes(eyeballs, {positions.data(), positions.data() + positions.size()}, gaze);
   EyeCoordinates coordinates(positions.rows(), 3);
   coordinates.rowwise() = Eigen::RowVector3f(0, 0, kNoEye);
   bool any = false;

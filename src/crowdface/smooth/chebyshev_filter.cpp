@@ -190,7 +190,6 @@ std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const Filte
     terms = std::max(terms, recurrences.back().terms());
   }
   std::optional<ProbeRows> probe_rows;
-  const auto tiles = static_cast<std::ptrdiff_t>(tiling_.tiles.size());
   if (probes != nullptr) {
     probe_rows.emplace(tiling_, *probes);
     probes->values.resize(recurrences.front().terms(),
@@ -201,14 +200,14 @@ std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const Filte
   }
   for (Index k = 0; k == 0 || k + 1 < terms; k += kStepsARound) {
     throw_if_interrupted();
-    parallel_for_each(tiles, [&](std::ptrdiff_t t) {
-      const Tile& tile = tiling_.tiles[static_cast<std::size_t>(t)];
+    parallel_for_each(tiling_.tiles.size(), [&](std::size_t t) {
+      const Tile& tile = tiling_.tiles[t];
       for (Recurrence<T>& recurrence : recurrences) {
         if (k == 0) recurrence.begin(tile);
         if (k + 1 >= recurrence.terms()) continue;
         const bool probed = probe_rows && &recurrence == &recurrences.front();
         recurrence.round(tile, k, [&](Index term, const Row<T>* rows) {
-          if (probed) probe_rows->take(static_cast<std::size_t>(t), term, rows);
+          if (probed) probe_rows->take(t, term, rows);
         });
       }
     });
@@ -235,22 +234,6 @@ std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Position
     results.push_back(positions_of(filter, rows));
   }
   return results;
-}
-
-Columns filter_each(const ChebyshevFilter& filter, const Columns& x,
-                    const std::vector<ChebyshevSeries>& series) {
-  require(x.cols() == 3 * static_cast<Index>(series.size()), "smooth: ", x.cols(), " columns of ",
-          series.size(), " heads");
-  std::vector<FilterInput<double>> inputs;
-  for (std::size_t g = 0; g < series.size(); ++g) {
-    inputs.push_back({filter.rows_of<double>(x, static_cast<Index>(g)), {series[g]}});
-  }
-  const auto results = filter.run<double>(inputs);
-  Columns result(x.rows(), x.cols());
-  for (std::size_t g = 0; g < series.size(); ++g) {
-    result.middleCols(3 * static_cast<Index>(g), 3) = positions_of(filter, results[g][0]);
-  }
-  return result;
 }
 
 Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level) {

@@ -68,13 +68,6 @@ class ChebyshevFilter {
 std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
                                    std::vector<ChebyshevSeries> series);
 
-/// One polynomial for each head that stands in the columns: columns 3g, 3g + 1, 3g + 2 are filtered
-/// by series[g], all in one pass over the mesh.
-/// \param x  #V by 3·series.size()
-/// \throws BrokenPrecondition if rows or columns are of another number.
-Columns filter_each(const ChebyshevFilter& filter, const Columns& x,
-                    const std::vector<ChebyshevSeries>& series);
-
 /// S_L x: positions after `level` iterations (Eq. 1), in O(√level) products. Differs from `iterate`
 /// by less than 10⁻⁸ of the head's size.
 Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level);

@@ -7,11 +7,6 @@
 
 namespace crowdface {
 
-std::vector<std::uint64_t> cubic_fit_levels(std::uint64_t max_level) {
-  constexpr int kSteps = 40;
-  return levels_dense_at_start(max_level, kSteps);
-}
-
 std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64_t max_level) {
   const double t = static_cast<double>(level) / static_cast<double>(max_level);
   return {1, t, t * t, t * t * t};
@@ -19,7 +14,7 @@ std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64
 
 CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
                    std::uint64_t max_level) {
-  const std::vector<std::uint64_t> levels = cubic_fit_levels(max_level);
+  const std::vector<std::uint64_t> levels = levels_dense_at_start(max_level, kCubicFitSteps);
   const auto count = static_cast<Index>(levels.size());
   Eigen::MatrixXd design(count, CubicFit::kRank);
   for (Index l = 0; l < count; ++l) {
@@ -45,18 +40,6 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
   for (const Positions& field : filter_many(filter, positions, std::move(combined))) {
     for (Index i = 0; i < field.size(); ++i) {
       result.fields.push_back(static_cast<float>(field.data()[i]));
-    }
-  }
-  return result;
-}
-
-Positions evaluate(const CubicFit& fit, const Positions& positions, std::uint64_t level) {
-  const auto basis = cubic_basis(level, fit.max_level);
-  Positions result = positions;
-  const float* field = fit.fields.data();
-  for (std::size_t p = 0; p < CubicFit::kRank; ++p, field += result.size()) {
-    for (Index i = 0; i < result.size(); ++i) {
-      result.data()[i] += basis[p] * static_cast<double>(field[i]);
     }
   }
   return result;

@@ -18,9 +18,8 @@ struct CubicFit {
   std::vector<float> fields;  ///< kRank times #V by 3, in the positions' unit: all of c_0, …
 };
 
-/// The levels the fit uses: round(L_max·(j/40)²) for j = 0 … 40, each once: dense at the start,
-/// where fine detail goes, as the paper has it.
-std::vector<std::uint64_t> cubic_fit_levels(std::uint64_t max_level);
+/// The fit uses the levels_dense_at_start of so many steps, as the paper has it.
+inline constexpr int kCubicFitSteps = 40;
 
 /// Fits one head. The levels are combined while the recurrence runs; none is stored.
 CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
@@ -28,8 +27,5 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
 
 /// φ_0 … φ_3 at a level: 1, t, t², t³.
 std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64_t max_level);
-
-/// S̃_L x, the approximated level of the head the fit was made from.
-Positions evaluate(const CubicFit& fit, const Positions& positions, std::uint64_t level);
 
 }  // namespace crowdface

@@ -12,15 +12,13 @@ Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::
   // On purpose the plainest code: what the fast filter is compared with.
   Columns now = values, next(values.rows(), values.cols());
   for (std::uint64_t l = 0; l < level; ++l) {
-    parallel_blocks(values.rows(), kRowBlock, [&](Index begin, Index end) {
-      for (Index i = begin; i < end; ++i) {
-        const auto ring = smoothing.neighbours(i);
-        for (Index c = 0; c < values.cols(); ++c) {
-          double mean = 0;
-          for (const std::uint32_t n : ring) mean += now(n, c);
-          mean = ring.empty() ? now(i, c) : mean / static_cast<double>(ring.size());  // Eq. 1
-          next(i, c) = smoothing.kind() == OperatorKind::kLazy ? 0.5 * (now(i, c) + mean) : mean;
-        }
+    parallel_for_each(values.rows(), kRowBlock, [&](Index i) {
+      const auto ring = smoothing.neighbours(i);
+      for (Index c = 0; c < values.cols(); ++c) {
+        double mean = 0;
+        for (const std::uint32_t n : ring) mean += now(n, c);
+        mean = ring.empty() ? now(i, c) : mean / static_cast<double>(ring.size());  // Eq. 1
+        next(i, c) = smoothing.kind() == OperatorKind::kLazy ? 0.5 * (now(i, c) + mean) : mean;
       }
     });
     now.swap(next);

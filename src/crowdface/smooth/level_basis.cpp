@@ -279,20 +279,4 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
                             " with ", nodes.levels().size(), " fields"));
 }
 
-Positions evaluate(const LevelBasis& basis, const LevelNodes& nodes, const Positions& positions,
-                   std::uint64_t level) {
-  const std::vector<double> functions = basis_functions(nodes, basis.mixing, level);
-  Positions result = positions;
-  for (Index p = 0; p < basis.rank(); ++p) {
-    const std::span<const float> field = basis.field(p);
-    for (Index i = 0; i < result.rows(); ++i) {
-      for (Index c = 0; c < 3; ++c) {
-        result(i, c) += functions[static_cast<std::size_t>(p)] *
-                        static_cast<double>(field[static_cast<std::size_t>(3 * i + c)]);
-      }
-    }
-  }
-  return result;
-}
-
 }  // namespace crowdface

@@ -58,8 +58,4 @@ NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
                            const NodeFields& fields, double tolerance);
 
-/// S̃_L x of the head the basis was fitted to.
-Positions evaluate(const LevelBasis& basis, const LevelNodes& nodes, const Positions& positions,
-                   std::uint64_t level);
-
 }  // namespace crowdface

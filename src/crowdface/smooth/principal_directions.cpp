@@ -165,7 +165,7 @@ Index least_rank(const Eigen::MatrixXd& missed, double tolerance) {
 
 }  // namespace
 
-std::vector<std::uint64_t> tested_levels(const LevelNodes& nodes) {
+TestedLevels test_levels(const LevelNodes& nodes) {
   constexpr int kSteps = 128;
   std::vector<std::uint64_t> levels = nodes.levels();
   for (const std::uint64_t level : levels_dense_at_start(nodes.max_level(), kSteps)) {
@@ -174,11 +174,7 @@ std::vector<std::uint64_t> tested_levels(const LevelNodes& nodes) {
   }
   std::sort(levels.begin(), levels.end());
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-  return levels;
-}
-
-TestedLevels test_levels(const LevelNodes& nodes) {
-  TestedLevels tested{tested_levels(nodes), {}};
+  TestedLevels tested{std::move(levels), {}};
   const auto count = static_cast<Index>(nodes.levels().size());
   tested.weights.resize(static_cast<Index>(tested.levels.size()), count);
   for (std::size_t l = 0; l < tested.levels.size(); ++l) {

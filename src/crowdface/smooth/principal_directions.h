@@ -8,11 +8,8 @@
 
 namespace crowdface {
 
-/// The levels at which a basis is tested: 129 evenly spaced in √L, each one's successor, so that
-/// both parities are seen, and the nodes.
-std::vector<std::uint64_t> tested_levels(const LevelNodes& nodes);
-
-/// The weights of the nodes at the tested levels.
+/// The levels at which a basis is tested (129 evenly spaced in √L, each one's successor, so that
+/// both parities are seen, and the nodes), and the weights of the nodes there.
 struct TestedLevels {
   std::vector<std::uint64_t> levels;
   Eigen::MatrixXd weights;  ///< #levels by #nodes

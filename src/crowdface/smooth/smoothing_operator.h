@@ -25,20 +25,15 @@ class SmoothingOperator {
  public:
   SmoothingOperator(const Adjacency& adjacency, Boundary boundary, OperatorKind kind);
 
-  Index vertex_count() const { return static_cast<Index>(offsets_.size()) - 1; }
+  Index vertex_count() const { return static_cast<Index>(neighbours_.group_count()); }
   OperatorKind kind() const { return kind_; }
 
   /// Neighbours of vertex i, ascending; empty if it does not move.
-  std::span<const std::uint32_t> neighbours(Index i) const {
-    const auto begin = offsets_[static_cast<std::size_t>(i)];
-    const auto end = offsets_[static_cast<std::size_t>(i) + 1];
-    return {neighbours_.data() + begin, end - begin};
-  }
+  std::span<const std::uint32_t> neighbours(Index i) const { return neighbours_.of(i); }
 
  private:
   OperatorKind kind_;
-  std::vector<std::uint32_t> offsets_;  ///< #V + 1
-  std::vector<std::uint32_t> neighbours_;
+  Grouped<std::uint32_t> neighbours_;  ///< of each vertex
 };
 
 }  // namespace crowdface

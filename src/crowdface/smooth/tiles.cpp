@@ -48,15 +48,13 @@ std::vector<std::uint32_t> order_along_curve(const Positions& positions) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places(
       static_cast<std::size_t>(positions.rows()));
   constexpr Index kBlock = 1 << 16;
-  parallel_blocks(positions.rows(), kBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      std::array<std::uint32_t, 3> cell{};
-      for (Index c = 0; c < 3; ++c) {
-        cell[static_cast<std::size_t>(c)] =
-            static_cast<std::uint32_t>((positions(i, c) - low(c)) * scale);
-      }
-      places[static_cast<std::size_t>(i)] = {hilbert_index(cell), static_cast<std::uint32_t>(i)};
+  parallel_for_each(positions.rows(), kBlock, [&](Index i) {
+    std::array<std::uint32_t, 3> cell{};
+    for (Index c = 0; c < 3; ++c) {
+      cell[static_cast<std::size_t>(c)] =
+          static_cast<std::uint32_t>((positions(i, c) - low(c)) * scale);
     }
+    places[static_cast<std::size_t>(i)] = {hilbert_index(cell), static_cast<std::uint32_t>(i)};
   });
   std::sort(places.begin(), places.end());
   std::vector<std::uint32_t> order(places.size());
@@ -117,7 +115,7 @@ class TileBuilder {
   }
 
  private:
-  static constexpr std::uint32_t kNowhere = 0xffffffffU;
+  static constexpr std::uint32_t kNowhere = kNoIndex;
   static constexpr std::uint32_t kFound = 0xfffffffeU;
 
   std::size_t valence(std::uint32_t vertex) const { return smoothing_.neighbours(vertex).size(); }

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "crowdface/core/random.h"
-#include "crowdface/synth/smooth_step.h"
+#include "crowdface/core/smooth_step.h"
 
 namespace crowdface::synth {
 namespace {

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/synth/guide.h"
 #include "crowdface/synth/sculpture.h"
-#include "crowdface/synth/smooth_step.h"
 #include "crowdface/synth/unwrap.h"
 
 namespace crowdface::synth {

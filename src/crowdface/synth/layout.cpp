@@ -2,6 +2,7 @@
 #include "crowdface/synth/layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -65,12 +66,8 @@ class Sewing {
   }
   Corner add(const Address& address) { return {add_vertex(address), add_uv(address)}; }
   void add_quad(Corner a, Corner b, Corner c, Corner d) {
-    for (const Corner& corner : {a, b, c, d}) {
-      layout_.topology.corner_vertices.push_back(corner.vertex);
-      layout_.topology.corner_uvs.push_back(corner.uv);
-    }
-    layout_.topology.face_offsets.push_back(
-        static_cast<std::uint32_t>(layout_.topology.corner_vertices.size()));
+    layout_.topology.add_face(std::array{a.vertex, b.vertex, c.vertex, d.vertex},
+                              std::array{a.uv, b.uv, c.uv, d.uv});
   }
 
   struct Span {
@@ -235,10 +232,6 @@ class Sewing {
 };
 
 }  // namespace
-
-Index nearest_vertex_count(Index vertices) {
-  return nearest_counts(vertices).vertices();
-}
 
 Layout make_layout(Index vertices) {
   return Sewing(nearest_counts(vertices)).sew();

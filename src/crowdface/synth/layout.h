@@ -14,9 +14,6 @@ struct Layout {
   std::vector<Address> addresses;  ///< #V
 };
 
-/// Vertices that `make_layout` would give nearest to this number.
-Index nearest_vertex_count(Index vertices);
-
 /// The quads of a head with nearly this number of vertices. Left and right have the same count.
 Layout make_layout(Index vertices);
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/synth/ear.h"
 #include "crowdface/synth/guide.h"
 #include "crowdface/synth/sculpture.h"
-#include "crowdface/synth/smooth_step.h"
 #include "crowdface/synth/unwrap.h"
 
 namespace crowdface::synth {
@@ -132,10 +132,6 @@ SkinPoint right_side(const Address& address) {
       return ring_skin(address);
   }
 }
-
-}  // namespace
-
-namespace {
 
 SkinPoint on_its_side(SkinPoint point, const Address& address) {
   if (address.side < 0) {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "crowdface/core/random.h"
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/core/text.h"
-#include "crowdface/synth/smooth_step.h"
 
 namespace crowdface::synth {
 namespace {
@@ -111,28 +111,21 @@ Relief::Relief(const Identity& identity, double edge_cm)
 
 void Relief::add_stroke(std::size_t which, double side, double depth) {
   const Fold& fold = fold_list()[which];
-  Stroke stroke{{}, fold.width, depth, fold.bulge * side, {0, 0}, {0, 0}};
+  Stroke stroke{{}, fold.width, depth, fold.bulge * side, {}};
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;
     Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
     p.x() *= side;
     stroke.points[static_cast<std::size_t>(i)] = p;
   }
-  stroke.low = stroke.high = stroke.points[0];
-  for (const Vector2d& p : stroke.points) {
-    stroke.low = stroke.low.cwiseMin(p);
-    stroke.high = stroke.high.cwiseMax(p);
-  }
-  const double reach = 3 * fold.width;
-  stroke.low.array() -= reach;
-  stroke.high.array() += reach;
+  for (const Vector2d& p : stroke.points) stroke.reach.extend(p);
+  stroke.reach.min().array() -= 3 * fold.width;
+  stroke.reach.max().array() += 3 * fold.width;
   strokes_.push_back(stroke);
 }
 
 double Relief::press(const Stroke& stroke, const Vector2d& place) {
-  if ((place.array() < stroke.low.array()).any() || (place.array() > stroke.high.array()).any()) {
-    return 0;
-  }
+  if (!stroke.reach.contains(place)) return 0;
   double nearest = 1e30, along = 0, side = 1;
   for (std::size_t i = 0; i < Stroke::kPieces; ++i) {
     const Vector2d a = stroke.points[i], ab = stroke.points[i + 1] - a, ap = place - a;

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "crowdface/synth/identity.h"
 #include "crowdface/synth/mean_head.h"
@@ -31,7 +31,7 @@ class Relief {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    Eigen::Vector2d low, high;  ///< where it has any effect
+    Eigen::AlignedBox2d reach;  ///< where it has any effect
   };
   double grain(const Eigen::Vector3d& position) const;
   static double press(const Stroke& stroke, const Eigen::Vector2d& place);

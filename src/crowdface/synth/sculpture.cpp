@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/synth/smooth_step.h"
+#include "crowdface/core/smooth_step.h"
 
 namespace crowdface::synth {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "crowdface/synth/smooth_step.h"
+#include "crowdface/core/smooth_step.h"
 
 namespace crowdface::synth {
 namespace {

@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 constexpr Index kFewest = 5000, kMost = 1200000;
-constexpr std::ptrdiff_t kBlock = 1024;
+constexpr std::size_t kBlock = 1024;
 
 }  // namespace
 
@@ -46,19 +46,15 @@ SyntheticHeads::SyntheticHeads(Index vertices, Parts parts) : state_(std::make_u
   state_->addresses = std::move(layout.addresses);
   const std::size_t n = state_->addresses.size();
   state_->mean.resize(n);
-  parallel_blocks(static_cast<std::ptrdiff_t>(n), kBlock, [&](auto begin, auto end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      state_->mean[i] = state_->loose ? synth::mean_skin_with_sockets(state_->addresses[i])
-                                      : synth::mean_skin(state_->addresses[i]);
-    }
+  parallel_for_each(n, kBlock, [&](std::size_t i) {
+    state_->mean[i] = state_->loose ? synth::mean_skin_with_sockets(state_->addresses[i])
+                                    : synth::mean_skin(state_->addresses[i]);
   });
   state_->edge_cm = edge_of(static_cast<Index>(n));
   if (state_->loose) state_->loose->append_to(state_->topology, state_->uvs);
 }
 
 SyntheticHeads::~SyntheticHeads() = default;
-SyntheticHeads::SyntheticHeads(SyntheticHeads&&) noexcept = default;
-SyntheticHeads& SyntheticHeads::operator=(SyntheticHeads&&) noexcept = default;
 
 std::vector<SyntheticHeads::Piece> SyntheticHeads::pieces() const {
   std::vector<Piece> pieces = {{"skin", 0}};
@@ -86,16 +82,14 @@ Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) con
   const synth::Identity identity(seed, index);
   const synth::Relief relief(identity, state_->edge_cm);
   Positions out(state_->topology.vertex_count, 3);
-  const auto skin = static_cast<std::ptrdiff_t>(state_->mean.size());
-  parallel_blocks(skin, kBlock, [&](auto begin, auto end) {
-    for (auto i = begin; i < end; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const synth::SkinPoint& mean = state_->mean[k];
-      const Eigen::Vector3d fine = mean.position + relief.height(mean) * mean.normal;
-      out.row(i) = identity.deform(fine).transpose();
-    }
+  parallel_for_each(state_->mean.size(), kBlock, [&](std::size_t i) {
+    const synth::SkinPoint& mean = state_->mean[i];
+    const Eigen::Vector3d fine = mean.position + relief.height(mean) * mean.normal;
+    out.row(static_cast<Index>(i)) = identity.deform(fine).transpose();
   });
-  if (state_->loose) out.bottomRows(out.rows() - skin) = state_->loose->positions(identity);
+  if (state_->loose) {
+    out.bottomRows(state_->loose->vertex_count()) = state_->loose->positions(identity);
+  }
   return out;
 }
 

@@ -23,8 +23,6 @@ class SyntheticHeads {
   /// \throws BrokenPrecondition outside that range.
   explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin);
   ~SyntheticHeads();
-  SyntheticHeads(SyntheticHeads&&) noexcept;
-  SyntheticHeads& operator=(SyntheticHeads&&) noexcept;
 
   /// A component's name and the first of its faces, ascending.
   struct Piece {

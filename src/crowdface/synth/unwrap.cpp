@@ -71,6 +71,15 @@ Eigen::Vector2d in_window(const Address& address) {
   return edge + (round.cwiseProduct(opening.hole) - edge) * (address.b - 1);
 }
 
+/// A place in a window's square, −1 … 1 each way.
+Eigen::RowVector2d unwrap_window(Sheet sheet, double side, const Eigen::Vector2d& q) {
+  const Window& w = window_of(sheet);
+  const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
+  const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
+  return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
+                (y0 + y1) / 2 - (y1 - y0) / 2 * q.y());
+}
+
 }  // namespace
 
 Eigen::Vector2d on_square(double around) {
@@ -83,19 +92,6 @@ Eigen::Vector2d on_square(double around) {
 double strip_v(double unit) {
   return scaled(0, down(unit)).y();
 }
-
-namespace {
-
-/// A place in a window's square, −1 … 1 each way.
-Eigen::RowVector2d unwrap_window(Sheet sheet, double side, const Eigen::Vector2d& q) {
-  const Window& w = window_of(sheet);
-  const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
-  const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
-  return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
-                (y0 + y1) / 2 - (y1 - y0) / 2 * q.y());
-}
-
-}  // namespace
 
 Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place) {
   return unwrap_window(sheet, side, place.cwiseProduct(opening_of(sheet).hole));

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
 using Vector = Eigen::Vector3d;
-
-Vector at(const Positions& positions, std::uint32_t vertex) {
-  return positions.row(vertex).transpose();
-}
 
 /// Where triangle `t`, whose corners have these distances from the other's plane, meets the line
 /// that both planes share, along `axis`. False if it does not cross the plane.
@@ -42,24 +39,11 @@ bool interval_on_line(const std::array<Vector, 3>& t, const std::array<double, 3
 
 }  // namespace
 
-std::vector<Triangle> triangles_of(const Topology& topology, const Components& components,
-                                   std::uint32_t component) {
-  std::vector<Triangle> triangles;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto face = topology.face(f);
-    if (face.empty() || components.of_vertex[face[0]] != component) continue;
-    for (std::size_t c = 2; c < face.size(); ++c) {
-      triangles.push_back({face[0], face[c - 1], face[c]});
-    }
-  }
-  return triangles;
-}
-
 TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target) {
   constexpr double kSliver = 1e-4;
   for (const Triangle& t : triangles) {
-    const Vector u = at(target, t[1]) - at(target, t[0]);
-    const Vector v = at(target, t[2]) - at(target, t[0]);
+    const Vector u = row3(target, t[1]) - row3(target, t[0]);
+    const Vector v = row3(target, t[2]) - row3(target, t[0]);
     const Vector normal = cross3(u, v);
     if (!(dot3(normal, normal) > kSliver * kSliver * dot3(u, u) * dot3(v, v))) continue;
     const double length = std::sqrt(dot3(u, u));
@@ -74,9 +58,9 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
   std::vector<double> stretches;
   stretches.reserve(frames_.size());
   for (const Frame& frame : frames_) {
-    const Vector origin = at(positions, frame.corners[0]);
-    const Vector u = at(positions, frame.corners[1]) - origin;
-    const Vector v = at(positions, frame.corners[2]) - origin;
+    const Vector origin = row3(positions, frame.corners[0]);
+    const Vector u = row3(positions, frame.corners[1]) - origin;
+    const Vector v = row3(positions, frame.corners[2]) - origin;
     const Vector normal = cross3(u, v);
     const bool turned = dot3(normal, frame.normal) < 0;
     const bool collapsed =
@@ -90,10 +74,9 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
   }
   defects.compared = static_cast<Index>(stretches.size());
   if (!stretches.empty()) {
-    const auto at = stretches.begin() + static_cast<std::ptrdiff_t>(
-                                            kPercentile * static_cast<double>(stretches.size()));
-    std::nth_element(stretches.begin(), at, stretches.end());
-    defects.stretch = std::sqrt(*at);
+    const double count = static_cast<double>(stretches.size());
+    const auto rank = static_cast<std::size_t>(kPercentile * count);
+    defects.stretch = std::sqrt(value_of_rank(std::move(stretches), rank));
   }
   return defects;
 }
@@ -101,8 +84,8 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
 bool triangles_intersect(const Positions& positions, const Triangle& a, const Triangle& b) {
   std::array<Vector, 3> p, q;
   for (std::size_t c = 0; c < 3; ++c) {
-    p[c] = at(positions, a[c]);
-    q[c] = at(positions, b[c]);
+    p[c] = row3(positions, a[c]);
+    q[c] = row3(positions, b[c]);
   }
   const Vector n = cross3(p[1] - p[0], p[2] - p[0]);
   std::array<double, 3> q_side;

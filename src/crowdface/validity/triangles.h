@@ -5,16 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
-
-/// Three vertices.
-using Triangle = std::array<std::uint32_t, 3>;
-
-/// The faces of one component, each cut into triangles from its first corner.
-std::vector<Triangle> triangles_of(const Topology& topology, const Components& components,
-                                   std::uint32_t component);
 
 /// What a map from one mesh to another does to single triangles.
 struct LocalDefects {

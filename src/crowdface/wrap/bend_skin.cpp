@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include <Eigen/Cholesky>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/wrap/elastic_solve.h"
@@ -44,9 +44,7 @@ double spread_of(const std::vector<Pull>& pulls, double least) {
     if (pull.found) distances.push_back(std::abs(dot3(pull.normal, pull.offset)));
   }
   if (distances.empty()) return least;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::max(least, 4.5 * *middle);
+  return std::max(least, 4.5 * value_of_rank(distances, distances.size() / 2));
 }
 
 /// Everything that stays the same while one skin is bent onto one scan.
@@ -65,8 +63,7 @@ class Bending {
         coefficients_(Eigen::VectorXd::Zero(static_cast<Index>(model.modes.size()))),
         areas_(vertex_areas(skin.triangles, base)),
         laplacian_(laplacian(skin.triangles, base)),
-        scan_areas_(vertex_areas(scan.scan().triangles, scan.scan().positions)),
-        skin_rim_(rim_vertices(skin.triangles, base.rows())) {
+        scan_areas_(vertex_areas(scan.scan().triangles, scan.scan().positions)) {
     visible_.resize(skin.openness.size());
     for (std::size_t v = 0; v < visible_.size(); ++v) {
       visible_[v] = std::clamp(
@@ -95,32 +92,20 @@ class Bending {
  private:
   void choose_scan_points() {
     std::vector<std::uint32_t> inside;
-    std::vector<bool> used(static_cast<std::size_t>(scan_.scan().positions.rows()), false);
-    for (const Triangle& t : scan_.scan().triangles) {
-      for (const std::uint32_t v : t) used[v] = true;
-    }
+    const std::vector<bool> used = used_vertices(scan_.scan());
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       if (used[v] && !scan_.rim()[v]) inside.push_back(v);
     }
-    const std::size_t count = std::min(inside.size(), kMostScanPoints);
-    for (std::size_t i = 0; i < count; ++i) {
-      scan_points_.push_back(inside[i * inside.size() / count]);
-    }
-    scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / static_cast<double>(count);
+    scan_points_ = some_of(inside, kMostScanPoints);
+    const auto count = static_cast<double>(scan_points_.size());
+    scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / count;
   }
 
   /// The rims where the skin and the scan end, not those of holes.
   void choose_rims() {
     const auto ends = long_rims(scan_.scan().triangles, scan_.scan().positions, kEndMm);
     if (ends.empty()) return;
-    Positions points(static_cast<Index>(ends.size()), 3);
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      points.row(static_cast<Index>(i)) = scan_.scan().positions.row(ends[i]);
-    }
-    scan_end_ = std::move(points);
-    std::vector<std::uint32_t> all(ends.size());
-    std::iota(all.begin(), all.end(), 0U);
-    scan_end_grid_.emplace(scan_end_, all);
+    scan_end_grid_.emplace(scan_.scan().positions, ends);
     for (const std::uint32_t v : long_rims(skin_.triangles, base_, kEndMm)) {
       if (visible_[v] > 0) skin_end_.push_back(v);
     }
@@ -130,12 +115,11 @@ class Bending {
   void ask_rims(const Positions& current, double reach, Wishes& wishes) const {
     if (!scan_end_grid_) return;
     for (const std::uint32_t v : skin_end_) {
-      const Eigen::Vector3d point = current.row(v).transpose();
+      const Eigen::Vector3d point = row3(current, v);
       const auto nearest = scan_end_grid_->nearest(point, reach);
       if (nearest.vertex == kNoIndex) continue;
-      wishes.add(
-          v, Eigen::Vector3d::UnitX(), 0, areas_(v),
-          scan_end_.row(nearest.vertex).transpose() - point + displacements_.row(v).transpose());
+      wishes.add(v, Eigen::Vector3d::UnitX(), 0, areas_(v),
+                 row3(scan_.scan().positions, nearest.vertex) - point + row3(displacements_, v));
     }
   }
 
@@ -169,17 +153,14 @@ class Bending {
 
   /// What the scan nearest to each vertex asks of it.
   void ask_scan(const Positions& current, double reach, double tangential, Wishes& wishes) const {
-    const Positions normals = skin_normals(skin_, current);
+    const Positions normals = vertex_normals(skin_.triangles, current);
     std::vector<Pull> pulls(visible_.size());
-    parallel_blocks(current.rows(), 128, [&](auto begin, auto end) {
-      for (auto v = begin; v < end; ++v) {
-        Pull& pull = pulls[static_cast<std::size_t>(v)];
-        const double seen = visible_[static_cast<std::size_t>(v)];
-        if (seen == 0) continue;
-        const Eigen::Vector3d point = current.row(v).transpose();
-        const auto place = scan_.nearest(point, normals.row(v).transpose(), kLeastCosine, reach);
-        if (place.found) pull = {true, place.normal, place.point - point, areas_(v) * seen};
-      }
+    parallel_for_each(static_cast<std::uint32_t>(pulls.size()), 128, [&](std::uint32_t v) {
+      const double seen = visible_[v];
+      if (seen == 0) return;
+      const Eigen::Vector3d point = row3(current, v);
+      const auto place = scan_.nearest(point, row3(normals, v), kLeastCosine, reach);
+      if (place.found) pulls[v] = {true, place.normal, place.point - point, areas_(v) * seen};
     });
     const double spread = spread_of(pulls, kLeastSpread * reach);
     for (std::uint32_t v = 0; v < pulls.size(); ++v) {
@@ -187,7 +168,7 @@ class Bending {
       if (!pull.found) continue;
       const double weight = pull.weight * robust(length3(pull.offset), spread);
       wishes.add(v, pull.normal, weight * (1 - tangential), weight * tangential,
-                 pull.offset + displacements_.row(v).transpose());
+                 pull.offset + row3(displacements_, v));
     }
   }
 
@@ -196,17 +177,14 @@ class Bending {
     const SurfaceTree tree(current, skin_.triangles);
     std::vector<Pull> pulls(scan_points_.size());
     std::vector<SurfaceHit> hits(scan_points_.size());
-    parallel_blocks(static_cast<std::ptrdiff_t>(pulls.size()), 128, [&](auto begin, auto end) {
-      for (auto i = begin; i < end; ++i) {
-        const std::uint32_t s = scan_points_[static_cast<std::size_t>(i)];
-        const Eigen::Vector3d point = scan_.scan().positions.row(s).transpose();
-        const Eigen::Vector3d normal = scan_.normals().row(s).transpose();
-        SurfaceHit& hit = hits[static_cast<std::size_t>(i)];
-        hit = tree.nearest_facing(point, normal, kLeastCosine, reach);
-        if (hit.triangle == kNoIndex || at_rim(hit)) continue;
-        pulls[static_cast<std::size_t>(i)] = {true, normal, point - hit.point,
-                                              options_.backward * scan_weight_ * scan_areas_(s)};
-      }
+    parallel_for_each(pulls.size(), 128, [&](std::size_t i) {
+      const std::uint32_t s = scan_points_[i];
+      const Eigen::Vector3d point = row3(scan_.scan().positions, s);
+      const Eigen::Vector3d normal = row3(scan_.normals(), s);
+      const SurfaceHit hit = hits[i] = tree.nearest_facing(point, normal, kLeastCosine, reach);
+      if (hit.triangle == kNoIndex || at_rim(hit)) return;
+      pulls[i] = {true, normal, point - hit.point,
+                  options_.backward * scan_weight_ * scan_areas_(s)};
     });
     const double spread = spread_of(pulls, kLeastSpread * reach);
     for (std::size_t i = 0; i < pulls.size(); ++i) {
@@ -218,14 +196,15 @@ class Bending {
         const double share = weight * hits[i].shares[k] * visible_[v];
         if (share == 0) continue;
         wishes.add(v, pull.normal, share * (1 - tangential), share * tangential,
-                   pull.offset + displacements_.row(v).transpose());
+                   pull.offset + row3(displacements_, v));
       }
     }
   }
 
   bool at_rim(const SurfaceHit& hit) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (hit.shares[k] > 0 && !skin_rim_[skin_.triangles[hit.triangle][k]]) return false;
+      if (hit.shares[k] > 0 && !skin_.adjacency.boundary[skin_.triangles[hit.triangle][k]])
+        return false;
     }
     return true;
   }
@@ -267,11 +246,9 @@ class Bending {
   Eigen::VectorXd areas_;
   SparseMatrix laplacian_;
   Eigen::VectorXd scan_areas_;
-  std::vector<bool> skin_rim_;
   std::vector<double> visible_;  ///< 0 … 1: how much the scan counts
   std::vector<std::uint32_t> scan_points_;
   std::vector<std::uint32_t> skin_end_;
-  Positions scan_end_;
   std::optional<PointGrid> scan_end_grid_;
   double scan_weight_ = 0;  ///< vertices of the scan for each of scan_points_
 };

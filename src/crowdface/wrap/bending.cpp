@@ -17,10 +17,7 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
   double sum = 0;
   for (const Triangle& t : triangles) {
-    const Eigen::Vector3d a = positions.row(t[0]).transpose();
-    const double area =
-        length3(cross3(positions.row(t[1]).transpose() - a, positions.row(t[2]).transpose() - a)) /
-        2;
+    const double area = length3(area_vector(positions, t)) / 2;
     for (const std::uint32_t v : t) areas(v) += area / 3;
     sum += area;
   }
@@ -37,9 +34,8 @@ SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& 
   for (const Triangle& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto i = static_cast<int>(t[(k + 1) % 3]), j = static_cast<int>(t[(k + 2) % 3]);
-      const Eigen::Vector3d apex = positions.row(t[k]).transpose();
-      const Eigen::Vector3d a = positions.row(i).transpose() - apex,
-                            b = positions.row(j).transpose() - apex;
+      const Eigen::Vector3d apex = row3(positions, t[k]);
+      const Eigen::Vector3d a = row3(positions, i) - apex, b = row3(positions, j) - apex;
       const double area = length3(cross3(a, b));
       const double cotangent = area > 0 ? std::min(dot3(a, b) / area, 1 / kLeastCotangent) : 0;
       const double weight = std::max(cotangent, kLeastCotangent) / 2;

@@ -5,8 +5,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "crowdface/mesh/topology.h"
-#include "crowdface/validity/triangles.h"
+#include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
 

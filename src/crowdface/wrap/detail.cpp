@@ -19,11 +19,7 @@ constexpr int kSteps = 30;
 constexpr std::ptrdiff_t kBlock = 8192;
 
 double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return parallel_sum(a.size(), kBlock, [&](auto begin, auto end) {
-    double sum = 0;
-    for (auto i = begin; i < end; ++i) sum += a(i) * b(i);
-    return sum;
-  });
+  return parallel_dot(a.data(), b.data(), a.size(), kBlock);
 }
 
 /// Solves (W + c Uᵀ U) x = W r, U x being what a value differs by from the mean of its neighbours, by
@@ -57,22 +53,18 @@ class SmoothFit {
  private:
   Eigen::VectorXd times(const Eigen::VectorXd& weights, const Eigen::VectorXd& x) const {
     Eigen::VectorXd off(x.size()), y(x.size());
-    parallel_blocks(x.size(), kBlock, [&](auto begin, auto end) {
-      for (auto i = begin; i < end; ++i) {
-        const auto around = adjacency_.of(i);
-        double sum = 0;
-        for (const std::uint32_t n : around) sum += x(n);
-        off(i) = around.empty() ? 0 : x(i) - sum / static_cast<double>(around.size());
-      }
+    parallel_for_each(x.size(), kBlock, [&](Index i) {
+      const auto around = adjacency_.of(i);
+      double sum = 0;
+      for (const std::uint32_t n : around) sum += x(n);
+      off(i) = around.empty() ? 0 : x(i) - sum / static_cast<double>(around.size());
     });
-    parallel_blocks(x.size(), kBlock, [&](auto begin, auto end) {
-      for (auto i = begin; i < end; ++i) {
-        double sum = off(i);
-        for (const std::uint32_t n : adjacency_.of(i)) {
-          sum -= off(n) / static_cast<double>(adjacency_.of(n).size());
-        }
-        y(i) = weights(i) * x(i) + stiffness_ * sum;
+    parallel_for_each(x.size(), kBlock, [&](Index i) {
+      double sum = off(i);
+      for (const std::uint32_t n : adjacency_.of(i)) {
+        sum -= off(n) / static_cast<double>(adjacency_.of(n).size());
       }
+      y(i) = weights(i) * x(i) + stiffness_ * sum;
     });
     return y;
   }
@@ -82,13 +74,11 @@ class SmoothFit {
 };
 
 Positions smoothed_normals(const SkinMesh& skin, const Positions& positions, int times) {
-  Positions normals = skin_normals(skin, positions);
+  Positions normals = vertex_normals(skin.triangles, positions);
   if (times == 0) return normals;
   const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
   normals = iterate(lazy, normals, static_cast<std::uint64_t>(times));
-  for (Index v = 0; v < normals.rows(); ++v) {
-    normals.row(v) = unit3(normals.row(v).transpose()).transpose();
-  }
+  for (Index v = 0; v < normals.rows(); ++v) normals.row(v) = unit3(row3(normals, v)).transpose();
   return normals;
 }
 
@@ -103,18 +93,15 @@ Positions follow_detail(const SkinMesh& skin, const Positions& positions, const 
     const Positions normals = smoothed_normals(skin, result, options.normal_smoothings);
     Eigen::VectorXd weights = Eigen::VectorXd::Constant(result.rows(), kUnasked);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(result.rows());
-    parallel_blocks(result.rows(), 256, [&](auto begin, auto end) {
-      for (auto v = begin; v < end; ++v) {
-        if (skin.openness[static_cast<std::size_t>(v)] < kLeastOpenness) continue;
-        const Eigen::Vector3d point = result.row(v).transpose(),
-                              normal = normals.row(v).transpose();
-        const auto place = scan.nearest(point, normal, kLeastCosine, options.reach_mm);
-        if (!place.found) continue;
-        const double off = dot3(place.point - point, place.normal) / dot3(normal, place.normal);
-        const double share = off / options.reach_mm;
-        values(v) = off;
-        weights(v) += 1 / ((1 + share * share) * (1 + share * share));
-      }
+    parallel_for_each(result.rows(), 256, [&](Index v) {
+      if (skin.openness[static_cast<std::size_t>(v)] < kLeastOpenness) return;
+      const Eigen::Vector3d point = row3(result, v), normal = row3(normals, v);
+      const auto place = scan.nearest(point, normal, kLeastCosine, options.reach_mm);
+      if (!place.found) return;
+      const double off = dot3(place.point - point, place.normal) / dot3(normal, place.normal);
+      const double share = off / options.reach_mm;
+      values(v) = off;
+      weights(v) += 1 / ((1 + share * share) * (1 + share * share));
     });
     const Eigen::VectorXd along = fit.solve(weights, values);
     for (Index v = 0; v < result.rows(); ++v) result.row(v) += along(v) * normals.row(v);

@@ -15,11 +15,7 @@ namespace {
 constexpr std::ptrdiff_t kBlock = 2048;
 
 double product(const Positions& a, const Positions& b) {
-  return parallel_sum(a.size(), 3 * kBlock, [&](auto begin, auto end) {
-    double sum = 0;
-    for (auto i = begin; i < end; ++i) sum += a.data()[i] * b.data()[i];
-    return sum;
-  });
+  return parallel_dot(a.data(), b.data(), a.size(), 3 * kBlock);
 }
 
 /// a += factor · b
@@ -44,15 +40,13 @@ struct ElasticSolver::State {
   /// (W + B) x; B is symmetric, so that a column is a row.
   Positions times(const Wishes& wishes, const Positions& x) const {
     Positions y(x.rows(), 3);
-    parallel_blocks(x.rows(), kBlock, [&](auto begin, auto end) {
-      for (auto i = begin; i < end; ++i) {
-        Eigen::RowVector3d sum =
-            x.row(i) * wishes.matrices[static_cast<std::size_t>(i)];  // symmetric
-        for (SparseMatrix::InnerIterator entry(stiffness, i); entry; ++entry) {
-          sum += entry.value() * x.row(entry.row());
-        }
-        y.row(i) = sum;
+    parallel_for_each(x.rows(), kBlock, [&](Index i) {
+      Eigen::RowVector3d sum =
+          x.row(i) * wishes.matrices[static_cast<std::size_t>(i)];  // symmetric
+      for (SparseMatrix::InnerIterator entry(stiffness, i); entry; ++entry) {
+        sum += entry.value() * x.row(entry.row());
       }
+      y.row(i) = sum;
     });
     return y;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/smooth/iterate.h"
 #include "crowdface/wrap/shape_fit.h"
@@ -44,19 +45,17 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::s
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
   // Lips touch: a vertex of one must not hang on the other, so that the sides must agree.
-  const Positions normals = skin_normals(skin, positions), places = reduced.mesh.of(positions);
+  const Positions normals = vertex_normals(skin.triangles, positions),
+                  places = reduced.mesh.of(positions);
   const SurfaceTree tree(places, reduced.mesh.triangles);
   reduced.places.resize(skin.vertices.size());
-  parallel_blocks(positions.rows(), 1024, [&](auto begin, auto end) {
-    for (auto v = begin; v < end; ++v) {
-      const Eigen::Vector3d point = positions.row(v).transpose();
-      SurfaceHit hit = tree.nearest_facing(point, normals.row(v).transpose(), 0.3, 1e300);
-      if (hit.triangle == kNoIndex) hit = tree.nearest(point, 1e300);
-      reduced.places[static_cast<std::size_t>(v)] = {
-          hit.triangle,
-          {static_cast<float>(hit.shares[0]), static_cast<float>(hit.shares[1]),
-           static_cast<float>(hit.shares[2])}};
-    }
+  parallel_for_each(positions.rows(), 1024, [&](Index v) {
+    const Eigen::Vector3d point = row3(positions, v);
+    SurfaceHit hit = tree.nearest_facing(point, row3(normals, v), 0.3, 1e300);
+    if (hit.triangle == kNoIndex) hit = tree.nearest(point, 1e300);
+    auto& place = reduced.places[static_cast<std::size_t>(v)];
+    place.triangle = hit.triangle;
+    for (std::size_t k = 0; k < 3; ++k) place.shares[k] = static_cast<float>(hit.shares[k]);
   });
   // One smoothing reaches half an edge; the creases of what is carried are an edge of the small skin
   // apart.

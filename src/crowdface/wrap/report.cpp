@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 
@@ -21,10 +22,8 @@ constexpr std::size_t kFewHeads = 8;
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  return value_of_rank(std::move(values), rank);
 }
 
 bool seen(const WrapTemplate& shape, Index v) {

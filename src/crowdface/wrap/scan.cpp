@@ -4,16 +4,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "crowdface/mesh/grouping.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/parts/grouping.h"
 
 namespace crowdface {
 namespace {
-
-Eigen::Vector3d area_vector(const Positions& positions, const Triangle& t) {
-  const Eigen::Vector3d a = positions.row(t[0]).transpose();
-  return cross3(positions.row(t[1]).transpose() - a, positions.row(t[2]).transpose() - a);
-}
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -38,45 +33,12 @@ bool degenerate(const Triangle& t) {
 
 }  // namespace
 
-std::vector<Triangle> triangles_of(const Topology& topology) {
-  std::vector<Triangle> triangles;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto face = topology.face(f);
-    for (std::size_t c = 1; c + 1 < face.size(); ++c) {
-      triangles.push_back({face[0], face[c], face[c + 1]});
-    }
-  }
-  return triangles;
-}
-
-Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count) {
-  Topology topology;
-  topology.vertex_count = vertex_count;
-  topology.corner_vertices.reserve(3 * triangles.size());
-  topology.face_offsets.reserve(triangles.size() + 1);
-  for (const Triangle& t : triangles) {
-    topology.corner_vertices.insert(topology.corner_vertices.end(), t.begin(), t.end());
-    topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
-  }
-  return topology;
-}
-
-Positions scan_normals(const Scan& scan) {
-  Positions normals = Positions::Zero(scan.positions.rows(), 3);
+std::vector<bool> used_vertices(const Scan& scan) {
+  std::vector<bool> used(static_cast<std::size_t>(scan.positions.rows()), false);
   for (const Triangle& t : scan.triangles) {
-    const Eigen::RowVector3d area = area_vector(scan.positions, t).transpose();
-    for (const std::uint32_t v : t) normals.row(v) += area;
+    for (const std::uint32_t v : t) used[v] = true;
   }
-  for (Index v = 0; v < normals.rows(); ++v) {
-    normals.row(v) = unit3(normals.row(v).transpose()).transpose();
-  }
-  return normals;
-}
-
-std::vector<bool> rim_vertices(const std::vector<Triangle>& triangles, Index vertex_count) {
-  std::vector<bool> rim(static_cast<std::size_t>(vertex_count), false);
-  for (const auto& [a, b] : rim_edges(triangles)) rim[a] = rim[b] = true;
-  return rim;
+  return used;
 }
 
 std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,

@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "crowdface/mesh/topology.h"
-#include "crowdface/validity/triangles.h"
+#include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
 
@@ -14,18 +13,8 @@ struct Scan {
   std::vector<Triangle> triangles;  ///< wound so that they look outwards
 };
 
-/// Every polygon as a fan around its first corner.
-std::vector<Triangle> triangles_of(const Topology& topology);
-
-/// Triangles as faces.
-Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count);
-
-/// Unit normals of the vertices, each the sum of the normals around it weighted by area; zero where
-/// none is.
-Positions scan_normals(const Scan& scan);
-
-/// #V: whether a vertex lies on an edge that has exactly one triangle: a hole, or where the scan ends.
-std::vector<bool> rim_vertices(const std::vector<Triangle>& triangles, Index vertex_count);
+/// #V: whether a triangle has the vertex.
+std::vector<bool> used_vertices(const Scan& scan);
 
 /// The vertices of rims that are at least this long, ascending: where a surface ends.
 std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,

@@ -14,11 +14,25 @@ namespace {
 
 enum class Coding { kText, kLittleEndian, kBigEndian };
 
+/// What a number is, as long as it takes in a binary file.
+struct Type {
+  std::string_view name, other;
+  std::size_t bytes;
+  bool real, is_signed;
+};
+constexpr std::array<Type, 8> kTypes = {{{"char", "int8", 1, false, true},
+                                         {"uchar", "uint8", 1, false, false},
+                                         {"short", "int16", 2, false, true},
+                                         {"ushort", "uint16", 2, false, false},
+                                         {"int", "int32", 4, false, true},
+                                         {"uint", "uint32", 4, false, false},
+                                         {"float", "float32", 4, true, true},
+                                         {"double", "float64", 8, true, true}}};
+
 struct Property {
   std::string name;
-  int bytes = 0;  ///< of a value
-  bool real = false, is_signed = false;
-  int count_bytes = 0;  ///< of a list: of its count; 0: no list
+  Type type;
+  std::optional<Type> count = {};  ///< of a list: of its count
 };
 
 struct Element {
@@ -26,32 +40,6 @@ struct Element {
   std::uint64_t count = 0;
   std::vector<Property> properties;
 };
-
-struct TypeName {
-  std::string_view name, other;
-  int bytes;
-  bool real, is_signed;
-};
-constexpr std::array<TypeName, 8> kTypes = {{{"char", "int8", 1, false, true},
-                                             {"uchar", "uint8", 1, false, false},
-                                             {"short", "int16", 2, false, true},
-                                             {"ushort", "uint16", 2, false, false},
-                                             {"int", "int32", 4, false, true},
-                                             {"uint", "uint32", 4, false, false},
-                                             {"float", "float32", 4, true, true},
-                                             {"double", "float64", 8, true, true}}};
-
-std::vector<std::string> words_of(std::string_view line) {
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  while (at < line.size()) {
-    const std::size_t begin = line.find_first_not_of(" \t\r", at);
-    if (begin == std::string_view::npos) break;
-    at = std::min(line.find_first_of(" \t\r", begin), line.size());
-    words.emplace_back(line.substr(begin, at - begin));
-  }
-  return words;
-}
 
 /// Reads a PLY file from its first byte to its last.
 class PlyReader {
@@ -90,13 +78,11 @@ class PlyReader {
     return text;
   }
 
-  Property typed(const std::string& type) const {
-    for (const TypeName& known : kTypes) {
-      if (type == known.name || type == known.other) {
-        return {{}, known.bytes, known.real, known.is_signed, 0};
-      }
+  Type type_of(const std::string& word) const {
+    for (const Type& known : kTypes) {
+      if (word == known.name || word == known.other) return known;
     }
-    fail(concat("a property is of type ", quoted(type)));
+    fail(concat("a property is of type ", quoted(word)));
   }
 
   void read_header() {
@@ -112,15 +98,10 @@ class PlyReader {
       } else if (words[0] == "element" && words.size() == 3 && parse_unsigned(words[2])) {
         elements_.push_back({words[1], *parse_unsigned(words[2]), {}});
       } else if (words[0] == "property" && words.size() == 3 && !elements_.empty()) {
-        Property property = typed(words[1]);
-        property.name = words[2];
-        elements_.back().properties.push_back(property);
+        elements_.back().properties.push_back({words[2], type_of(words[1])});
       } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" &&
                  !elements_.empty()) {
-        Property property = typed(words[3]);
-        property.name = words[4];
-        property.count_bytes = typed(words[2]).bytes;
-        elements_.back().properties.push_back(property);
+        elements_.back().properties.push_back({words[4], type_of(words[3]), type_of(words[2])});
       } else {
         fail(concat("its header says ", quoted(join(words, " "))));
       }
@@ -130,18 +111,17 @@ class PlyReader {
     }
   }
 
-  double value(int size, bool real, bool is_signed) {
+  double value(const Type& type) {
     if (coding_ == Coding::kText) return word();
-    if (bytes_.size() - at_ < static_cast<std::size_t>(size)) fail("it ends too soon");
+    if (bytes_.size() - at_ < type.bytes) fail("it ends too soon");
     std::array<char, 8> raw{};
-    std::memcpy(raw.data(), bytes_.data() + at_, static_cast<std::size_t>(size));
-    at_ += static_cast<std::size_t>(size);
-    if (coding_ == Coding::kBigEndian) std::reverse(raw.begin(), raw.begin() + size);
-    if (real && size == 4) return as<float>(raw);
-    if (real) return as<double>(raw);
-    if (size == 1) return is_signed ? as<std::int8_t>(raw) : as<std::uint8_t>(raw);
-    if (size == 2) return is_signed ? as<std::int16_t>(raw) : as<std::uint16_t>(raw);
-    return is_signed ? as<std::int32_t>(raw) : as<std::uint32_t>(raw);
+    std::memcpy(raw.data(), bytes_.data() + at_, type.bytes);
+    at_ += type.bytes;
+    if (coding_ == Coding::kBigEndian) std::reverse(raw.data(), raw.data() + type.bytes);
+    if (type.real) return type.bytes == 4 ? as<float>(raw) : as<double>(raw);
+    if (type.bytes == 1) return type.is_signed ? as<std::int8_t>(raw) : as<std::uint8_t>(raw);
+    if (type.bytes == 2) return type.is_signed ? as<std::int16_t>(raw) : as<std::uint16_t>(raw);
+    return type.is_signed ? as<std::int32_t>(raw) : as<std::uint32_t>(raw);
   }
 
   template <class T>
@@ -174,10 +154,10 @@ class PlyReader {
     for (Index v = 0; v < scan.positions.rows(); ++v) {
       for (std::size_t p = 0; p < values.size(); ++p) {
         const Property& property = element.properties[p];
-        if (property.count_bytes > 0) {
+        if (property.count) {
           skip_list(property);
         } else {
-          values[p] = value(property.bytes, property.real, property.is_signed);
+          values[p] = value(property.type);
         }
       }
       for (std::size_t c = 0; c < 3; ++c) {
@@ -187,28 +167,26 @@ class PlyReader {
   }
 
   std::uint64_t list_count(const Property& property) {
-    const double count = value(property.count_bytes, false, false);
+    const double count = value(*property.count);
     if (count < 0 || count > 1e6) fail(concat("a list has ", count, " entries"));
     return static_cast<std::uint64_t>(count);
   }
 
   void skip_list(const Property& property) {
-    for (std::uint64_t i = list_count(property); i > 0; --i) {
-      value(property.bytes, property.real, property.is_signed);
-    }
+    for (std::uint64_t i = list_count(property); i > 0; --i) value(property.type);
   }
 
   void read_faces(const Element& element, Scan& scan) {
     for (std::uint64_t f = 0; f < element.count; ++f) {
       for (const Property& property : element.properties) {
-        const bool corners = element.name == "face" && property.count_bytes > 0 &&
+        const bool corners = element.name == "face" && property.count &&
                              (property.name == "vertex_indices" || property.name == "vertex_index");
-        if (property.count_bytes > 0 && !corners) skip_list(property);
-        if (property.count_bytes == 0) value(property.bytes, property.real, property.is_signed);
+        if (property.count && !corners) skip_list(property);
+        if (!property.count) value(property.type);
         if (!corners) continue;
         std::vector<std::uint32_t> face;
         for (std::uint64_t i = list_count(property); i > 0; --i) {
-          const double corner = value(property.bytes, property.real, property.is_signed);
+          const double corner = value(property.type);
           if (!(corner >= 0 && corner < 4e9)) fail(concat("a face names vertex ", corner));
           face.push_back(static_cast<std::uint32_t>(corner));
         }

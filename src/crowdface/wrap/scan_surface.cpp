@@ -14,8 +14,8 @@ constexpr double kLeastShare = 0.001;
 
 ScanSurface::ScanSurface(const Scan& scan)
     : scan_(without_small_pieces(scan, kLeastShare)),
-      normals_(scan_normals(scan_)),
-      rim_(rim_vertices(scan_.triangles, scan_.positions.rows())),
+      normals_(vertex_normals(scan_.triangles, scan_.positions)),
+      rim_(build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
       tree_(scan_.positions, scan_.triangles) {}
 
 ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {

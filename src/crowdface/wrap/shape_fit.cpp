@@ -9,12 +9,13 @@
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
-constexpr Index kMostProbes = 4000;  ///< vertices asked in each step
+constexpr std::size_t kMostProbes = 4000;  ///< vertices asked in each step
 constexpr double kOpenEnough = 0.3;
 constexpr double kLeastCosine = 0.5;
 constexpr double kKept = 0.8;  ///< of the probes that found something
@@ -23,51 +24,39 @@ constexpr double kGrowth = 0.02;  ///< by which a scale still changes once a mod
 
 /// A vertex and what it found on the scan, in millimetres of the template.
 struct Match {
-  std::uint32_t vertex;
+  std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d offset;  ///< from where the vertex is to what it found
   Eigen::Vector3d normal;  ///< of the scan there
   double distance;
 };
 
 std::vector<std::uint32_t> choose_probes(const SkinMesh& skin) {
-  std::vector<std::uint32_t> open, chosen;
+  std::vector<std::uint32_t> open;
   for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
     if (skin.openness[v] > kOpenEnough) open.push_back(v);
   }
-  const std::size_t count = std::min<std::size_t>(open.size(), kMostProbes);
-  for (std::size_t i = 0; i < count; ++i) chosen.push_back(open[i * open.size() / count]);
-  return chosen;
+  return some_of(open, kMostProbes);
 }
 
 std::vector<Match> find_matches(const Positions& placed, const Positions& normals,
                                 const ScanSurface& scan, const std::vector<std::uint32_t>& probes,
                                 double reach) {
-  std::vector<Match> all(probes.size());
-  std::vector<char> found(probes.size(), 0);
-  parallel_blocks(static_cast<std::ptrdiff_t>(probes.size()), 128, [&](auto begin, auto end) {
-    for (auto i = begin; i < end; ++i) {
-      const std::uint32_t v = probes[static_cast<std::size_t>(i)];
-      const Eigen::Vector3d point = placed.row(v).transpose();
-      const auto place = scan.nearest(point, normals.row(v).transpose(), kLeastCosine, reach);
-      if (!place.found) continue;
-      all[static_cast<std::size_t>(i)] = {v, place.point - point, place.normal, place.distance};
-      found[static_cast<std::size_t>(i)] = 1;
-    }
+  std::vector<Match> matches(probes.size());
+  parallel_for_each(probes.size(), 128, [&](std::size_t i) {
+    const std::uint32_t v = probes[i];
+    const Eigen::Vector3d point = row3(placed, v);
+    const auto place = scan.nearest(point, row3(normals, v), kLeastCosine, reach);
+    if (place.found) matches[i] = {v, place.point - point, place.normal, place.distance};
   });
-  std::vector<Match> matches;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (found[i] != 0) matches.push_back(all[i]);
-  }
+  std::erase_if(matches, [](const Match& match) { return match.vertex == kNoIndex; });
   return matches;
 }
 
 void leave_out_farthest(std::vector<Match>& matches) {
   std::vector<double> distances;
   for (const Match& match : matches) distances.push_back(match.distance);
-  const auto at = distances.begin() +
-                  static_cast<std::ptrdiff_t>(kKept * static_cast<double>(distances.size() - 1));
-  std::nth_element(distances.begin(), at, distances.end());
-  const double most = *at;
+  const auto rank = static_cast<std::size_t>(kKept * static_cast<double>(distances.size() - 1));
+  const double most = value_of_rank(std::move(distances), rank);
   std::erase_if(matches, [&](const Match& match) { return match.distance > most; });
 }
 
@@ -134,8 +123,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                  const std::vector<std::uint32_t>& probes, double reach_mm,
                  const ShapeFitOptions& options, double first_scale, ShapeFit& fit) {
   const Positions placed = fit.pose.apply(model.shape(fit.coefficients));
-  std::vector<Match> matches =
-      find_matches(placed, skin_normals(skin, placed), scan, probes, reach_mm * fit.pose.scale);
+  std::vector<Match> matches = find_matches(placed, vertex_normals(skin.triangles, placed), scan,
+                                            probes, reach_mm * fit.pose.scale);
   if (matches.size() < probes.size() / 50 + 3) return 0;
   leave_out_farthest(matches);
   const double mm = fit.pose.scale;  // in the scan's unit
@@ -179,21 +168,6 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
 
 }  // namespace
 
-Positions skin_normals(const SkinMesh& skin, const Positions& positions) {
-  Positions normals = Positions::Zero(positions.rows(), 3);
-  for (const Triangle& t : skin.triangles) {
-    const Eigen::Vector3d a = positions.row(t[0]).transpose();
-    const Eigen::RowVector3d area =
-        cross3(positions.row(t[1]).transpose() - a, positions.row(t[2]).transpose() - a)
-            .transpose();
-    for (const std::uint32_t v : t) normals.row(v) += area;
-  }
-  for (Index v = 0; v < normals.rows(); ++v) {
-    normals.row(v) = unit3(normals.row(v).transpose()).transpose();
-  }
-  return normals;
-}
-
 ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,
                    const std::vector<WrapLandmark>& landmarks, const ShapeFit& start,
                    const ShapeFitOptions& options) {
@@ -214,11 +188,7 @@ ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurf
     const auto place = scan.nearest(placed.row(v).transpose(), 1e300);
     if (!place.on_rim) distances.push_back(place.distance / fit.pose.scale);
   }
-  if (!distances.empty()) {
-    const auto at = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), at, distances.end());
-    fit.residual = *at;
-  }
+  if (!distances.empty()) fit.residual = value_of_rank(distances, distances.size() / 2);
   return fit;
 }
 

@@ -43,7 +43,4 @@ ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurf
                    const std::vector<WrapLandmark>& landmarks, const ShapeFit& start,
                    const ShapeFitOptions& options = {});
 
-/// Unit normals of a skin's vertices.
-Positions skin_normals(const SkinMesh& skin, const Positions& positions);
-
 }  // namespace crowdface

@@ -11,14 +11,6 @@ namespace {
 
 constexpr std::ptrdiff_t kBlock = 4096;
 
-double product(const Positions& a, const Positions& b) {
-  return parallel_sum(a.size(), kBlock, [&](auto begin, auto end) {
-    double sum = 0;
-    for (auto i = begin; i < end; ++i) sum += a.data()[i] * b.data()[i];
-    return sum;
-  });
-}
-
 }  // namespace
 
 Positions ShapeModel::shape(const Eigen::VectorXd& coefficients) const {
@@ -40,8 +32,9 @@ ShapeModel make_model(const std::vector<Positions>& heads) {
   Eigen::MatrixXd gram(count, count);
   for (Index i = 0; i < count; ++i) {
     for (Index j = 0; j <= i; ++j) {
-      gram(i, j) = gram(j, i) = product(differences[static_cast<std::size_t>(i)],
-                                        differences[static_cast<std::size_t>(j)]);
+      const Positions &one = differences[static_cast<std::size_t>(i)],
+                      &other = differences[static_cast<std::size_t>(j)];
+      gram(i, j) = gram(j, i) = parallel_dot(one.data(), other.data(), one.size(), kBlock);
     }
   }
   const SymmetricEigen eigen = symmetric_eigen(gram);

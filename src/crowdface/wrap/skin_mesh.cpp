@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/render/ray_scene.h"
 
 namespace crowdface {
@@ -29,20 +30,13 @@ std::array<Eigen::Vector3f, kRays> directions() {
 }  // namespace
 
 Positions SkinMesh::of(const Positions& positions) const {
-  Positions rows(vertex_count(), 3);
-  for (Index v = 0; v < vertex_count(); ++v) {
-    rows.row(v) = positions.row(vertices[static_cast<std::size_t>(v)]);
-  }
-  return rows;
+  return positions(vertices, Eigen::all);
 }
 
 std::vector<double> vertex_openness(const Positions& positions, const Positions& normals,
                                     const std::vector<Triangle>& triangles,
                                     const std::vector<std::uint32_t>& vertices) {
-  std::vector<float> points(static_cast<std::size_t>(positions.size()));
-  for (Index i = 0; i < positions.size(); ++i) {
-    points[static_cast<std::size_t>(i)] = static_cast<float>(positions.data()[i]);
-  }
+  std::vector<float> points(positions.data(), positions.data() + positions.size());
   std::vector<Quad> quads;
   quads.reserve(triangles.size());
   for (const Triangle& t : triangles) quads.push_back({t[0], t[1], t[2], t[2]});
@@ -50,20 +44,17 @@ std::vector<double> vertex_openness(const Positions& positions, const Positions&
   const RayScene scene(device, std::move(points), quads);
   const auto rays = directions();
   std::vector<double> open(vertices.size());
-  parallel_blocks(static_cast<std::ptrdiff_t>(vertices.size()), 256, [&](auto begin, auto end) {
-    for (auto i = begin; i < end; ++i) {
-      const std::uint32_t v = vertices[static_cast<std::size_t>(i)];
-      const Eigen::Vector3f normal = normals.row(v).transpose().cast<float>();
-      const Eigen::Vector3f from = positions.row(v).transpose().cast<float>() + 0.05F * normal;
-      std::vector<Ray> outward;
-      for (const Eigen::Vector3f& ray : rays) {
-        if (ray.dot(normal) >= 0.1F) outward.push_back({from, ray, 0.01F});
-      }
-      const std::vector<bool> blocked = scene.occluded(outward);
-      const auto free = static_cast<double>(std::count(blocked.begin(), blocked.end(), false));
-      open[static_cast<std::size_t>(i)] =
-          outward.empty() ? 0 : free / static_cast<double>(outward.size());
+  parallel_for_each(vertices.size(), 256, [&](std::size_t i) {
+    const std::uint32_t v = vertices[i];
+    const Eigen::Vector3f normal = row3(normals, v).cast<float>();
+    const Eigen::Vector3f from = row3(positions, v).cast<float>() + 0.05F * normal;
+    std::vector<Ray> outward;
+    for (const Eigen::Vector3f& ray : rays) {
+      if (ray.dot(normal) >= 0.1F) outward.push_back({from, ray, 0.01F});
     }
+    const std::vector<bool> blocked = scene.occluded(outward);
+    const auto free = static_cast<double>(std::count(blocked.begin(), blocked.end(), false));
+    open[i] = outward.empty() ? 0 : free / static_cast<double>(outward.size());
   });
   return open;
 }

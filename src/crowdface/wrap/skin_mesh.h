@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "crowdface/mesh/adjacency.h"
-#include "crowdface/mesh/topology.h"
-#include "crowdface/validity/triangles.h"
+#include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
 

@@ -12,100 +12,45 @@ namespace {
 constexpr std::uint32_t kMostInLeaf = 4;
 constexpr std::size_t kDeepest = 64;  // of a tree that is halved at every level
 
-Eigen::Vector3d corner(const Positions& positions, const Triangle& t, std::size_t k) {
-  return positions.row(t[k]).transpose();
-}
-
 }  // namespace
 
 SurfaceHit nearest_on_triangle(const Positions& positions, const Triangle& corners,
                                const Eigen::Vector3d& point) {
-  const Eigen::Vector3d a = corner(positions, corners, 0), b = corner(positions, corners, 1),
-                        c = corner(positions, corners, 2);
-  const Eigen::Vector3d ab = b - a, ac = c - a, ap = point - a, bp = point - b, cp = point - c;
-  const double d1 = dot3(ab, ap), d2 = dot3(ac, ap), d3 = dot3(ab, bp), d4 = dot3(ac, bp),
-               d5 = dot3(ab, cp), d6 = dot3(ac, cp);
-  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-  double v = 0, w = 0;
-  if (d1 <= 0 && d2 <= 0) {
-    // the first corner
-  } else if (d3 >= 0 && d4 <= d3) {
-    v = 1;
-  } else if (d6 >= 0 && d5 <= d6) {
-    w = 1;
-  } else if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    v = d1 / (d1 - d3);
-  } else if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    w = d2 / (d2 - d6);
-  } else if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    v = 1 - w;
-  } else {
-    v = vb / (va + vb + vc);
-    w = vc / (va + vb + vc);
-  }
+  const Eigen::Vector3d a = row3(positions, corners[0]), b = row3(positions, corners[1]),
+                        c = row3(positions, corners[2]);
+  const auto [u, v, w] = nearest_in_triangle(a, b, c, point);
   SurfaceHit hit;
   hit.shares = {std::max(0.0, 1 - v - w), v, w};
-  hit.point = a + v * ab + w * ac;
+  hit.point = a + v * (b - a) + w * (c - a);
   hit.distance = length3(point - hit.point);
   return hit;
 }
 
-double SurfaceTree::Box::squared_distance(const Eigen::Vector3d& point) const {
-  double sum = 0;
-  for (Index c = 0; c < 3; ++c) {
-    const double outside = std::max({low(c) - point(c), point(c) - high(c), 0.0});
-    sum += outside * outside;
-  }
-  return sum;
-}
-
 SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>& triangles)
     : positions_(positions), triangles_(triangles) {
-  find_normals();
+  const Positions normals = vertex_normals(triangles, positions);
   Positions centres(static_cast<Index>(triangles.size()), 3);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (normals_[t].isZero()) continue;
-    order_.push_back(t);
-    centres.row(t) = (corner(positions, triangles[t], 0) + corner(positions, triangles[t], 1) +
-                      corner(positions, triangles[t], 2))
-                         .transpose();
+    const auto& [a, b, c] = triangles[t];
+    facing_.push_back(unit3(row3(normals, a) + row3(normals, b) + row3(normals, c)));
+    centres.row(t) = positions.row(a) + positions.row(b) + positions.row(c);
+    if (!unit3(area_vector(positions, triangles[t])).isZero()) order_.push_back(t);
   }
   nodes_.reserve(order_.size());
   if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), centres);
-  refit();
-}
-
-void SurfaceTree::find_normals() {
-  normals_.resize(triangles_.size());
-  std::vector<Eigen::Vector3d> of_vertices(static_cast<std::size_t>(positions_.rows()),
-                                           Eigen::Vector3d::Zero());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const Eigen::Vector3d a = corner(positions_, triangles_[t], 0);
-    const Eigen::Vector3d area =
-        cross3(corner(positions_, triangles_[t], 1) - a, corner(positions_, triangles_[t], 2) - a);
-    normals_[t] = unit3(area);
-    for (const std::uint32_t v : triangles_[t]) of_vertices[v] += area;
-  }
-  facing_.resize(triangles_.size());
-  for (Eigen::Vector3d& normal : of_vertices) normal = unit3(normal);
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const Triangle& corners = triangles_[t];
-    facing_[t] = unit3(of_vertices[corners[0]] + of_vertices[corners[1]] + of_vertices[corners[2]]);
-  }
 }
 
 void SurfaceTree::build(std::uint32_t begin, std::uint32_t end, const Positions& centres) {
   const std::size_t n = nodes_.size();
   nodes_.push_back({{}, begin, end});
-  if (end - begin <= kMostInLeaf) return;
-  Eigen::RowVector3d low = centres.row(order_[begin]), high = low;
+  Eigen::AlignedBox3d middles;
   for (std::uint32_t i = begin; i < end; ++i) {
-    low = low.cwiseMin(centres.row(order_[i]));
-    high = high.cwiseMax(centres.row(order_[i]));
+    middles.extend(row3(centres, order_[i]));
+    for (const std::uint32_t v : triangles_[order_[i]]) nodes_[n].box.extend(row3(positions_, v));
   }
+  if (end - begin <= kMostInLeaf) return;
   Index axis = 0;
-  (high - low).maxCoeff(&axis);
+  middles.sizes().maxCoeff(&axis);
   const std::uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                    [&](std::uint32_t a, std::uint32_t b) {
@@ -115,31 +60,6 @@ void SurfaceTree::build(std::uint32_t begin, std::uint32_t end, const Positions&
   build(begin, middle, centres);
   nodes_[n].second = static_cast<std::uint32_t>(nodes_.size());
   build(middle, end, centres);
-}
-
-SurfaceTree::Box SurfaceTree::box_of(const Node& node) const {
-  Box box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
-  for (std::uint32_t i = node.begin; i < node.end; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3d p = corner(positions_, triangles_[order_[i]], k);
-      box.low = box.low.cwiseMin(p);
-      box.high = box.high.cwiseMax(p);
-    }
-  }
-  return box;
-}
-
-void SurfaceTree::refit() {
-  find_normals();
-  for (std::size_t n = nodes_.size(); n-- > 0;) {
-    Node& node = nodes_[n];
-    if (node.second == 0) {
-      node.box = box_of(node);
-    } else {
-      const Box &a = nodes_[n + 1].box, &b = nodes_[node.second].box;
-      node.box = {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
-    }
-  }
 }
 
 template <class Accept>
@@ -154,14 +74,14 @@ SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, double reach,
   if (nodes_.empty()) return best;
   std::array<Waiting, kDeepest> stack;
   std::size_t waiting = 0;
-  stack[waiting++] = {0, nodes_[0].box.squared_distance(point)};
+  stack[waiting++] = {0, nodes_[0].box.squaredExteriorDistance(point)};
   while (waiting > 0) {
     const Waiting next = stack[--waiting];
     if (next.squared > best.distance * best.distance) continue;
     const Node& node = nodes_[next.node];
     if (node.second != 0) {
-      Waiting near = {next.node + 1, nodes_[next.node + 1].box.squared_distance(point)};
-      Waiting far = {node.second, nodes_[node.second].box.squared_distance(point)};
+      Waiting near = {next.node + 1, nodes_[next.node + 1].box.squaredExteriorDistance(point)};
+      Waiting far = {node.second, nodes_[node.second].box.squaredExteriorDistance(point)};
       if (far.squared < near.squared) std::swap(near, far);
       stack[waiting++] = far;
       stack[waiting++] = near;

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowdface/mesh/topology.h"
-#include "crowdface/validity/triangles.h"
+#include <Eigen/Geometry>
+
+#include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
 
@@ -37,30 +38,19 @@ class SurfaceTree {
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                             double least_cosine, double reach) const;
 
-  /// Unit normal of a triangle, by its winding.
-  const Eigen::Vector3d& normal(std::uint32_t triangle) const { return normals_[triangle]; }
-  /// Takes up positions that have changed; the tree's shape stays.
-  void refit();
-
  private:
-  struct Box {
-    Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
-    double squared_distance(const Eigen::Vector3d& point) const;
-  };
   struct Node {
-    Box box;
+    Eigen::AlignedBox3d box;
     std::uint32_t begin, end;  ///< of order_
     std::uint32_t second = 0;  ///< the first child is the next node; 0: a leaf
   };
   void build(std::uint32_t begin, std::uint32_t end, const Positions& centres);
-  void find_normals();
-  Box box_of(const Node& node) const;
   template <class Accept>
   SurfaceHit search(const Eigen::Vector3d& point, double reach, const Accept& accept) const;
 
   const Positions& positions_;
   const std::vector<Triangle>& triangles_;
-  std::vector<Eigen::Vector3d> normals_, facing_;
+  std::vector<Eigen::Vector3d> facing_;  ///< of each triangle
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };

@@ -18,11 +18,6 @@ constexpr int kRoundsInside = 30;
 constexpr double kInside = 0.12;      ///< openness
 constexpr double kLeastArea = 0.025;  // validity counts those below 0.02
 
-Eigen::Vector3d area_of(const Positions& positions, const Triangle& t) {
-  const Eigen::Vector3d a = positions.row(t[0]).transpose();
-  return cross3(positions.row(t[1]).transpose() - a, positions.row(t[2]).transpose() - a);
-}
-
 /// One sweep over a patch that makes it as rigid as it can be (Sorkine & Alexa 2007): each vertex goes
 /// where its neighbours, each with the template's edges turned as they lie around it, want it.
 /// \param number  #skin: of each vertex in the patch, or kNoIndex.
@@ -51,7 +46,7 @@ void relax(const SkinMesh& skin, const Positions& rest, const std::vector<std::u
 }
 
 bool is_folded(const Positions& rest, const Positions& positions, const Triangle& t) {
-  const Eigen::Vector3d was = area_of(rest, t), is = area_of(positions, t);
+  const Eigen::Vector3d was = area_vector(rest, t), is = area_vector(positions, t);
   if (was.isZero()) return false;
   return dot3(was, is) <= 0 || length3(is) < kLeastArea * length3(was);
 }

@@ -82,12 +82,10 @@ Scan moved(const Scan& scan, const Similarity& motion) {
 void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& result) {
   result.distance_mm = Eigen::VectorXd::Zero(wrapped.rows());
   std::vector<char> on_rim(static_cast<std::size_t>(wrapped.rows()), 0);
-  parallel_blocks(wrapped.rows(), 1024, [&](auto begin, auto end) {
-    for (auto v = begin; v < end; ++v) {
-      const auto place = scan.nearest(wrapped.row(v).transpose(), 1e300);
-      result.distance_mm(v) = place.distance;
-      on_rim[static_cast<std::size_t>(v)] = place.on_rim ? 1 : 0;
-    }
+  parallel_for_each(wrapped.rows(), 1024, [&](Index v) {
+    const auto place = scan.nearest(row3(wrapped, v), 1e300);
+    result.distance_mm(v) = place.distance;
+    on_rim[static_cast<std::size_t>(v)] = place.on_rim ? 1 : 0;
   });
   result.without_data.assign(on_rim.begin(), on_rim.end());
 }

@@ -39,21 +39,15 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
   const Components joined = join_skin(result.components, result.parts);
   const std::uint32_t skin = joined.of_vertex.empty() ? 0 : joined.largest();
 
-  std::vector<std::uint32_t> number(static_cast<std::size_t>(topology.vertex_count), kNoIndex);
-  for (const Triangle& t : triangles_of(topology, joined, skin)) {
-    for (const std::uint32_t v : t) number[v] = 0;
-  }
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kNoIndex) continue;
-    number[v] = static_cast<std::uint32_t>(result.skin.vertices.size());
-    result.skin.vertices.push_back(v);
+  result.skin.triangles = triangles_of(topology, joined, skin);
+  std::vector<Triangle>& triangles = result.skin.triangles;
+  if (!triangles.empty()) {
+    result.skin.vertices =
+        renumber({triangles.front().data(), 3 * triangles.size()}, topology.vertex_count);
   }
   if (result.skin.vertex_count() < kFewestVertices) {
     throw InvalidInput(concat("expected a template with skin of at least ", kFewestVertices,
                               " vertices, found ", result.skin.vertex_count()));
-  }
-  for (const Triangle& t : triangles_of(topology, joined, skin)) {
-    result.skin.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   }
   result.skin.adjacency =
       build_adjacency(topology_of(result.skin.triangles, result.skin.vertex_count()));

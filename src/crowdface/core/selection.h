@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,17 @@ std::vector<T> some_of(std::span<const T> all, std::size_t most) {
   some.reserve(count);
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
+}
+template <class T>
+std::vector<T> some_of(const std::vector<T>& all, std::size_t most) {
+  return some_of(std::span<const T>(all), most);
+}
+
+/// The value that `rank` others stand before in ascending order. \param rank  < values.size().
+inline double value_of_rank(std::vector<double> values, std::size_t rank) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 }  // namespace crowdface

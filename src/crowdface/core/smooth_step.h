@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace crowdface::synth {
+namespace crowdface {
 
 /// 0 up to `from`, 1 from `to` on, in between the cubic 3t² − 2t³: a soft edge without libm.
 inline double smooth_step(double from, double to, double x) {
@@ -11,4 +11,4 @@ inline double smooth_step(double from, double to, double x) {
   return t * t * (3 - 2 * t);
 }
 
-}  // namespace crowdface::synth
+}  // namespace crowdface

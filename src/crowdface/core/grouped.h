@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace crowdface {
+
+/// Items in numbered groups, those of a group one after the other.
+template <class T>
+struct Grouped {
+  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1
+  std::vector<T> items;                      ///< of group g: [offsets[g], offsets[g + 1])
+
+  std::size_t group_count() const { return offsets.size() - 1; }
+  template <std::integral Number>
+  std::span<const T> of(Number group) const {
+    const T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
+    return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
+  }
+  template <std::integral Number>
+  std::span<T> of(Number group) {
+    T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
+    return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
+  }
+  void reserve(std::size_t groups, std::size_t item_count) {
+    offsets.reserve(groups + 1);
+    items.reserve(item_count);
+  }
+  void add_group(std::span<const T> group) {
+    items.insert(items.end(), group.begin(), group.end());
+    offsets.push_back(static_cast<std::uint32_t>(items.size()));
+  }
+};
+
+/// Sorts items into groups, in which they keep their order.
+/// \param visit  visit(put) calls put(group, item) for each item; it is called twice.
+template <class T, class Visit>
+Grouped<T> grouped(std::size_t groups, const Visit& visit) {
+  Grouped<T> result;
+  result.offsets.assign(groups + 1, 0);
+  visit([&](std::size_t group, const T&) { ++result.offsets[group + 1]; });
+  for (std::size_t g = 0; g < groups; ++g) result.offsets[g + 1] += result.offsets[g];
+  result.items.resize(result.offsets.back());
+  std::vector<std::uint32_t> next(result.offsets.begin(), result.offsets.end() - 1);
+  visit([&](std::size_t group, const T& item) { result.items[next[group]++] = item; });
+  return result;
+}
+
+}  // namespace crowdface

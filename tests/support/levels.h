@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single levels from what the library fits.
+#pragma once
+
+#include "crowdface/smooth/cubic_fit.h"
+#include "crowdface/smooth/level_basis.h"
+
+namespace crowdface::testing {
+
+/// x + Σ_p functions[p]·fields_p
+template <class Functions>
+Positions sum_of_fields(const Positions& x, const Functions& functions, const float* fields) {
+  Positions result = x;
+  for (const double function : functions) {
+    for (Index i = 0; i < result.size(); ++i) {
+      result.data()[i] += function * static_cast<double>(*fields++);
+    }
+  }
+  return result;
+}
+
+/// S̃_L x of the head the fit was made from.
+inline Positions evaluate(const CubicFit& fit, const Positions& positions, std::uint64_t level) {
+  return sum_of_fields(positions, cubic_basis(level, fit.max_level), fit.fields.data());
+}
+
+inline Positions evaluate(const LevelBasis& basis, const LevelNodes& nodes,
+                          const Positions& positions, std::uint64_t level) {
+  return sum_of_fields(positions, basis_functions(nodes, basis.mixing, level), basis.fields.data());
+}
+
+}  // namespace crowdface::testing
