@@ -55,7 +55,8 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
         EXPECT_TRUE(source.head == 1 || source.head == 3);
       }
     }
-    EXPECT_FALSE(draw_face(casting, index, 0, kind_of_group(casting)).group) << "of none: by the numbers of the crowd";
+    EXPECT_FALSE(draw_face(casting, index, 0, kind_of_group(casting)).group)
+        << "of none: by the numbers of the crowd";
   }
 }
 
