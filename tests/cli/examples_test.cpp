@@ -24,6 +24,10 @@ class Examples : public ::testing::Test {
         0,
         {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "8", "--textures", "64"},
         {});
+    crowdface(0,
+              {"synth", "-o", (folder_ / "out/brief_heads").string(), "--vertices", "5000",
+               "--count", "24"},
+              {});
     // Stand-ins for the heads that scripts/get_heads.sh brings; one UDIM tile is all they touch.
     for (const char* model : {"ict", "makehuman"}) {
       fs::create_directories(folder_ / "heads" / model);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 
 #include "cli/program_test.h"
@@ -89,7 +90,7 @@ TEST(Usage, WrongNumbersAre64AndChangeNothing) {
                                                         {"--shard", "1/10000"},
                                                         {"--limit", "vertices=0"},
                                                         {"--limit", "noses=3"}}) {
-    crowdface(64, {"generate", config, option + "=" + value}, {option});
+    crowdface(64, {"generate", config, concat(option, "=", value)}, {option});
   }
   crowdface(64,
             {"smooth", folder.head("ann").string(), "--iterations=1e3", "-o",

@@ -244,7 +244,7 @@ TEST_F(ConfigTest, NoKeyTakesAValueOfAnotherKind) {
     }
     for (const char* value : {"[]", "{}", "[[1], 2]", "{x: 1}", "nonsense", "-7", "nan", ".inf",
                               "''", "1e999", "0x1F"}) {
-      const std::string text = key + value + closing;
+      const std::string text = concat(key, value, closing);
       EXPECT_FALSE(read(kBands + text)) << text;
       ASSERT_FALSE(problems_.empty()) << text;
       EXPECT_THAT(told(), testing::StartsWith("c.yaml:5:")) << text;

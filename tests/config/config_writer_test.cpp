@@ -144,7 +144,7 @@ class EffectiveConfig : public ConfigTest {
     const auto first = read(text);
     EXPECT_TRUE(first) << told();
     if (!first) return "";
-    const std::string written = effective_config(*first, first->output.directory);
+    std::string written = effective_config(*first, first->output.directory);
     const auto file = first->output.directory / "config.yaml";
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file) << written;
@@ -190,6 +190,7 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  tolerance: 0.05 mm\n"
             "blending:\n"
             "  normalization: partition\n"
+            "  contacts: auto\n"
             "parts:\n"
             "  shape: target\n"
             "  skin: []\n"

@@ -67,7 +67,7 @@ TEST_F(YamlCorpus, EveryProblemHasItsPlace) {
     const std::size_t colon = line.find(':');
     if (line.find('-') < colon) continue;
     const std::string key = line.substr(0, colon);
-    EXPECT_TRUE(refused(with_line(l, line + "\n" + line))) << "the key a second time";
+    EXPECT_TRUE(refused(with_line(l, concat(line, "\n", line)))) << "the key a second time";
     EXPECT_TRUE(refused(with_line(l, key + "x" + line.substr(colon)))) << "an unknown key";
     count += 2;
     const bool block = colon + 1 == line.size();

@@ -9,8 +9,6 @@
 namespace crowdface {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A crowd of this text and no other.
 CrowdConfig config_of(const std::string& text) {
   return {text, {}, [text](const std::string& other) {

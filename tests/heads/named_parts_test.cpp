@@ -20,7 +20,6 @@
 namespace crowdface {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;

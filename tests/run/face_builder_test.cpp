@@ -11,6 +11,7 @@
 #include "crowdface/blend/blend.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/run/pipeline.h"
 #include "crowdface/synth/synthetic_head.h"
 
 #include "support/temporary_folder.h"

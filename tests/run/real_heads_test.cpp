@@ -45,6 +45,7 @@ TEST_F(RealHeads, MatchThePlainMethod) {
       concat("schema: 1\ncrowd: {name: real, count: 3, seed: 5}\nfaces: {files: [", join(files),
              "], units: cm}\n", "regions: {names: [top, middle, bottom], mask: bands.<UDIM>.png}\n",
              "smoothing: {boundary: fixed, operator: umbrella, levels: exact}\nparts: none\n",
+             "blending: {contacts: none}  # the equations and nothing else\n",
              "sampling: {smoothness: [0.1, 0.6], extrapolation: [0.9, 1.2], max_sources: 2}\n",
              "output: {directory: out, contact_sheet: none}\n"));
   generate(config, {}, {folder / "cache", Replace::kRefuse, false});

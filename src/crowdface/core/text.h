@@ -30,7 +30,7 @@ std::string zero_padded(std::uint64_t number, std::size_t digits);
 std::string lower_case(std::string_view text);
 
 /// `text` as a terminal may be given it: bytes of control characters but for the line's end, of marks
-/// that turn the direction of writing, and of what is no UTF-8 become \x1b and the like.
+/// that turn the direction of writing, and of what is no UTF-8 become numbers in hexadecimal.
 std::string printable(std::string_view text);
 
 /// `text` between double quotes, printable, line ends and quotes escaped too; long text is shortened.
