@@ -41,7 +41,10 @@ std::string with_numbers(const std::string& line, const Eigen::RowVector3d& row)
 
 /// The form filled in line by line, as slow and plain as can be.
 std::string filled_in(const ObjFile& file, const Topology& topology, const Positions& positions) {
-  Positions normals = Positions::Zero(static_cast<Index>(file.normal_spans.size()), 3);
+  const std::string text(file.file.bytes());
+  Index normal_count = 0;
+  for (std::size_t at = 0; (at = text.find("\nvn", at)) != text.npos; ++at) ++normal_count;
+  Positions normals = Positions::Zero(normal_count, 3);
   for (Index f = 0; f < topology.face_count() && !file.corner_normals.empty(); ++f) {
     const Eigen::RowVector3d area = face_area_vector(topology, f, positions);
     for (auto c = topology.face_offsets[static_cast<std::size_t>(f)];
@@ -51,7 +54,6 @@ std::string filled_in(const ObjFile& file, const Topology& topology, const Posit
   }
   std::string out;
   Index v = 0, n = 0;
-  const std::string text(file.file.bytes());
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
     const std::string line = text.substr(at, end - at);

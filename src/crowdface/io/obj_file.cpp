@@ -103,8 +103,6 @@ ObjFile read_obj(const std::filesystem::path& path) {
   compare(scan, attributes, result);
   result.positions = std::move(scan.positions);  // correctly rounded, which the loader's are not
   result.uvs = std::move(scan.uvs);
-  result.vertex_spans = std::move(scan.vertex_spans);
-  result.normal_spans = std::move(scan.normal_spans);
   result.material_libraries = std::move(scan.material_libraries);
   result.materials = std::move(scan.materials);
   result.groups = std::move(scan.groups);

@@ -12,17 +12,16 @@
 
 namespace crowdface {
 
-/// An OBJ file as read: its mesh, and its text with the places where the numbers stand, so that it
-/// can be written again with other positions and nothing else changed. The text stays mapped.
+/// An OBJ file as read: its mesh, and its text, which stays mapped, so that it can be written again
+/// with other positions and nothing else changed.
 struct ObjFile {
   std::filesystem::path path;
   MappedFile file;
   Topology topology;                          ///< quads and n-gons kept, vertex order kept
   Positions positions;                        ///< #V by 3, in file units
   TextureCoordinates uvs;                     ///< #T by 2
-  std::vector<std::uint32_t> corner_normals;  ///< #C rows of `vn` or kNoIndex; empty if no `vn`
-  std::vector<TextSpan> vertex_spans;         ///< #V
-  std::vector<TextSpan> normal_spans;         ///< #N
+  /// #C rows of `vn` or kNoIndex; empty if no `vn`
+  std::vector<std::uint32_t> corner_normals;
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;

@@ -73,8 +73,6 @@ class Scanner {
     require_at_most(input_limits().faces, total_.faces, "faces");
     scan_.positions.resize(static_cast<Index>(total_.vertices), 3);
     scan_.uvs.resize(static_cast<Index>(total_.uvs), 2);
-    scan_.vertex_spans.reserve(total_.vertices);
-    scan_.normal_spans.reserve(total_.normals);
     for_each_line([&](std::string_view line) { check(line); });
     if (total_.vertices == 0) {
       throw InvalidInput(concat(name_, ": expected a mesh, found no vertex ('v' line)"));
@@ -168,36 +166,29 @@ class Scanner {
     }
   }
 
-  TextSpan span_of_three() const {
-    const auto begin = static_cast<std::uint64_t>(words_[1].data() - text_.data());
-    const char* end = words_[3].data() + words_[3].size();
-    return {begin, static_cast<std::uint32_t>(end - words_[1].data())};
-  }
-
   void vertex() {
     require_words(3, 8, "3 coordinates (and at most w and a colour)");
-    const auto row = static_cast<Index>(scan_.vertex_spans.size());
+    const auto row = static_cast<Index>(seen_.vertices++);
     for (std::size_t c = 0; c < 3; ++c) {
       scan_.positions(row, static_cast<Index>(c)) = number(words_[c + 1], kLargestCoordinate);
     }
     for (std::size_t c = 4; c < words_.size(); ++c) number(words_[c], kLargestCoordinate);
-    scan_.vertex_spans.push_back(span_of_three());
   }
 
   void texture_coordinate() {
     require_words(1, 3, "2 texture coordinates (and at most w)");
+    const auto row = static_cast<Index>(seen_.uvs++);
     for (std::size_t c = 1; c < words_.size(); ++c) {
       const double value = number(words_[c], kLargestCoordinate);
-      if (c <= 2) scan_.uvs(uvs_seen_, static_cast<Index>(c) - 1) = value;
+      if (c <= 2) scan_.uvs(row, static_cast<Index>(c) - 1) = value;
     }
-    if (words_.size() == 2) scan_.uvs(uvs_seen_, 1) = 0;
-    ++uvs_seen_;
+    if (words_.size() == 2) scan_.uvs(row, 1) = 0;
   }
 
   void normal() {
     require_words(3, 3, "3 components of a normal");
     for (std::size_t c = 1; c < 4; ++c) number(words_[c], kLargestCoordinate);
-    scan_.normal_spans.push_back(span_of_three());
+    ++seen_.normals;
   }
 
   /// A 1-based or relative index, checked against what exists (or, relative, what came before).
@@ -237,17 +228,17 @@ class Scanner {
   int corner(std::string_view word) const {
     const std::size_t first = word.find('/');
     const std::size_t second = first == word.npos ? word.npos : word.find('/', first + 1);
-    check_index(word.substr(0, first), "vertex", total_.vertices, scan_.vertex_spans.size());
+    check_index(word.substr(0, first), "vertex", total_.vertices, seen_.vertices);
     if (first == word.npos) return 0;
     const bool has_normal = second != word.npos;
     const std::string_view uv = word.substr(first + 1, has_normal ? second - first - 1 : word.npos);
     int form = 0;
     if (!uv.empty() || !has_normal) {
-      check_index(uv, "texture coordinate", total_.uvs, static_cast<std::uint64_t>(uvs_seen_));
+      check_index(uv, "texture coordinate", total_.uvs, seen_.uvs);
       form |= 1;
     }
     if (has_normal) {
-      check_index(word.substr(second + 1), "normal", total_.normals, scan_.normal_spans.size());
+      check_index(word.substr(second + 1), "normal", total_.normals, seen_.normals);
       form |= 2;
     }
     return form;
@@ -257,8 +248,7 @@ class Scanner {
   const std::string& name_;
   std::size_t line_number_ = 0;
   std::vector<std::string_view> words_;
-  Counts total_;
-  Index uvs_seen_ = 0;
+  Counts total_, seen_;  ///< in the whole text, and in the lines checked so far
   ObjScan scan_;
 };
 

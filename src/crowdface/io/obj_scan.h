@@ -10,25 +10,16 @@
 
 namespace crowdface {
 
-/// Where in a file a run of numbers stands: from the first character of the first to the end of the
-/// last.
-struct TextSpan {
-  std::uint64_t begin = 0;
-  std::uint32_t length = 0;
-};
-
 /// From which face on a material is in use.
 struct MaterialRange {
   std::string name;
   Index first_face = 0;
 };
 
-/// What the strict scan of an OBJ text finds: all numbers, and where they stand.
+/// What the strict scan of an OBJ text finds.
 struct ObjScan {
-  Positions positions;                 ///< #V by 3
-  TextureCoordinates uvs;              ///< #T by 2
-  std::vector<TextSpan> vertex_spans;  ///< #V, the x y z of each `v`
-  std::vector<TextSpan> normal_spans;  ///< #N, the x y z of each `vn`
+  Positions positions;     ///< #V by 3
+  TextureCoordinates uvs;  ///< #T by 2
   Index face_count = 0;
   Index corner_count = 0;
   std::vector<std::string> material_libraries;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/io/single_text.h"
 
@@ -28,6 +30,37 @@ bool has_single_spaces(std::string_view numbers) {
   const std::size_t second = numbers.find_first_of(" \t", first + 1);
   return second != numbers.npos && second > first + 1 && numbers[first] == ' ' &&
          numbers[second] == ' ' && !is_blank(numbers[second + 1]);
+}
+
+/// The x y z of a line that begins with this word, if it does.
+std::string_view numbers_after(std::string_view word, std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::size_t at = 0;
+  const auto skip = [&](bool blanks) {
+    while (at < line.size() && is_blank(line[at]) == blanks) ++at;
+    return at;
+  };
+  const std::size_t first = skip(true);
+  if (line.substr(first, skip(false) - first) != word) return {};
+  const std::size_t begin = skip(true);
+  skip(false);
+  skip(true);
+  skip(false);
+  skip(true);
+  return line.substr(begin, skip(false) - begin);
+}
+
+/// Whoever made the target of this text has seen as many rows as there are.
+void require_counts(const ObjFile& target, std::uint32_t vertices, Index expected,
+                    std::uint32_t normals) {
+  bool fits = static_cast<Index>(vertices) == expected;
+  for (const std::uint32_t row : target.corner_normals) {
+    fits = fits && (row == kNoIndex || row < normals);
+  }
+  if (fits) return;
+  throw InvalidInput(concat(target.path.string(), ": expected ", expected,
+                            " vertices, and normals for all corners, found ", vertices, " and ",
+                            normals));
 }
 
 char* write_row(char* out, const Positions& rows, Index i) {
@@ -72,31 +105,32 @@ bool is_zero(const Positions& rows, Index i) {
 }  // namespace
 
 ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology)
-    : text_(target.file.bytes()),
-      topology_(topology),
-      vertices_(static_cast<Index>(target.vertex_spans.size())) {
-  const auto &vertices = target.vertex_spans, &normals = target.normal_spans;
+    : text_(target.file.bytes()), topology_(topology), vertices_(topology.vertex_count) {
   // Normals that no face uses are text like any other.
-  const std::size_t normal_count = target.corner_normals.empty() ? 0 : normals.size();
-  if (normal_count > 0) {
-    fans_.emplace(topology, target.corner_normals, static_cast<Index>(normal_count));
-  }
-  // In the order of the file; vertices and normals may be interleaved.
-  std::vector<Place> places;
-  for (std::size_t v = 0, n = 0; v < vertices.size() || n < normal_count;) {
-    const bool is_normal =
-        v == vertices.size() || (n < normal_count && normals[n].begin < vertices[v].begin);
-    const auto row = static_cast<std::uint32_t>(is_normal ? n : v);
-    const TextSpan& span = is_normal ? normals[n++] : vertices[v++];
+  const bool has_normals = !target.corner_normals.empty();
+  std::uint32_t vertices = 0, normals = 0;
+  std::vector<Place> places;  // vertices and normals may be interleaved
+  for (std::size_t begin = 0; begin < text_.size();) {
+    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
+    const std::string_view line = text_.substr(begin, end - begin);
+    begin = end + 1;
+    std::string_view numbers = numbers_after("v", line);
+    const bool is_normal = has_normals && numbers.empty();
+    if (is_normal) numbers = numbers_after("vn", line);
+    if (numbers.empty()) continue;
     const bool ends_run = !places.empty() && places.back().is_normal != is_normal &&
                           places.size() > kPlacesPerBlock / 2;
     if (places.size() == kPlacesPerBlock || ends_run) {
       add_block(places);
       places.clear();
     }
-    places.push_back({span.begin, span.length, row, is_normal});
+    places.push_back({static_cast<std::uint64_t>(numbers.data() - text_.data()),
+                      static_cast<std::uint32_t>(numbers.size()),
+                      is_normal ? normals++ : vertices++, is_normal});
   }
   if (!places.empty()) add_block(places);
+  require_counts(target, vertices, vertices_, normals);
+  if (has_normals) fans_.emplace(topology, target.corner_normals, normals);
 }
 
 void ObjTemplate::add_block(const std::vector<Place>& places) {
