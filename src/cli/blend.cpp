@@ -72,7 +72,8 @@ void blend(const Options& options) {
                quoted(options.out)));
   }
   const std::filesystem::path file = output_file(options.out);
-  const Job job = load_job(options.config.config, options.config.overrides);
+  const Job job =
+      load_job(options.config.config, options.config.overrides, options.config.cache_path());
   refuse_to_write_over(input_files(job.config), file);
   const PlanLine line = find_recipe(options.recipe, job.names);
   if (line.settings != job.settings.hex() && !options.any_settings) {

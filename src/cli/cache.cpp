@@ -3,7 +3,7 @@
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/cache_folder.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -16,7 +16,7 @@ Run add_cache(CLI::App& program) {
     bool clear = false;
   };
   return add_command<Options>(
-      program, "cache", "Where prepared heads are kept, and what is there",
+      program, "cache", "Where heads are kept, as read and prepared, and what is there",
       [](CLI::App& command, Options& options) {
         options.cache.add_to(command);
         command.add_flag("--clear", options.clear, "Remove all entries");
@@ -28,8 +28,9 @@ Run add_cache(CLI::App& program) {
           return;
         }
         const CacheContents contents = list_cache(folder);
-        print(concat(folder.string(), "\n", contents.entries.size(), " prepared heads, ",
-                     format_fixed(static_cast<double>(contents.bytes) / 1e6, 1), " MB\n"));
+        print(concat(folder.string(), "\n", contents.prepared, " prepared heads, ", contents.read,
+                     " heads as read, ", format_fixed(static_cast<double>(contents.bytes) / 1e6, 1),
+                     " MB\n"));
       });
 }
 

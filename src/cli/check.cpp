@@ -74,7 +74,8 @@ Run add_check(CLI::App& program) {
                    "Render each region's mask on the mean head here");
       },
       [](const Options& options) {
-        const Job job = load_job(options.config.config, options.config.overrides);
+        const Job job =
+            load_job(options.config.config, options.config.overrides, options.config.cache_path());
         describe(job);
         if (!options.masks.empty()) write_masks(job, options.masks);
       });

@@ -13,7 +13,7 @@
 #include "crowdface/core/memory.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/cache_folder.h"
 
 namespace crowdface::cli {
 namespace {

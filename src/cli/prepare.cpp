@@ -48,7 +48,8 @@ Run add_prepare(CLI::App& program) {
       program, "prepare", "Smooth and fit the heads only, into the cache",
       [](CLI::App& command, Options& options) { options.config.add_to(command); },
       [](const Options& options) {
-        const Job job = load_job(options.config.config, options.config.overrides);
+        const Job job =
+            load_job(options.config.config, options.config.overrides, options.config.cache_path());
         const std::filesystem::path cache = options.config.cache_path();
         make_directories(cache);
         const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);

@@ -21,7 +21,7 @@
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/plan_file.h"
 #include "crowdface/crowd/verify.h"
-#include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/prepare.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/obj_writer.h"

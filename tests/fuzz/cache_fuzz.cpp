@@ -8,7 +8,10 @@
 #include <unistd.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/read_cache.h"
+#include "crowdface/mesh/adjacency.h"
 
 #include "fuzz/input_file.h"
 
@@ -37,14 +40,28 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof sum));
     std::memcpy(bytes.data() + bytes.size() - sizeof sum, &sum, sizeof sum);
   }
-  std::filesystem::create_directories(cache_entry(folder, key).parent_path());
-  std::ofstream(cache_entry(folder, key), std::ios::binary) << bytes;
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const std::filesystem::path& entry) {
+    std::ofstream(entry, std::ios::binary) << bytes;
+  };
+  write(cache_entry(folder, key, kPreparedEnding));
   for (const Levels levels : {Levels::kBasis, Levels::kExact, Levels::kCubic}) {
     const HeadCacheShape shape = {8, 4, 3, 5, 60, levels};
     try {
       if (const auto head = read_cached_head(folder, key, shape)) read_all(*head, shape);
     } catch (const Error&) {
     }
+  }
+  write(head_entry(folder, key));
+  write(mesh_entry(folder, key));
+  try {
+    ObjFile head;
+    find_head(folder, key, head);
+  } catch (const Error&) {
+  }
+  try {
+    if (const auto mesh = find_mesh(folder, key)) build_adjacency(mesh->topology);
+  } catch (const Error&) {
   }
   return 0;
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prepared heads: kept, used again, and never trusted when damaged.
-#include "crowdface/heads/head_cache.h"
-
 #include <cstdlib>
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/run/generate.h"
 
 #include "support/crowd_files.h"

@@ -161,7 +161,7 @@ TEST(Sheets, PagesThatAreTooLargeAreRefusedWithTheConfig) {
     Problems problems;
     ConfigOverrides overrides;
     overrides.set = {"output.contact_sheet=" + sheet};
-    load_job(folder.config(), overrides, problems);
+    load_job(folder.config(), overrides, {}, problems);
     return problems.messages();
   };
   EXPECT_THAT(load("{columns: 10, rows: 1, cell: 2048, views: [front, three_quarter, profile]}"),

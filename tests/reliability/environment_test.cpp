@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "crowdface/core/text.h"
-#include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/cache_folder.h"
 
 #include "reliability/crowd_under_test.h"
 

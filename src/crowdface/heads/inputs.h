@@ -18,6 +18,7 @@ namespace crowdface {
 struct Inputs {
   FaceSet faces;
   std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
+  std::vector<Digest> texts;   ///< #heads, of the files' bytes
   FaceMaterials materials;     ///< of the first head's faces
   Adjacency adjacency;
   Components components;

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <span>
 
-#include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/alignment_check.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/heads/read_heads.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -23,33 +22,6 @@ constexpr int kLeastTexture = 1024;  // pixels a side that textures keep, if the
 bool is_missing(const std::filesystem::path& file) {
   std::error_code ignored;
   return !std::filesystem::exists(file, ignored);
-}
-
-/// Heads that could be read; the others are problems.
-std::vector<ObjFile> read_heads(const std::vector<std::filesystem::path>& paths,
-                                Problems& problems) {
-  const std::size_t count = paths.size();
-  std::vector<std::optional<ObjFile>> files(count);
-  std::vector<std::optional<Error>> errors(count);
-  {
-    Progress progress("reading heads", count);
-    parallel_for_each(static_cast<Index>(count), [&](Index h) {
-      throw_if_interrupted();
-      const auto i = static_cast<std::size_t>(h);
-      try {
-        files[i] = read_obj(paths[i]);
-      } catch (const Error& error) {
-        errors[i] = error;
-      }
-      progress.step();
-    });
-  }
-  std::vector<ObjFile> read;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (errors[i]) problems.add(*errors[i]);
-    if (files[i]) read.push_back(std::move(*files[i]));
-  }
-  return read;
 }
 
 /// Opens the mask images as far as that goes without texture coordinates, which alone tell the UDIM
@@ -80,27 +52,28 @@ std::string uv_difference(const TextureCoordinates& expected, const TextureCoord
   return {};
 }
 
-void compare_with_first(const std::vector<ObjFile>& files, Problems& problems) {
-  for (const ObjFile& file : files) {
-    std::string difference = first_difference(files[0].topology, file.topology);
-    if (difference.empty()) difference = uv_difference(files[0].uvs, file.uvs);
+void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) {
+  for (const HeadFile& head : heads) {
+    if (head.mesh == heads[0].mesh) continue;
+    std::string difference = first_difference(heads[0].mesh->topology, head.mesh->topology);
+    if (difference.empty()) difference = uv_difference(heads[0].mesh->uvs, head.mesh->uvs);
     if (difference.empty()) continue;
-    problems.add(ExitCode::kBadData, concat(file.path.string(), ": not the same mesh as ",
-                                            files[0].path.string(), ": ", difference));
+    problems.add(ExitCode::kBadData, concat(head.file.path.string(), ": not the same mesh as ",
+                                            heads[0].file.path.string(), ": ", difference));
   }
 }
 
-/// Moves the meshes out of the files; the topology is kept once.
-FaceSet take_faces(const Config& config, std::vector<ObjFile>& files) {
-  FaceSet faces;
-  faces.topology = std::move(files[0].topology);
-  faces.uvs = std::move(files[0].uvs);
-  for (std::size_t h = 0; h < files.size(); ++h) {
-    faces.heads.push_back({config.faces.names[h], std::move(files[h].positions)});
-    files[h].topology = Topology{};
-    files[h].uvs.resize(0, 2);
+/// Moves what was read into the inputs; the topology is kept once.
+void take_heads(const Config& config, std::vector<HeadFile> heads, Inputs& inputs) {
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    ObjFile& file = heads[h].file;
+    file.corner_normals = heads[h].mesh->corner_normals;
+    inputs.faces.heads.push_back({config.faces.names[h], std::move(file.positions)});
+    inputs.files.push_back(std::move(file));
+    inputs.texts.push_back(heads[h].text);
   }
-  return faces;
+  inputs.faces.topology = std::move(heads[0].mesh->topology);
+  inputs.faces.uvs = std::move(heads[0].mesh->uvs);
 }
 
 double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
@@ -193,12 +166,13 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
 
 }  // namespace
 
-void check_inputs(const ConfigReading& reading, Problems& problems) {
+void check_inputs(const ConfigReading& reading, const std::filesystem::path& cache,
+                  Problems& problems) {
   // Of files that are not there whoever read the config has told.
   if (reading.heads_known) {
     std::vector<std::filesystem::path> heads = reading.config.faces.files;
     std::erase_if(heads, is_missing);
-    compare_with_first(read_heads(heads, problems), problems);
+    compare_with_first(read_heads(heads, cache, problems), problems);
   }
   if (reading.regions_known) {
     std::vector<std::string> masks = reading.config.regions.mask;
@@ -207,18 +181,19 @@ void check_inputs(const ConfigReading& reading, Problems& problems) {
   }
 }
 
-std::optional<Inputs> load_inputs(const Config& config, Problems& problems) {
-  Inputs inputs;
-  inputs.files = read_heads(config.faces.files, problems);
-  compare_with_first(inputs.files, problems);
+std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::path& cache,
+                                  Problems& problems) {
+  std::vector<HeadFile> heads = read_heads(config.faces.files, cache, problems);
+  compare_with_first(heads, problems);
   if (!problems.empty()) {
     check_masks(config.regions.mask, problems);
     return std::nullopt;
   }
 
-  inputs.materials =
-      face_materials(inputs.files[0].materials, inputs.files[0].topology.face_count());
-  inputs.faces = take_faces(config, inputs.files);
+  keep_heads(heads, cache);
+  Inputs inputs;
+  take_heads(config, std::move(heads), inputs);
+  inputs.materials = face_materials(inputs.files[0].materials, inputs.faces.topology.face_count());
   inputs.adjacency = build_adjacency(inputs.faces.topology);
   inputs.components = find_components(inputs.adjacency);
   try {

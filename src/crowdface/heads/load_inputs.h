@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "crowdface/config/config_reader.h"
@@ -11,11 +12,14 @@ namespace crowdface {
 
 /// Reads heads (in parallel) and masks and checks them. Every problem is added; warnings are logged
 /// and kept.
+/// \param cache  the folder that keeps what was read, see cache_directory; empty: none.
 /// \return nothing if there is any problem.
-std::optional<Inputs> load_inputs(const Config& config, Problems& problems);
+std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::path& cache,
+                                  Problems& problems);
 
 /// Only adds the problems of the heads and masks that a config names, as far as it is known: what a
 /// user should hear together with what is wrong in the config.
-void check_inputs(const ConfigReading& reading, Problems& problems);
+void check_inputs(const ConfigReading& reading, const std::filesystem::path& cache,
+                  Problems& problems);
 
 }  // namespace crowdface

@@ -28,9 +28,7 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
   for (std::size_t h = 0; h < inputs.head_digests.size(); ++h) {
     // The file as well as the positions: everything else in a mesh is its target's own text.
-    hasher.add(config.faces.names[h])
-        .add(inputs.head_digests[h])
-        .add(hash_bytes(inputs.files[h].file.bytes()));
+    hasher.add(config.faces.names[h]).add(inputs.head_digests[h]).add(inputs.texts[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);
   hasher.add(static_cast<int>(config.smoothing.boundary))

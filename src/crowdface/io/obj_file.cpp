@@ -81,9 +81,13 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
 }  // namespace
 
 ObjFile read_obj(const std::filesystem::path& path) {
+  return read_obj(path, MappedFile(path));
+}
+
+ObjFile read_obj(const std::filesystem::path& path, MappedFile file) {
   ObjFile result;
   result.path = path;
-  result.file = MappedFile(path);
+  result.file = std::move(file);
   ObjScan scan = scan_obj(result.file.bytes(), path.string());
 
   tinyobj::attrib_t attributes;

@@ -17,9 +17,9 @@ namespace crowdface {
 struct ObjFile {
   std::filesystem::path path;
   MappedFile file;
-  Topology topology;                          ///< quads and n-gons kept, vertex order kept
-  Positions positions;                        ///< #V by 3, in file units
-  TextureCoordinates uvs;                     ///< #T by 2
+  Topology topology;       ///< quads and n-gons kept, vertex order kept
+  Positions positions;     ///< #V by 3, in file units
+  TextureCoordinates uvs;  ///< #T by 2
   /// #C rows of `vn` or kNoIndex; empty if no `vn`
   std::vector<std::uint32_t> corner_normals;
   std::vector<std::string> material_libraries;
@@ -30,6 +30,8 @@ struct ObjFile {
 /// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj).
 /// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
 ObjFile read_obj(const std::filesystem::path& path);
+/// \param file  what is at the path, mapped.
+ObjFile read_obj(const std::filesystem::path& path, MappedFile file);
 
 /// Which face is of which material.
 struct FaceMaterials {

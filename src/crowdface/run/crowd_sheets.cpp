@@ -102,7 +102,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const CrowdLock lock(directory, {});  // another run may be about to replace what is read here
   ConfigOverrides overrides;
   overrides.set = set;
-  const Job job = load_job(directory.config(), overrides);
+  const Job job = load_job(directory.config(), overrides, cache);
   if (!job.config.output.contact_sheet) {
     throw UsageError(concat(directory.config().string(),
                             ": this crowd has no contact sheet; ask for one with --set "

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "crowdface/crowd/ledger.h"
-#include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/pictures/pictures.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"

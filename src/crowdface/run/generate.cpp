@@ -289,7 +289,8 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   }
   const LogMemory memory;  // the crowd's log is opened once there is a crowd
   StageSeconds stages;
-  const Job job = timed(stages, "read", [&] { return load_job(config_file, overrides); });
+  const Job job =
+      timed(stages, "read", [&] { return load_job(config_file, overrides, options.cache); });
   if (options.dry_run) {
     check_output(job, options.replace);
     if (makes_faces(job.config, options)) {
@@ -304,7 +305,7 @@ void gather(const fs::path& crowd_directory, const fs::path& cache) {
   const CrowdDirectory directory{crowd_directory};
   const LogMemory memory;
   StageSeconds stages;
-  const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}); });
+  const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}, cache); });
   GenerateOptions options;
   options.cache = cache;
   going_on_if_cut([&] { run_job(job, options, Purpose::kGather, memory, stages); });
@@ -312,7 +313,7 @@ void gather(const fs::path& crowd_directory, const fs::path& cache) {
 
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options) {
-  const Job job = load_job(config_file, overrides);
+  const Job job = load_job(config_file, overrides, options.cache);
   if (options.dry_run) {
     check_output(job, options.replace);
     return tell_dry_run(job.config, nullptr);

@@ -7,7 +7,7 @@
 #include "crowdface/config/config_reader.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/shard.h"
-#include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/cache_folder.h"
 
 namespace crowdface {
 

@@ -78,15 +78,16 @@ ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
 }  // namespace
 
 std::optional<Job> load_job(const std::filesystem::path& config_file,
-                            const ConfigOverrides& overrides, Problems& problems) {
+                            const ConfigOverrides& overrides, const std::filesystem::path& cache,
+                            Problems& problems) {
   ConfigReading reading = read_with_kept_reviews(config_file, overrides, problems);
   if (!reading.complete) {
-    check_inputs(reading, problems);
+    check_inputs(reading, cache, problems);
     return std::nullopt;
   }
   Config& config = reading.config;
   check_paths(config, problems);
-  std::optional<Inputs> inputs = load_inputs(config, problems);
+  std::optional<Inputs> inputs = load_inputs(config, cache, problems);
   if (!inputs) return std::nullopt;
   check_levels(config, *inputs, problems);
   check_compared_mesh(config, *inputs, problems);
@@ -98,9 +99,10 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
   return Job{std::move(config), std::move(*inputs), smoothing, names, settings};
 }
 
-Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides) {
+Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
+             const std::filesystem::path& cache) {
   Problems problems;
-  std::optional<Job> job = load_job(config_file, overrides, problems);
+  std::optional<Job> job = load_job(config_file, overrides, cache, problems);
   problems.throw_if_any();
   return std::move(*job);
 }

@@ -24,11 +24,14 @@ struct Job {
 };
 
 /// Reads config, heads and masks. Every problem is added.
+/// \param cache  the folder that keeps heads as they were read, see cache_directory; empty: none.
 /// \return nothing if there is any problem.
 std::optional<Job> load_job(const std::filesystem::path& config_file,
-                            const ConfigOverrides& overrides, Problems& problems);
+                            const ConfigOverrides& overrides, const std::filesystem::path& cache,
+                            Problems& problems);
 /// \throws Error with all problems.
-Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides);
+Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
+             const std::filesystem::path& cache = {});
 
 /// The config as it will stand in that folder, which keeps the reviews.
 std::string config_in_folder(Config config, const CrowdDirectory& directory);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/cache_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include "crowdface/core/list_files.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kEndings = {kPreparedEnding, kReadEnding, kMeshEnding};
+
+/// In blocks, within which no number decides what is done with the next: vectors of them are
+/// compared at once.
+template <class T>
+bool all_coordinates(std::span<const T> values) {
+  constexpr T kLargest = 1e9;
+  constexpr std::size_t kBlock = 4096;
+  for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
+    bool good = true;
+    for (const T value : values.subspan(begin, std::min(kBlock, values.size() - begin))) {
+      good &= std::abs(value) <= kLargest;  // NaN is not
+    }
+    if (!good) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+fs::path cache_directory() {
+  const auto from = [](const char* variable) -> std::string {
+    const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): read at start only
+    return value == nullptr ? std::string() : std::string(value);
+  };
+  if (const std::string xdg = from("XDG_CACHE_HOME"); !xdg.empty())
+    return fs::path(xdg) / "crowdface";
+  if (const std::string home = from("HOME"); !home.empty()) {
+    return fs::path(home) / ".cache" / "crowdface";
+  }
+  std::error_code error;
+  const fs::path temporary = fs::temp_directory_path(error);  // one that is not there is an error
+  return (error ? fs::path("/tmp") : temporary) / "crowdface-cache";
+}
+
+fs::path cache_entry(const fs::path& cache, const Digest& key, std::string_view ending) {
+  return cache / concat(key.hex(), ending);
+}
+
+CacheContents list_cache(const fs::path& cache) {
+  std::error_code error, ignored;
+  CacheContents contents;
+  contents.entries = list_files(
+      cache,
+      [&](const fs::path& path) {
+        return std::ranges::find(kEndings, path.extension().string()) != kEndings.end() &&
+               fs::is_regular_file(path, ignored);
+      },
+      &error);
+  if (error && error != std::errc::no_such_file_or_directory) {
+    throw MissingInput(concat(cache.string(), ": cannot be read as a folder: ", error.message()));
+  }
+  for (const fs::path& entry : contents.entries) {
+    contents.bytes += fs::file_size(entry, ignored);
+    contents.prepared += entry.extension() == kPreparedEnding ? 1U : 0U;
+    contents.read += entry.extension() == kReadEnding ? 1U : 0U;
+  }
+  return contents;
+}
+
+std::size_t clear_cache(const fs::path& cache) {
+  std::size_t removed = remove_leftovers(cache);
+  for (const fs::path& entry : list_cache(cache).entries) {
+    std::error_code error;
+    if (fs::remove(entry, error)) ++removed;
+    if (error) throw IoError(concat(entry.string(), ": cannot be removed: ", error.message()));
+  }
+  return removed;
+}
+
+std::optional<MappedEntry> map_entry(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return std::nullopt;
+  const auto file = std::make_shared<const MappedFile>(path, WhenCut::kFill);
+  if (file->bytes().size() < sizeof(Digest)) throw bad_entry(path, "of the wrong size");
+  const std::size_t size = file->bytes().size() - sizeof(Digest);
+  const std::string_view content = file->bytes().substr(0, size);
+  const Digest sum = hash_bytes(content);
+  if (file->bytes().substr(size) != bytes_of(&sum, sizeof sum)) {
+    throw bad_entry(path, "damaged (its checksum is wrong)");
+  }
+  return MappedEntry{file, content};
+}
+
+void write_entry(const fs::path& path, std::vector<std::string_view> pieces) {
+  make_directories(path.parent_path());
+  Hasher hasher;
+  for (const std::string_view piece : pieces) hasher.add_raw(piece);
+  const Digest sum = hasher.digest();
+  pieces.push_back(bytes_of(&sum, sizeof sum));
+  write_file(path, pieces);
+}
+
+InvalidInput bad_entry(const fs::path& path, std::string_view what) {
+  return InvalidInput(concat(path.string(), ": cache entry is ", what));
+}
+
+bool are_coordinates(std::span<const float> values) {
+  return all_coordinates(values);
+}
+
+bool are_coordinates(std::span<const double> values) {
+  return all_coordinates(values);
+}
+
+}  // namespace crowdface

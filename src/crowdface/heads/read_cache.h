@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/io/obj_file.h"
+
+namespace crowdface {
+
+/// What heads of one mesh have in common.
+struct HeadMesh {
+  Topology topology;
+  TextureCoordinates uvs;
+  std::vector<std::uint32_t> corner_normals;  ///< see ObjFile
+  Digest digest() const;
+};
+
+/// Where they are kept.
+std::filesystem::path head_entry(const std::filesystem::path& cache, const Digest& text);
+std::filesystem::path mesh_entry(const std::filesystem::path& cache, const Digest& mesh);
+
+/// Fills in positions, materials and groups, as the reader found them when this text was last read.
+/// \param text  digest of the whole file.
+/// \return the digest of its mesh, or nothing if the cache does not know the text.
+/// \throws InvalidInput if the entry is damaged or of another version.
+std::optional<Digest> find_head(const std::filesystem::path& cache, const Digest& text,
+                                ObjFile& head);
+std::optional<HeadMesh> find_mesh(const std::filesystem::path& cache, const Digest& mesh);
+
+/// Write entries. \throws CannotCreate, IoError.
+void keep_head(const std::filesystem::path& cache, const Digest& text, const Digest& mesh,
+               const ObjFile& head);
+void keep_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);
+
+}  // namespace crowdface

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/read_heads.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/cache_folder.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool by_digest(const Digest& a, const Digest& b) {
+  return std::pair(a.high, a.low) < std::pair(b.high, b.low);
+}
+
+/// The meshes of the heads read so far, each once.
+class MeshShelf {
+ public:
+  explicit MeshShelf(const fs::path& cache) : cache_(cache) {}
+
+  /// \return null if neither we nor the cache have it. \throws InvalidInput of the cache's entry.
+  std::shared_ptr<HeadMesh> find(const Digest& digest) {
+    const std::lock_guard lock(mutex_);
+    const auto known = meshes_.find(digest);
+    if (known != meshes_.end()) return known->second;
+    auto kept = find_mesh(cache_, digest);
+    if (!kept) return nullptr;
+    return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
+  }
+  std::shared_ptr<HeadMesh> put(const Digest& digest, HeadMesh mesh) {
+    const std::lock_guard lock(mutex_);
+    auto& place = meshes_[digest];
+    if (!place) place = std::make_shared<HeadMesh>(std::move(mesh));
+    return place;
+  }
+
+ private:
+  const fs::path& cache_;
+  std::mutex mutex_;
+  std::map<Digest, std::shared_ptr<HeadMesh>, decltype(&by_digest)> meshes_{by_digest};
+};
+
+bool fits(const ObjFile& head, const HeadMesh& mesh) {
+  const Index faces = mesh.topology.face_count();
+  const auto within = [&](const std::vector<MaterialRange>& ranges) {
+    return ranges.empty() || (ranges.front().first_face >= 0 && ranges.back().first_face <= faces);
+  };
+  return head.positions.rows() == mesh.topology.vertex_count && within(head.materials) &&
+         within(head.groups);
+}
+
+bool is_worth_keeping(const ObjFile& file) {
+  return file.file.bytes().size() >= kLeastKeptBytes;
+}
+
+/// Fills in what the cache knows of a head. \return false if it does not.
+bool read_from_cache(HeadFile& head, const fs::path& cache, MeshShelf& shelf) {
+  try {
+    const auto mesh = find_head(cache, head.text, head.file);
+    if (!mesh) return false;
+    head.mesh_digest = *mesh;
+    head.mesh = shelf.find(*mesh);
+    if (!head.mesh || fits(head.file, *head.mesh)) return head.mesh != nullptr;
+    throw InvalidInput(
+        concat(head.file.path.string(), ": its cache entry is damaged (it is of another mesh)"));
+  } catch (const Error& error) {
+    log_warning(concat(error.what(), "; it is made anew"));
+    return false;
+  }
+}
+
+HeadFile read_head(const fs::path& path, const fs::path& cache, MeshShelf& shelf) {
+  HeadFile head;
+  head.file.path = path;
+  head.file.file = MappedFile(path);
+  head.text = hash_bytes(head.file.file.bytes());
+  head.is_kept =
+      !cache.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
+  if (head.is_kept) return head;
+  head.file = read_obj(path, std::move(head.file.file));
+  HeadMesh mesh{std::exchange(head.file.topology, {}), std::move(head.file.uvs),
+                std::exchange(head.file.corner_normals, {})};
+  head.file.uvs.resize(0, 2);
+  head.mesh_digest = mesh.digest();
+  head.mesh = shelf.put(head.mesh_digest, std::move(mesh));
+  return head;
+}
+
+}  // namespace
+
+std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const fs::path& cache,
+                                 Problems& problems) {
+  const std::size_t count = paths.size();
+  std::vector<std::optional<HeadFile>> heads(count);
+  std::vector<std::optional<Error>> errors(count);
+  MeshShelf shelf(cache);
+  {
+    Progress progress("reading heads", count);
+    parallel_for_each(count, [&](std::size_t h) {
+      throw_if_interrupted();
+      try {
+        heads[h] = read_head(paths[h], cache, shelf);
+      } catch (const Error& error) {
+        errors[h] = error;
+      }
+      progress.step();
+    });
+  }
+  std::vector<HeadFile> read;
+  std::size_t kept = 0;
+  for (std::size_t h = 0; h < count; ++h) {
+    if (errors[h]) problems.add(*errors[h]);
+    if (!heads[h]) continue;
+    kept += heads[h]->is_kept ? 1U : 0U;
+    read.push_back(std::move(*heads[h]));
+  }
+  if (kept > 0)
+    log_info(concat(kept, " of ", count, " heads came from the cache as they were read"));
+  return read;
+}
+
+void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
+  if (cache.empty()) return;
+  try {
+    std::vector<Digest> meshes;
+    std::vector<const HeadFile*> lacking;
+    for (const HeadFile& head : heads) {
+      if (head.is_kept || !is_worth_keeping(head.file)) continue;
+      lacking.push_back(&head);
+      if (std::ranges::find(meshes, head.mesh_digest) != meshes.end()) continue;
+      meshes.push_back(head.mesh_digest);
+      keep_mesh(cache, *head.mesh);
+    }
+    parallel_for_each(lacking.size(), [&](std::size_t i) {
+      keep_head(cache, lacking[i]->text, lacking[i]->mesh_digest, lacking[i]->file);
+    });
+  } catch (const Error& error) {
+    log_warning(concat("heads that were read cannot be kept: ", error.what()));
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heads are read once: then the cache knows them, is never trusted when damaged, and sees any change.
+#include "crowdface/heads/read_heads.h"
+
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/input_limits.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/cache_folder.h"
+#include "crowdface/run/generate.h"
+#include "crowdface/run/pipeline.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::crowd_files;
+using testing::differing_files;
+using testing::read_text;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+/// Heads just large enough to be kept.
+SmallCrowd large_heads() {
+  SmallCrowd crowd;
+  crowd.heads = 2;
+  crowd.count = 1;
+  crowd.bowl.columns = crowd.bowl.rows = 100;
+  crowd.bowl.normals = true;
+  crowd.bowl.materials = true;
+  crowd.smoothing_limit = "max_iterations: 3";
+  crowd.levels = "cubic";
+  return crowd;
+}
+
+class KeptHeads : public ::testing::Test {
+ protected:
+  KeptHeads() : folder_(large_heads()) {
+    run();
+    first_ = crowd_files(folder_.out());
+  }
+
+  void run() {
+    fs::remove_all(folder_.out());
+    generate(folder_.config(), {}, {folder_.cache(), Replace::kRefuse, false});
+  }
+  std::string log() const { return read_text(folder_.out() / "crowdface.log"); }
+  std::string error_of_job(const fs::path& cache) const {
+    try {
+      load_job(folder_.config(), {}, cache);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  }
+  fs::path entry_of(const std::string& head) const {
+    return head_entry(folder_.cache(), hash_bytes(read_text(folder_.head(head))));
+  }
+  fs::path mesh() const {
+    for (const fs::path& entry : list_cache(folder_.cache()).entries) {
+      if (entry.extension() == kMeshEnding) return entry;
+    }
+    return {};
+  }
+
+  SmallCrowdFolder folder_;
+  std::map<std::string, std::string> first_;
+};
+
+constexpr const char* kBoth = "2 of 2 heads came from the cache as they were read";
+
+TEST_F(KeptHeads, AreReadOnceAndGiveTheSameCrowd) {
+  ASSERT_GE(fs::file_size(folder_.head("ann")), kLeastKeptBytes);
+  EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("as they were read")));
+  const CacheContents contents = list_cache(folder_.cache());
+  EXPECT_EQ(contents.read, 2U);
+  EXPECT_EQ(contents.prepared, 2U);
+  EXPECT_EQ(contents.entries.size(), 5U) << "one mesh for both";
+  run();
+  EXPECT_THAT(log(), ::testing::HasSubstr(kBoth));
+  EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());
+}
+
+TEST_F(KeptHeads, ChangeOnDiskIsSeenWhateverTheClockSays) {
+  const fs::path head = folder_.head("ann");
+  const auto time = fs::last_write_time(head);
+  std::string text = read_text(head);
+  const std::size_t digit = text.find_first_of("123456789", text.find("\nv ") + 3);
+  text[digit] = text[digit] == '1' ? '2' : '1';
+  folder_.folder().write("heads/ann.obj", text);
+  fs::last_write_time(head, time);
+  run();
+  EXPECT_THAT(log(), ::testing::HasSubstr("1 of 2 heads came from the cache"));
+  const auto changed = crowd_files(folder_.out());
+  EXPECT_THAT(differing_files(changed, first_), ::testing::Not(::testing::IsEmpty()));
+  fs::remove_all(folder_.cache());
+  run();
+  EXPECT_THAT(differing_files(crowd_files(folder_.out()), changed), ::testing::IsEmpty());
+}
+
+/// The bytes with another number at this place, and the checksum that goes with them.
+template <class T>
+std::string forged(std::string bytes, std::size_t at, T number) {
+  std::memcpy(bytes.data() + at, &number, sizeof number);
+  const std::size_t content = bytes.size() - sizeof(Digest);
+  const Digest sum = hash_bytes(std::string_view(bytes).substr(0, content));
+  std::memcpy(bytes.data() + content, &sum, sizeof sum);
+  return bytes;
+}
+
+TEST_F(KeptHeads, DamagedForgedAndForeignEntriesAreReadPast) {
+  const fs::path entry = entry_of("ann"), mesh = this->mesh();
+  const std::string head_bytes = read_text(entry), mesh_bytes = read_text(mesh);
+  const std::size_t names = 64 + 24 * static_cast<std::size_t>(folder_.crowd().bowl.vertex_count());
+  std::string flipped = head_bytes;
+  flipped[1000] = static_cast<char>(flipped[1000] ^ 1);
+  constexpr std::uint64_t kHuge = std::numeric_limits<std::uint64_t>::max() / 2;
+  const std::vector<std::pair<fs::path, std::string>> damaged = {
+      {entry, ""},
+      {entry, "x"},
+      {entry, head_bytes.substr(0, 4096)},
+      {entry, head_bytes.substr(0, head_bytes.size() - 1)},
+      {entry, head_bytes + "x"},
+      {entry, flipped},
+      {entry, forged(head_bytes, 8, std::uint64_t{999})},  // version
+      {entry, forged(head_bytes, 16, std::uint64_t{1})},   // of another text
+      {entry, forged(head_bytes, 48, std::uint64_t{7})},   // vertices
+      {entry, forged(head_bytes, 48, kHuge)},
+      {entry, forged(head_bytes, 64, std::numeric_limits<double>::quiet_NaN())},
+      {entry, forged(head_bytes, 64, 1e30)},
+      {entry, forged(head_bytes, names, kHuge)},  // how many material files
+      {mesh, mesh_bytes.substr(0, 5000)},
+      {mesh, mesh_bytes + "x"},
+      {mesh, forged(mesh_bytes, 8, std::uint64_t{999})},
+      {mesh, forged(mesh_bytes, 32, std::uint64_t{7})},  // vertices: corners of others
+      {mesh, forged(mesh_bytes, 32, kHuge)},             // of another size than positions
+      {mesh, forged(mesh_bytes, 40, kHuge)},             // faces
+      {mesh, forged(mesh_bytes, 48, kHuge)},             // corners
+      {mesh, forged(mesh_bytes, 56, std::uint64_t{1})},  // texture coordinates
+      {mesh, forged(mesh_bytes, 128, std::uint32_t{1U << 30U})}};
+  for (const auto& [path, bytes] : damaged) {
+    SCOPED_TRACE(concat(path.extension().string(), ' ', bytes.size()));
+    folder_.folder().write("cache/" + path.filename().string(), bytes);
+    run();
+    EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr(kBoth)));
+    EXPECT_THAT(log(), ::testing::HasSubstr("it is made anew"));
+    EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());
+    EXPECT_TRUE(read_text(path) == (path == entry ? head_bytes : mesh_bytes)) << "made anew";
+  }
+}
+
+TEST_F(KeptHeads, MeshThatIsGoneIsMadeAnew) {
+  const fs::path mesh = this->mesh();
+  const std::string bytes = read_text(mesh);
+  fs::remove(mesh);
+  run();
+  EXPECT_TRUE(read_text(mesh) == bytes);
+  EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());
+}
+
+TEST_F(KeptHeads, OtherMeshIsToldAsWithoutCache) {
+  std::string text = read_text(folder_.head("bob"));
+  const std::size_t face = text.find("\nf ") + 3;
+  const std::size_t blank = text.find(' ', face), next = text.find_first_of(" \r\n", blank + 1);
+  text = concat(text.substr(0, face), text.substr(blank + 1, next - blank - 1), ' ',
+                text.substr(face, blank - face), text.substr(next));
+  folder_.folder().write("heads/bob.obj", text);
+  const std::string expected = error_of_job({});
+  ASSERT_THAT(expected, ::testing::HasSubstr("not the same mesh as"));
+  EXPECT_EQ(error_of_job(folder_.cache()), expected);
+  EXPECT_FALSE(fs::exists(entry_of("bob"))) << "heads that do not belong together are not kept";
+  Problems problems;
+  keep_heads(read_heads({folder_.head("bob")}, {}, problems), folder_.cache());
+  ASSERT_TRUE(fs::exists(entry_of("bob")));
+  EXPECT_EQ(error_of_job(folder_.cache()), expected);
+}
+
+TEST_F(KeptHeads, SmallerLimitsHoldForThemToo) {
+  const auto problems_of = [&] {
+    Problems problems;
+    read_heads({folder_.head("ann")}, folder_.cache(), problems);
+    return problems.size();
+  };
+  EXPECT_EQ(problems_of(), 0U);
+  const std::uint64_t limit = input_limits().vertices;
+  set_input_limit("vertices=100");
+  EXPECT_EQ(problems_of(), 1U);
+  set_input_limit(concat("vertices=", limit));
+}
+
+TEST_F(KeptHeads, CacheThatCannotBeWrittenToOnlyWarns) {
+  folder_.folder().write("taken", "a file in the place of the folder");
+  fs::remove_all(folder_.out());
+  generate(folder_.config(), {}, {folder_ / "taken", Replace::kRefuse, false});
+  EXPECT_THAT(log(), ::testing::HasSubstr("heads that were read cannot be kept"));
+  EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace crowdface
