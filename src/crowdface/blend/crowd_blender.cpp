@@ -22,7 +22,7 @@ CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
     require(head.fields.size() == static_cast<std::size_t>(3 * head.rank * vertices),
             "blend: ", head.fields.size(), " numbers for ", head.rank, " fields of ", vertices,
             " vertices");
-    field_count_ += static_cast<std::size_t>(head.rank);
+    for (Index p = 0; p < head.rank; ++p) fields_.push_back(head.fields.data() + 3 * p * vertices);
   }
   require(regions.alpha.rows() == vertices, "blend: masks of ", regions.alpha.rows(),
           " vertices for ", vertices);
@@ -66,7 +66,7 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
     shares[static_cast<std::size_t>(source.head)] -= r.extrapolation * source.weight;  // D̃, Eq. 5
   }
   std::vector<float> result;
-  result.reserve(field_count_);
+  result.reserve(fields_.size());
   for (std::size_t h = 0; h < shares.size(); ++h) {
     const auto rank = static_cast<std::size_t>(levels_[h].rank);
     if (shares[h] == 0) {
@@ -86,7 +86,7 @@ CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recip
   of_face.reserve(recipes.size());
   for (const Recipe* recipe : recipes) of_face.push_back(coefficients(*recipe, region));
   Factors factors;
-  for (std::size_t f = 0; f < field_count_; ++f) {
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
     const bool used =
         std::any_of(of_face.begin(), of_face.end(), [&](const auto& face) { return face[f] != 0; });
     if (!used) continue;
@@ -100,22 +100,18 @@ CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recip
 
 /// The block's values of all fields: #chunks by #fields; what is past its last vertex is any number.
 void CrowdBlender::pack(const Block& block, std::vector<Chunk>& packed) const {
-  packed.resize(kBlockChunks * field_count_);
-  std::size_t field = 0;
-  for (const HeadLevels& head : levels_) {
-    for (Index p = 0; p < head.rank; ++p, ++field) {
-      const float* from = head.fields.data() + 3 * p * faces_.topology.vertex_count;
-      std::size_t to = 0;
-      for (const Run& run : block.runs) {
-        const float* value = from + std::size_t{3} * run.first;
-        for (const std::size_t end = to + std::size_t{3} * run.count; to < end;) {
-          const std::size_t in_chunk = to % kChunkValues;
-          const std::size_t count = std::min(kChunkValues - in_chunk, end - to);
-          std::copy_n(value, count,
-                      packed[to / kChunkValues * field_count_ + field].values + in_chunk);
-          value += count;
-          to += count;
-        }
+  packed.resize(kBlockChunks * fields_.size());
+  for (std::size_t field = 0; field < fields_.size(); ++field) {
+    std::size_t to = 0;
+    for (const Run& run : block.runs) {
+      const float* value = fields_[field] + std::size_t{3} * run.first;
+      for (const std::size_t end = to + std::size_t{3} * run.count; to < end;) {
+        const std::size_t in_chunk = to % kChunkValues;
+        const std::size_t count = std::min(kChunkValues - in_chunk, end - to);
+        std::copy_n(value, count,
+                    packed[to / kChunkValues * fields_.size() + field].values + in_chunk);
+        value += count;
+        to += count;
       }
     }
   }
@@ -144,7 +140,7 @@ void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& p
     const Factors& factors = of_region[block.regions[k]];
     if (factors.fields.empty()) continue;
     for (std::size_t i = 0; i < 3 * block.count; i += kChunkValues) {
-      add_product(packed[i / kChunkValues * field_count_].values, factors.fields.data(),
+      add_product(packed[i / kChunkValues * fields_.size()].values, factors.fields.data(),
                   factors.fields.size(), factors.coefficients.data(), alpha[k].data() + i,
                   result[0].data() + i, kBlockValues);
     }

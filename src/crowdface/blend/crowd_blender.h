@@ -86,7 +86,7 @@ class CrowdBlender {
   const FaceSet& faces_;
   std::vector<HeadLevels> levels_;
   const RegionWeights& regions_;
-  std::size_t field_count_ = 0;
+  std::vector<const float*> fields_;  ///< of all heads, #V by 3 each
   std::vector<Block> blocks_;
 };
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
 #include <cstdlib>
-#include <cstring>
+#include <limits>
 #include <string>
 #include <system_error>
 
@@ -19,20 +19,17 @@ namespace fs = std::filesystem;
 
 constexpr std::array kEndings = {kPreparedEnding, kReadEnding, kMeshEnding};
 
-/// In blocks, within which no number decides what is done with the next: vectors of them are
-/// compared at once.
-template <class T>
+/// Magnitudes are ordered as their bits are, and NaN and infinity beyond all others. So they are
+/// compared as integers, vectors of them at once: any too large makes its difference negative.
+template <class Integer, class T>
 bool all_coordinates(std::span<const T> values) {
-  constexpr T kLargest = 1e9;
-  constexpr std::size_t kBlock = 4096;
-  for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
-    bool good = true;
-    for (const T value : values.subspan(begin, std::min(kBlock, values.size() - begin))) {
-      good &= std::abs(value) <= kLargest;  // NaN is not
-    }
-    if (!good) return false;
+  constexpr auto kMagnitude = std::numeric_limits<Integer>::max();
+  constexpr auto kLargest = std::bit_cast<Integer>(T{1e9});
+  Integer differences = 0;
+  for (const T value : values) {
+    differences |= kLargest - (std::bit_cast<Integer>(value) & kMagnitude);
   }
-  return true;
+  return differences >= 0;
 }
 
 }  // namespace
@@ -115,11 +112,11 @@ InvalidInput bad_entry(const fs::path& path, std::string_view what) {
 }
 
 bool are_coordinates(std::span<const float> values) {
-  return all_coordinates(values);
+  return all_coordinates<std::int32_t>(values);
 }
 
 bool are_coordinates(std::span<const double> values) {
-  return all_coordinates(values);
+  return all_coordinates<std::int64_t>(values);
 }
 
 }  // namespace crowdface

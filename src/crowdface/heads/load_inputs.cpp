@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "crowdface/core/log.h"
@@ -78,11 +79,13 @@ void take_heads(const Config& config, std::vector<HeadFile> heads, Inputs& input
 
 double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
   const std::uint32_t skin = inputs.components.largest();
-  double sum = 0;
-  for (const Head& head : inputs.faces.heads) {
-    sum += rms_edge_length(inputs.adjacency, inputs.components, skin, head.positions);
-  }
-  return sum / static_cast<double>(inputs.faces.heads.size()) * mm_per(config.faces.units);
+  const std::vector<Head>& heads = inputs.faces.heads;
+  std::vector<double> lengths(heads.size());
+  parallel_for_each(heads.size(), [&](std::size_t h) {
+    lengths[h] = rms_edge_length(inputs.adjacency, inputs.components, skin, heads[h].positions);
+  });
+  const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  return sum / static_cast<double>(heads.size()) * mm_per(config.faces.units);
 }
 
 /// A warning if the first head is of no size that heads have, with or without shoulders.

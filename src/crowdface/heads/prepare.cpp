@@ -8,6 +8,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
@@ -105,6 +106,18 @@ std::optional<PreparedHead> from_cache(const std::filesystem::path& cache, const
   }
 }
 
+/// What the cache has of the heads, read side by side.
+std::vector<std::optional<PreparedHead>> from_cache(const std::filesystem::path& cache,
+                                                    const std::vector<Digest>& keys,
+                                                    const HeadCacheShape& shape) {
+  std::vector<std::optional<PreparedHead>> heads(keys.size());
+  parallel_for_each(keys.size(), [&](std::size_t h) {
+    throw_if_interrupted();
+    heads[h] = from_cache(cache, keys[h], shape);
+  });
+  return heads;
+}
+
 /// Removes what runs left that were killed while they kept a head. A cache is no reason to stop.
 void clean(const std::filesystem::path& cache) {
   try {
@@ -145,18 +158,22 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;
   Progress progress("preparing heads", inputs.faces.heads.size());
+  std::vector<Digest> keys;
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
+    keys.push_back(key_of(config, inputs, prepared.samples, h));
+  }
+  std::vector<std::optional<PreparedHead>> heads = from_cache(cache, keys, shape);
+  for (std::size_t h = 0; h < heads.size(); ++h) {
     throw_if_interrupted();
-    const Digest key = key_of(config, inputs, prepared.samples, h);
-    std::optional<PreparedHead> head = from_cache(cache, key, shape);
+    std::optional<PreparedHead>& head = heads[h];
     if (head) {
       ++prepared.from_cache;
     } else {
       head = preparation.prepare(inputs.faces.heads[h]);
-      cache_works = cache_works && into_cache(cache, key, shape, *head);
+      cache_works = cache_works && into_cache(cache, keys[h], shape, *head);
       // What was written is used from there, so that memory holds the fields of one head only.
       if (cache_works) {
-        if (auto written = from_cache(cache, key, shape)) head = std::move(written);
+        if (auto written = from_cache(cache, keys[h], shape)) head = std::move(written);
       }
     }
     prepared.trajectories.push_back(std::move(head->trajectory));

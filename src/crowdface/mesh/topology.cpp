@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -50,9 +51,15 @@ std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index coun
 }
 
 Positions mean_head(const FaceSet& faces) {
-  Positions mean = Positions::Zero(faces.topology.vertex_count, 3);
-  for (const Head& head : faces.heads) mean += head.positions;
-  return mean / static_cast<double>(faces.heads.size());
+  constexpr Index kBlock = 4096;
+  Positions mean(faces.topology.vertex_count, 3);
+  parallel_blocks(mean.rows(), kBlock, [&](Index begin, Index end) {
+    auto rows = mean.middleRows(begin, end - begin);
+    rows.setZero();
+    for (const Head& head : faces.heads) rows += head.positions.middleRows(begin, end - begin);
+    rows /= static_cast<double>(faces.heads.size());
+  });
+  return mean;
 }
 
 std::string first_difference(const Topology& expected, const Topology& found) {
