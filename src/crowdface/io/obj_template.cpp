@@ -26,28 +26,40 @@ char* copy(std::string_view text, char* out) {
 
 /// Whether three numbers are set apart by one blank each.
 bool has_single_spaces(std::string_view numbers) {
-  const std::size_t first = numbers.find_first_of(" \t");
-  const std::size_t second = numbers.find_first_of(" \t", first + 1);
-  return second != numbers.npos && second > first + 1 && numbers[first] == ' ' &&
-         numbers[second] == ' ' && !is_blank(numbers[second + 1]);
+  int spaces = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!is_blank(numbers[i])) continue;
+    if (numbers[i] != ' ' || is_blank(numbers[i + 1])) return false;  // the last is no blank
+    ++spaces;
+  }
+  return spaces == 2;
 }
 
-/// The x y z of a line that begins with this word, if it does.
-std::string_view numbers_after(std::string_view word, std::string_view line) {
+/// The x y z of a `v` or `vn` line.
+struct Numbers {
+  std::string_view text;  ///< empty if the line is another
+  bool is_normal = false;
+};
+
+Numbers numbers_of(std::string_view line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   std::size_t at = 0;
   const auto skip = [&](bool blanks) {
     while (at < line.size() && is_blank(line[at]) == blanks) ++at;
-    return at;
   };
-  const std::size_t first = skip(true);
-  if (line.substr(first, skip(false) - first) != word) return {};
-  const std::size_t begin = skip(true);
-  skip(false);
   skip(true);
-  skip(false);
+  if (at == line.size() || line[at] != 'v') return {};
+  const bool is_normal = line.substr(++at).starts_with('n');
+  if (is_normal) ++at;
+  if (at == line.size() || !is_blank(line[at])) return {};
   skip(true);
-  return line.substr(begin, skip(false) - begin);
+  const std::size_t begin = at;
+  skip(false);
+  for (int more = 0; more < 2; ++more) {
+    skip(true);
+    skip(false);
+  }
+  return {line.substr(begin, at - begin), is_normal};
 }
 
 /// Whoever made the target of this text has seen as many rows as there are.
@@ -114,10 +126,8 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology)
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     const std::string_view line = text_.substr(begin, end - begin);
     begin = end + 1;
-    std::string_view numbers = numbers_after("v", line);
-    const bool is_normal = has_normals && numbers.empty();
-    if (is_normal) numbers = numbers_after("vn", line);
-    if (numbers.empty()) continue;
+    const auto [numbers, is_normal] = numbers_of(line);
+    if (numbers.empty() || (is_normal && !has_normals)) continue;
     const bool ends_run = !places.empty() && places.back().is_normal != is_normal &&
                           places.size() > kPlacesPerBlock / 2;
     if (places.size() == kPlacesPerBlock || ends_run) {

@@ -2,10 +2,12 @@
 #include "crowdface/run/mesh_writers.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/render/shading.h"
@@ -46,18 +48,24 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
                          std::vector<MeshFormat> formats, std::span<const CastFace> crowd)
     : inputs_(inputs), formats_(std::move(formats)) {
   const FaceSet& faces = inputs.faces;
-  bool need_normals = false;
-  for (const CastFace& face : crowd) {
-    need_normals = need_normals || needs_normals(face.recipe.target);
-    if (!has(MeshFormat::kObj) || obj_.contains(face.recipe.target)) continue;
-    const ObjFile& file = inputs.files[static_cast<std::size_t>(face.recipe.target)];
-    obj_.emplace(face.recipe.target, ObjTemplate(file, faces.topology));
-  }
+  std::set<Index> targets;
+  for (const CastFace& face : crowd) targets.insert(face.recipe.target);
+  const bool need_normals =
+      std::ranges::any_of(targets, [&](Index target) { return needs_normals(target); });
+  if (has(MeshFormat::kObj)) add_obj_templates({targets.begin(), targets.end()});
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
   }
   if (need_normals) fans_.emplace(faces.topology);
+}
+
+void MeshWriters::add_obj_templates(const std::vector<Index>& targets) {
+  std::vector<std::optional<ObjTemplate>> forms(targets.size());
+  parallel_for_each(targets.size(), [&](std::size_t t) {
+    forms[t].emplace(inputs_.files[static_cast<std::size_t>(targets[t])], inputs_.faces.topology);
+  });
+  for (std::size_t t = 0; t < targets.size(); ++t) obj_.emplace(targets[t], std::move(*forms[t]));
 }
 
 bool MeshWriters::has(MeshFormat format) const {

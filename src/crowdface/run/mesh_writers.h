@@ -47,6 +47,7 @@ class MeshWriters {
   std::size_t encode_bytes() const;
 
  private:
+  void add_obj_templates(const std::vector<Index>& targets);
   bool has(MeshFormat format) const;
   bool needs_normals(Index target) const;
   bool had_normals(Index target) const;
