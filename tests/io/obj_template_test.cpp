@@ -191,6 +191,23 @@ TEST(ObjTemplate, KeepsLittleOfALargeFile) {
   EXPECT_LT(form.memory_bytes(), file.file.bytes().size() / 100);
 }
 
+// What the cache says of a text may be forged: positions would be read past their end.
+TEST(ObjTemplate, RefusesATextOfOtherRowsThanItsMesh) {
+  const TemporaryFolder folder;
+  ObjFile file =
+      read_obj(folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n"));
+  const Topology topology = file.topology;
+  file.corner_normals[1] = 1;
+  testing::expect_error(ExitCode::kBadData, {"t.obj", "found 3 and 1"},
+                        [&] { ObjTemplate(file, topology); });
+  file.corner_normals[1] = 0;
+  Topology fewer = topology;
+  fewer.vertex_count = 2;
+  testing::expect_error(ExitCode::kBadData, {"t.obj", "expected 2 vertices"},
+                        [&] { ObjTemplate(file, fewer); });
+  EXPECT_NO_THROW(ObjTemplate(file, topology));
+}
+
 TEST(ObjTemplate, RefusesWhatSinglePrecisionCannotHold) {
   const TemporaryFolder folder;
   const ObjFile file = read_obj(folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
