@@ -67,7 +67,7 @@ by_turns() {
 # or not, and with what clang-tidy checks.
 with_keys() {
   local settings
-  settings=$(clang-tidy --version | cat - .clang-tidy CMakeLists.txt cmake/* | sha256sum)
+  settings=$(clang-tidy --version | cat - .clang-tidy tests/.clang-tidy CMakeLists.txt cmake/* | sha256sum)
   {
     sources "${all[@]}" | xargs sha256sum
     sources "${all[@]}" | xargs grep -HE '^ *# *include *"'
