@@ -30,9 +30,9 @@ struct Key {
   std::string_view required = {};  ///< for a key that must be there: what would do
   Starter starter = {};            ///< none: it is not in a starter config
 
-  Key in_starter(Starter lines) const {
+  Key in_starter(const Starter& lines) const {
     Key key = *this;
-    key.starter = std::move(lines);
+    key.starter = lines;
     return key;
   }
   Key in_starter(const StarterLines& lines) const {
