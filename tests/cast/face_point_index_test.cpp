@@ -52,6 +52,37 @@ TEST(FacePointIndex, FindsTheNearestAsASearchThroughAllDoes) {
   }
 }
 
+/// So many that there are trees of several sizes beside the newest.
+TEST(FacePointIndex, FindsTheNearestOfMany) {
+  constexpr Index kDimensions = 20;
+  auto points = random_points(15000, kDimensions, true);
+  for (std::size_t i = 0; i < 4000; ++i) points[8000 + i] = points[3 * i];  // equally near ones
+  FacePointIndex index(kDimensions);
+  const auto queries = random_points(15060, kDimensions, true);
+  for (std::size_t i = 0; i < points.size(); ++i) index.add(points[i]);
+  for (std::size_t q = 15000; q < queries.size(); ++q) {
+    const FaceSpace::Point& query = q % 3 == 0 ? points[q - 15000] : queries[q];
+    for (const auto& [begin, end] :
+         {std::pair<Index, Index>{0, 15000}, {100, 9000}, {14990, 15000}, {7, 8}}) {
+      FacePointIndex::Nearest expected;
+      FacePointIndex few(kDimensions);  // so few that all are met
+      Index first = begin;
+      for (Index i = begin; i < end; ++i) {
+        few.add(points[static_cast<std::size_t>(i)]);
+        if (few.size() < 1000 && i + 1 < end) continue;
+        const auto found = few.nearest(query);
+        if (found.mm < expected.mm) expected = {first + found.face, found.mm};
+        few = FacePointIndex(kDimensions);
+        first = i + 1;
+      }
+      const auto found = index.nearest(query, HUGE_VAL, begin, end);
+      EXPECT_EQ(found.face, expected.face) << begin << ' ' << end;
+      EXPECT_EQ(found.mm, expected.mm);
+      EXPECT_EQ(index.nearest(query, expected.mm * 0.999, begin, end).face, -1);
+    }
+  }
+}
+
 TEST(FacePointIndex, BitsDoNotDependOnWhatElseIsStored) {
   const auto points = random_points(50, 40, true);
   FacePointIndex all(40), two(40);

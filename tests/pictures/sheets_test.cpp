@@ -9,6 +9,7 @@
 #include "crowdface/crowd/likeness_file.h"
 #include "crowdface/crowd/verify.h"
 #include "crowdface/io/image.h"
+#include "crowdface/pictures/sheet_labels.h"
 #include "crowdface/render/contact_sheet.h"
 #include "crowdface/run/crowd_sheets.h"
 #include "crowdface/run/generate.h"

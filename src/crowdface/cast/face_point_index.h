@@ -2,36 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "crowdface/cast/face_space.h"
+#include "crowdface/cast/point_trees.h"
 
 namespace crowdface {
-
-/// Points in blocks of sixteen, coordinate by coordinate, so that a query meets sixteen of them at
-/// a time; sums over the leading coordinates, where faces differ most, rule nearly all of them out.
-class PointBlocks {
- public:
-  explicit PointBlocks(Index dimensions);
-  void add(const Eigen::VectorXf& point);
-  Index size() const { return size_; }
-
-  struct Hit {
-    Index point = -1;  ///< -1: none
-    double squared = HUGE_VAL;
-  };
-  /// The nearest of points [begin, end) whose squared distance is below `limit`; of equally near
-  /// ones the first. The bits do not depend on what else is stored.
-  Hit nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end) const;
-
- private:
-  static constexpr Index kLanes = 16;
-  static constexpr Index kChunk = 16;  ///< coordinates between two looks at the sums
-
-  Index dimensions_;
-  Index size_ = 0;
-  std::vector<float> values_;  ///< block, coordinate, lane
-};
 
 /// Faces that can be asked which of them is nearest.
 class FacePointIndex {
@@ -50,7 +25,7 @@ class FacePointIndex {
                   Index end = -1) const;
 
  private:
-  PointBlocks as_built_, unit_;
+  PointTrees as_built_, unit_;
   bool extrapolated_ = false;  ///< whether any face differs from its unit variant
 };
 

@@ -15,7 +15,8 @@ struct Parent {
   std::optional<Eigen::Index> head;
   std::string id;      ///< with or without the crowd's name; a head's name, if it is one
   bool drawn = false;  ///< cast for this family, as a face of the crowd of that id
-  std::optional<std::size_t> group;  ///< of one who is drawn: by whose numbers; none: the crowd's
+  std::optional<std::size_t> group =
+      {};  ///< of one who is drawn: by whose numbers; none: the crowd's
 };
 
 /// Faces that resemble each other.

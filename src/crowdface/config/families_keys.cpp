@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/families.h"
+#include "crowdface/cast/family_draws.h"
 #include "crowdface/config/config_keys.h"
 
 namespace crowdface {

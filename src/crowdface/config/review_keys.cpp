@@ -2,7 +2,7 @@
 // The key `review` and the files it names.
 #include <algorithm>
 
-#include "crowdface/cast/families.h"
+#include "crowdface/cast/family_draws.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/core/file.h"
 

@@ -35,6 +35,7 @@ std::vector<fs::path> list_folder(const fs::path& folder) {
   std::vector<fs::path> found;
   if (opened) {
     errno = 0;
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread reads this stream
     while (const dirent* entry = ::readdir(opened.get())) {
       const std::string_view each = entry->d_name;
       if (each != "." && each != "..") found.push_back(folder / each);

@@ -6,10 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <system_error>
 
-#include "crowdface/blend/blend.h"
 #include "crowdface/config/sheet_page_size.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -17,48 +15,19 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
-#include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
-#include "crowdface/crowd/face_mesh.h"
-#include "crowdface/io/obj_file.h"
-#include "crowdface/mesh/alignment.h"
+#include "crowdface/pictures/face_comparison.h"
+#include "crowdface/pictures/sheet_labels.h"
 #include "crowdface/pictures/sheet_writer.h"
 #include "crowdface/render/heat_colours.h"
 
 namespace crowdface {
 namespace {
 
-using With = Config::Comparison::With;
-
 constexpr int kMostRows = 64;  // of heads or of a family's members on one page
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return concat(count, ' ', count == 1 ? one : many);
-}
-
-/// \throws MissingInput if it cannot be said, as of what is in a folder that may not be read.
-bool is_there(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (std::filesystem::status_known(status)) return std::filesystem::exists(status);
-  throw MissingInput(concat(path.string(), ": cannot be read: ", error.message()));
-}
-
-/// In which format a crowd has a face. \throws MissingInput if in none.
-MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
-  for (const MeshFormat format : all_mesh_formats()) {
-    if (is_there(directory.mesh(id, format))) return format;
-  }
-  throw MissingInput(
-      concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
-}
-
-/// The mesh with which all faces are compared.
-Positions read_reference(const std::filesystem::path& file, Index vertices) {
-  Positions positions = read_obj(file).positions;
-  if (positions.rows() == vertices) return positions;
-  throw InvalidInput(concat(file.string(), ": expected ", vertices,
-                            " vertices to compare with, found ", positions.rows()));
 }
 
 /// The sheets of one crowd.
@@ -69,16 +38,12 @@ class CrowdSheets {
               const std::vector<CastFace>& crowd, const Likeness& likeness)
       : config_(config),
         sheet_(sheet),
-        inputs_(inputs),
         directory_(directory),
         renders_(renders),
         crowd_(crowd),
         likeness_(likeness),
-        pages_(directory.sheets(), sheet.formats, title()) {
-    if (sheet.compare.with == With::kFile && !std::filesystem::is_directory(sheet.compare.file)) {
-      reference_ = read_reference(sheet.compare.file, inputs.faces.topology.vertex_count);
-    }
-  }
+        compared_(config, sheet.compare, inputs, directory, crowd, likeness),
+        pages_(directory.sheets(), sheet.formats, title()) {}
 
   WrittenSheets write() {
     const std::size_t pages = write_faces();
@@ -93,70 +58,16 @@ class CrowdSheets {
                   config_.crowd.seed);
   }
 
-  Positions mesh_of(std::size_t face) const {
-    return read_face(directory_, crowd_[face].id, config_.output.meshes,
-                     inputs_.faces.topology.vertex_count);
-  }
-
-  /// What a face is compared with; nothing if it has no neighbour.
-  std::optional<Positions> compared_with(std::size_t face) const {
-    switch (sheet_.compare.with) {
-      case With::kTarget:
-        return target_positions(inputs_.faces, crowd_[face].recipe);
-      case With::kNearest:
-        if (likeness_.near[face].empty()) return std::nullopt;
-        return mesh_of(likeness_.near[face].front().face);
-      case With::kFile:
-        if (reference_.rows() > 0) return reference_;
-        return read_face({sheet_.compare.file}, crowd_[face].id,
-                         {format_of_face({sheet_.compare.file}, crowd_[face].id)},
-                         inputs_.faces.topology.vertex_count);
-      case With::kNothing:
-        break;
-    }
-    return std::nullopt;
-  }
-
-  /// How far each point of a face is from the same point of the other, moved onto it.
-  Eigen::VectorXd differences_mm(const Positions& face, const Positions& other) const {
-    const Similarity move = fit_similarity(other, face, ScaleFit::kRigid);
-    return mm_per(config_.faces.units) * (move.apply(other) - face).rowwise().norm();
-  }
-
   SheetCell cell(std::size_t face) const {
     SheetCell cell{read_render(directory_.render(crowd_[face].id)),
                    sheet_label(sheet_.labels, crowd_, face, likeness_, config_.faces.names)};
-    if (sheet_.compare.with == With::kNothing) return cell;
-    const Positions mesh = mesh_of(face);
-    const auto other = compared_with(face);
-    const Eigen::VectorXd mm =
-        other ? differences_mm(mesh, *other) : Eigen::VectorXd::Zero(mesh.rows());
-    const VertexColours colours = heat_colours(mm, sheet_.compare.scale_mm);
-    cell.image = side_by_side(std::vector{cell.image, renders_.render_front(mesh, &colours)});
-    const double rms = mm.size() > 0 ? mm.norm() / std::sqrt(static_cast<double>(mm.size())) : 0;
-    cell.label += concat("\nrms ", format_fixed(rms, digits()), " mm, largest ",
-                         format_fixed(mm.size() > 0 ? mm.maxCoeff() : 0, digits()), " mm");
+    if (sheet_.compare.with == Config::Comparison::With::kNothing) return cell;
+    const ComparedFace compared = compared_.compare(face);
+    const VertexColours colours = heat_colours(compared.mm, sheet_.compare.scale_mm);
+    cell.image =
+        side_by_side(std::vector{cell.image, renders_.render_front(compared.mesh, &colours)});
+    cell.label += concat("\n", compared_.label(compared));
     return cell;
-  }
-
-  /// As many behind the point as the scale calls for.
-  int digits() const {
-    return std::clamp(2 - static_cast<int>(std::floor(std::log10(sheet_.compare.scale_mm))), 2, 6);
-  }
-
-  std::optional<HeatLegend> legend() const {
-    switch (sheet_.compare.with) {
-      case With::kTarget:
-        return HeatLegend{sheet_.compare.scale_mm, "distance from its target"};
-      case With::kNearest:
-        return HeatLegend{sheet_.compare.scale_mm, "distance from its nearest face"};
-      case With::kFile:
-        return HeatLegend{sheet_.compare.scale_mm,
-                          concat("distance from ", sheet_.compare.file.filename().string())};
-      case With::kNothing:
-        break;
-    }
-    return std::nullopt;
   }
 
   void add_page(const std::string& stem, const std::string& caption, const std::string& title,
@@ -189,7 +100,7 @@ class CrowdSheets {
       add_page(directory_.sheet(page + 1).stem().string(),
                concat(crowd_[order[first]].id, " to ", crowd_[order[first + cells.size() - 1]].id),
                title(), pages > 1 ? concat("sheet ", page + 1, " of ", pages) : std::string(),
-               cells, legend());
+               cells, compared_.legend());
       progress.step();
     }
     return pages;
@@ -339,25 +250,13 @@ class CrowdSheets {
 
   const Config& config_;
   const Config::ContactSheet& sheet_;
-  const Inputs& inputs_;
   const CrowdDirectory& directory_;
   const CrowdRenders& renders_;
   const std::vector<CastFace>& crowd_;
   const Likeness& likeness_;
+  FaceComparison compared_;
   SheetWriter pages_;
-  Positions reference_;  ///< the one mesh that all are compared with, or empty
 };
-
-/// "ann", or of a mixture "ann 60 %, bob 40 %".
-std::string target_label(const Recipe& recipe, const std::vector<std::string>& heads) {
-  if (recipe.mixture.empty()) return heads[static_cast<std::size_t>(recipe.target)];
-  std::vector<std::string> parts;
-  for (const SourceWeight& part : recipe.mixture) {
-    parts.push_back(concat(heads[static_cast<std::size_t>(part.head)], ' ',
-                           std::lround(100 * part.weight), " %"));
-  }
-  return join(parts);
-}
 
 }  // namespace
 
@@ -365,75 +264,6 @@ std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t face
   const std::size_t per_page =
       static_cast<std::size_t>(sheet.columns) * static_cast<std::size_t>(sheet.rows);
   return (faces + per_page - 1) / per_page;
-}
-
-std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,
-                                     const Likeness& likeness) {
-  if (order == SheetOrder::kLikeness) return likeness.order;
-  std::vector<std::size_t> faces(crowd.size());
-  std::iota(faces.begin(), faces.end(), std::size_t{0});
-  if (order == SheetOrder::kPlan) return faces;
-  const auto kin = order == SheetOrder::kFamily ? &CastFace::family : &CastFace::group;
-  std::stable_sort(faces.begin(), faces.end(), [&](std::size_t a, std::size_t b) {
-    const auto& left = crowd[a].*kin;
-    const auto& right = crowd[b].*kin;
-    return left && (!right || *left < *right);  // those of none last
-  });
-  return faces;
-}
-
-std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
-                        std::size_t face, const Likeness& likeness,
-                        const std::vector<std::string>& heads) {
-  const CastFace& labelled = crowd[face];
-  const auto line = [&](SheetLabel label) -> std::string {
-    switch (label) {
-      case SheetLabel::kId:
-        return labelled.id;
-      case SheetLabel::kFamily:
-        return labelled.family ? concat("family ", *labelled.family) : std::string();
-      case SheetLabel::kGroup:
-        return labelled.group ? concat("group ", *labelled.group) : std::string();
-      case SheetLabel::kTarget:
-        return concat("on ", target_label(labelled.recipe, heads));
-      case SheetLabel::kNearest: {
-        if (likeness.near[face].empty()) return {};
-        const Neighbour& near = likeness.near[face].front();
-        return concat("near ", crowd[near.face].id, ", ", format_fixed(rounded(near.mm), 2), " mm");
-      }
-      case SheetLabel::kNearestHead:
-        if (!labelled.notes.nearest) return {};
-        return concat("near ", heads[static_cast<std::size_t>(labelled.notes.nearest->head)], ", ",
-                      format_fixed(rounded(labelled.notes.nearest->head_mm), 2), " mm");
-    }
-    return {};
-  };
-  std::vector<std::string> lines;
-  for (const SheetLabel label : labels) lines.push_back(line(label));
-  std::string text;
-  for (std::size_t i = 0; i < lines.size(); ++i) text += concat(i > 0 ? "\n" : "", lines[i]);
-  return text;
-}
-
-void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems) {
-  const auto& sheet = config.output.contact_sheet;
-  if (!sheet || sheet->compare.with != With::kFile) return;
-  const std::filesystem::path& file = sheet->compare.file;
-  try {
-    if (!is_there(file) || !std::filesystem::is_directory(file)) {
-      read_reference(file, inputs.faces.topology.vertex_count);
-    }
-  } catch (const Error& error) {
-    problems.add(error);
-  }
-}
-
-void check_compared_crowd(const Config& config, const std::vector<CastFace>& crowd) {
-  const auto& sheet = config.output.contact_sheet;
-  if (!sheet || sheet->compare.with != With::kFile) return;
-  const std::filesystem::path& folder = sheet->compare.file;
-  if (!std::filesystem::is_directory(folder)) return;
-  for (const CastFace& face : crowd) format_of_face({folder}, face.id);
 }
 
 WrittenSheets write_sheets(const Config& config, const Config::ContactSheet& sheet,

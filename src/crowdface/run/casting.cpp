@@ -110,6 +110,7 @@ std::string asked_of(const Config& config, Reason reason) {
       return concat("believability.max_deviation, ", config.believability.max_deviation);
     case Reason::kFamily:
       return "what keeps families together";
+    case Reason::kGap:
     case Reason::kStretched:
     case Reason::kFlipped:
     case Reason::kIntersecting:

@@ -15,6 +15,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/ledger.h"
+#include "crowdface/pictures/face_comparison.h"
 #include "crowdface/pictures/sheets.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/casting_log.h"

@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/load_inputs.h"
 #include "crowdface/heads/settings_digest.h"
+#include "crowdface/pictures/face_comparison.h"
 #include "crowdface/pictures/sheets.h"
 #include "crowdface/smooth/level_size.h"
 

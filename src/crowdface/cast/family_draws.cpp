@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/family_draws.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "crowdface/cast/ageing.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/random.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kNearestShare = 0.4;  ///< of max_distance that members go at least
+constexpr double kParentShare = 0.75;  ///< of a parent in the detail that a member tends to
+/// In the large forms that a member tends to: of one parent, and of somebody else; the rest is the
+/// other parent's. Without somebody else children of one couple would hardly differ.
+constexpr double kLargeFormsShare = 0.65;
+constexpr double kForeignShare = 0.2;
+constexpr int kHalvings = 10;
+constexpr double kTwinsReach = 0.5;  // mm from what they are alike to
+
+/// A child resembles a parent if at most that share of strangers are nearer to it than the parent.
+constexpr double kStrangersNearer = 0.1;
+constexpr double kRoomAtHalf = 0.25;  ///< of max_distance, where it does not
+
+/// (1 − t)·a + t·b of two regions' numbers.
+RegionRecipe mixed(const RegionRecipe& a, const RegionRecipe& b, double t,
+                   const LevelScale& scale) {
+  RegionRecipe region;
+  region.weights = mixed_weights(a.weights, b.weights, t);
+  region.smoothness = (1 - t) * a.smoothness + t * b.smoothness;
+  region.iterations = iterations_of(region.smoothness, scale);
+  region.extrapolation = (1 - t) * a.extrapolation + t * b.extrapolation;
+  return region;
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
+                         const FaceJudge& judge, const Strangers& unrelated,
+                         const CrowdSoFar& crowd)
+    : casting_(casting),
+      family_(family),
+      judge_(judge),
+      unrelated_(unrelated),
+      parents_(family.parents.size()),
+      kin_(judge.space().dimensions()),
+      strangers_(judge.space().dimensions()) {
+  const auto& faces = crowd.faces();
+  for (std::size_t p = 0; p < parents_.size(); ++p) {
+    const Parent& parent = family.parents[p];
+    if (parent.head) {
+      CastFace face;
+      face.recipe.target = *parent.head;
+      know(p, parent.id, std::move(face), judge.space().head_point(*parent.head));
+      continue;
+    }
+    const auto found = std::find_if(faces.begin(), faces.end(), [&](const CastFace& face) {
+      return face.id == parent.id || face.id == parent_id(casting.name, parent);
+    });
+    if (found == faces.end()) {
+      if (!parent.drawn) {
+        throw InvalidInput(
+            concat("family ", family.name, ": no face before it is called ", quoted(parent.id)));
+      }
+      to_draw_.push_back(p);
+      continue;
+    }
+    know(p, found->id, *found, crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
+    if (found->family) relatives_.push_back(*found->family);
+  }
+  const auto is_parent = [&](const std::string& name) {
+    return std::any_of(parents_.begin(), parents_.end(),
+                       [&](const KnownParent& one) { return !name.empty() && one.name == name; });
+  };
+  for (const CastFace& face : faces) {
+    if (face.family && std::any_of(face.parents.begin(), face.parents.end(), is_parent)) {
+      relatives_.push_back(*face.family);
+    }
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const CastFace& face = faces[i];
+    const bool relative = face.family && contains(relatives_, *face.family);
+    (relative || is_parent(face.id) ? kin_ : strangers_).add(crowd.points()[i]);
+  }
+}
+
+void FamilyDraws::know(std::size_t parent, std::string name, CastFace face,
+                       FaceSpace::Point point) {
+  take_back_age(face, casting_.sampling);  // what children inherit are no wrinkles of age
+  parents_[parent] = {std::move(name), std::move(face), std::move(point)};
+}
+
+bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
+                               std::uint32_t attempt, Rejections& rejections) {
+  drawn_.clear();
+  for (const std::size_t p : to_draw_) {
+    const Parent& parent = family_.parents[p];
+    HandRecipe open;
+    open.id = parent_id(casting_.name, parent);
+    FaceSearch search(
+        [&](std::uint32_t draw) {
+          return draw_recipe(casting_, open, {0, draw, concat("parent/", parent.id)},
+                             kind_of_group(casting_, parent.group));
+        },
+        judge_, casting_.diversity, 1,
+        attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts));
+    auto found = search.settle(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
+      for (const FaceSearch::Found& other : drawn_) {
+        if (FaceSpace::distance(point, other.point) < casting_.diversity.min_distance_mm) {
+          return Reason::kMinDistance;
+        }
+      }
+      return kinship.refuses(point);
+    });
+    rejections.add(search.rejections());
+    if (!found) return false;
+    know(p, found->face.id, found->face, found->point);
+    drawn_.push_back(std::move(*found));
+  }
+  return true;
+}
+
+/// What a parent hands down in a region: a face its recipe's part, a head its own detail.
+RegionRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region,
+                                    const RegionRecipe& drawn) const {
+  if (!family_.parents[parent].head) return parents_[parent].face.recipe.regions[region];
+  RegionRecipe own = drawn;
+  own.position.reset();
+  own.weights = {{*family_.parents[parent].head, 1}};
+  return own;
+}
+
+CastFace FamilyDraws::founder(std::uint32_t attempt) const {
+  HandRecipe open;
+  open.target = family_.target;
+  open.age = Range{0, 0};
+  CastFace face = draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)},
+                              kind_of_group(casting_, family_.group));
+  if (parents_.empty()) return face;
+  if (!family_.target) {
+    set_target(face.recipe, mixed_weights(target_shares(parents_[0].face.recipe),
+                                          target_shares(parents_[1].face.recipe), 0.5));
+    face.mother_share = 0.5;
+  }
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    const RegionRecipe drawn = face.recipe.regions[k];
+    const int from = family_.inherit[k];
+    face.recipe.regions[k] =
+        from >= 0 ? of_parent(static_cast<std::size_t>(from), k, drawn)
+                  : mixed(of_parent(0, k, drawn), of_parent(1, k, drawn), 0.5, casting_.scale);
+  }
+  return face;
+}
+
+/// (1 − t)·from + t·to, and then the age.
+CastFace FamilyDraws::towards(const CastFace& from, const Draft& draft, double t) const {
+  CastFace face = draft.to;
+  set_target(face.recipe,
+             mixed_weights(target_shares(from.recipe), target_shares(draft.to.recipe), t));
+  face.mother_share = (1 - t) * from.mother_share + t * draft.to.mother_share;
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    face.recipe.regions[k] =
+        mixed(from.recipe.regions[k], draft.to.recipe.regions[k], t, casting_.scale);
+  }
+  apply_age(face, draft.age, casting_.sampling);
+  return face;
+}
+
+/// Lets a face take after a parent in its large forms, and after one in each region.
+void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
+  const auto parent_of = [&](const std::string& what) -> std::size_t {
+    const std::string purpose = concat(key.who, "/inherits/", what);
+    return random_unit({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
+  };
+  if (!family_.target) {
+    const double one = kLargeFormsShare / (1 - kForeignShare);
+    const double mother = parent_of("large forms") == 0 ? one : 1 - one;
+    const auto of_parents = mixed_weights(target_shares(parents_[0].face.recipe),
+                                          target_shares(parents_[1].face.recipe), 1 - mother);
+    set_target(face.recipe, mixed_weights(of_parents, target_shares(face.recipe), kForeignShare));
+    face.mother_share = mother * (1 - kForeignShare);
+  }
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    const int from = family_.inherit[k];
+    const std::size_t parent =
+        from >= 0 ? static_cast<std::size_t>(from) : parent_of(casting_.region_names[k]);
+    RegionRecipe& region = face.recipe.regions[k];
+    region = mixed(region, of_parent(parent, k, region), kParentShare, casting_.scale);
+    face.inherits.emplace_back(parent == 0 ? "mother" : "father");
+  }
+  for (const KnownParent& parent : parents_) face.parents.push_back(parent.name);
+}
+
+double FamilyDraws::reach_mm(const FamilyCast& cast) const {
+  const double most = family_.max_distance_mm;
+  return cast.alike_to_founder ? std::min(most, kTwinsReach) : most;
+}
+
+FamilyDraws::Draft FamilyDraws::draft(const FamilyCast& cast, int member,
+                                      std::uint32_t attempt) const {
+  const DrawKey key = {static_cast<std::uint64_t>(member), attempt,
+                       concat("family/", family_.name)};
+  HandRecipe open;
+  open.id = member_id(casting_.name, family_.name, member);
+  open.target = family_.target;
+  if (parents_.empty()) open.target = cast.founder.recipe.target;
+  open.age = Range{0, 0};
+  Draft draft;
+  draft.to = draw_recipe(casting_, open, key, kind_of_group(casting_, family_.group));
+  draft.to.family = family_.name;
+  if (!parents_.empty()) inherit(draft.to, key);
+  const std::string purpose = concat(key.who, "/how");
+  const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
+  draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
+  draft.reach_mm = kNearestShare + (1 - kNearestShare) * how_far;  // of what may be
+  draft.reach_mm *= reach_mm(cast);
+  if (cast.alike_to_founder) {
+    draft.to.inherits = cast.founder.inherits;
+    draft.age = cast.founder.age.value_or(0);
+  }
+  return draft;
+}
+
+CastFace FamilyDraws::as_far_as_drawn(const FamilyCast& cast, const Draft& draft) const {
+  const auto beyond = [&](const CastFace& face) {
+    return FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) >
+           draft.reach_mm;
+  };
+  double t = 1, step = 0.5;
+  for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
+    const bool too_far = beyond(towards(cast.founder, draft, t));
+    if (t == 1 && !too_far) break;
+    t += too_far ? -step : step;
+  }
+  // The last step may have gone too far; the one before it not.
+  CastFace face = towards(cast.founder, draft, t);
+  if (t > step && beyond(face)) face = towards(cast.founder, draft, std::max(t - 2 * step, 0.0));
+  return face;
+}
+
+CastFace FamilyDraws::model_of_twins(const FamilyCast& cast, std::uint32_t attempt) const {
+  Draft model = draft(cast, 0, attempt);
+  const double age = std::exchange(model.age, 0);
+  CastFace face = as_far_as_drawn(cast, model);
+  face.age = age;
+  return face;
+}
+
+CastFace FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t attempt) const {
+  return as_far_as_drawn(cast, draft(cast, member, attempt));
+}
+
+std::optional<Reason> FamilyDraws::refuses(const FamilyCast& cast, const FaceSpace::Point& point,
+                                           const std::vector<FaceSpace::Point>& own,
+                                           const Kinship& kinship) const {
+  return fits(cast, point, own, kinship) ? std::nullopt : std::optional(Reason::kFamily);
+}
+
+bool FamilyDraws::fits(const FamilyCast& cast, const FaceSpace::Point& point,
+                       const std::vector<FaceSpace::Point>& own, const Kinship& kinship) const {
+  if (FaceSpace::distance(point, cast.founder_point) > reach_mm(cast)) return false;
+  if (kinship.intrudes(point, relatives_)) return false;
+  if (!takes_after_parents(cast, point)) return false;
+  if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return false;
+  double farthest = 0;
+  for (const FaceSpace::Point& relative : own) {
+    const double mm = FaceSpace::distance(point, relative);
+    if (mm < family_.min_distance_mm) return false;
+    farthest = std::max(farthest, mm);
+    // The relative, too, must stay nearer to this one than to any stranger.
+    if (strangers_.nearest(relative).mm <= mm) return false;
+  }
+  return strangers_.nearest(point).mm > farthest;
+}
+
+/// Parents who are far apart have no child that is near both: then near half of either will do.
+bool FamilyDraws::takes_after_parents(const FamilyCast& cast, const FaceSpace::Point& point) const {
+  if (strangers_nearer(point) <= kStrangersNearer) return true;
+  if (strangers_nearer(cast.founder_point) <= kStrangersNearerToHalf) return false;
+  return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
+    return FaceSpace::distance(point, parent.point) <=
+           FaceSpace::distance(cast.founder_point, parent.point) +
+               kRoomAtHalf * family_.max_distance_mm;
+  });
+}
+
+double FamilyDraws::strangers_nearer(const FaceSpace::Point& point) const {
+  double share = 0;
+  for (const KnownParent& parent : parents_) {
+    share =
+        std::max(share, unrelated_.share_nearer(point, FaceSpace::distance(point, parent.point)));
+  }
+  return share;
+}
+
+std::string parent_id(const std::string& crowd, const Parent& parent) {
+  return concat(crowd, '_', parent.id);
+}
+
+std::string member_id(const std::string& crowd, const std::string& family, int member) {
+  return concat(crowd, '_', family, '_', member < 10 ? "0" : "", member);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace crowdface {
+
+/// The nearest point that a search has met.
+struct NearestPoint {
+  Eigen::Index point = -1;  ///< its number; -1: none
+  double squared = HUGE_VAL;
+
+  /// Of equally near ones the one with the smaller number counts.
+  void meet(Eigen::Index other, double other_squared) {
+    if (other_squared > squared || (other_squared == squared && (point < 0 || other > point)))
+      return;
+    *this = {other, other_squared};
+  }
+};
+
+/// Numbered points in blocks of sixteen, coordinate by coordinate, so that a query meets sixteen of
+/// them at a time; sums over the leading coordinates, where faces differ most, rule nearly all out.
+class PointBlocks {
+ public:
+  using Index = Eigen::Index;
+  static constexpr Index kLanes = 16;
+
+  explicit PointBlocks(Index dimensions);
+
+  /// \param values  as long as padded() makes them.
+  void add(Index number, const float* values);
+  void clear();
+  Index size() const { return static_cast<Index>(numbers_.size()); }
+  Index padded_dimensions() const { return dimensions_; }
+  /// Those of the points, in the order in which they were added.
+  Index number(Index at) const { return numbers_[static_cast<std::size_t>(at)]; }
+  float value(Index at, Index dimension) const {
+    return values_[static_cast<std::size_t>(at / kLanes * dimensions_ * kLanes +
+                                            dimension * kLanes + at % kLanes)];
+  }
+
+  /// Blocks are searched for a query that is as long as theirs.
+  std::vector<float> padded(const Eigen::VectorXf& query) const;
+  /// Meets the points of one block with numbers in [begin, end), as far as they can be nearer.
+  /// The bits do not depend on what else is stored.
+  void search(const std::vector<float>& query, Index block, Index begin, Index end,
+              NearestPoint& best) const;
+
+ private:
+  static constexpr Index kChunk = 16;  ///< coordinates between two looks at the sums
+
+  Index dimensions_;  ///< a multiple of kChunk
+  std::vector<Index> numbers_;
+  std::vector<float> values_;  ///< block, coordinate, lane
+};
+
+}  // namespace crowdface

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/point_trees.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace crowdface {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr Index kNewest = 2048;  ///< as fast one after the other as in a tree
+constexpr std::size_t kLeaf = 2 * PointBlocks::kLanes;
+/// A box is left out if it is farther than what was found by more than sums of floats can err.
+constexpr float kRounding = 1e-4F;
+
+}  // namespace
+
+/// The leading coordinates of the points that become a tree, and their order in it.
+struct PointTree::Building {
+  std::vector<std::array<float, kBoxDimensions>> leading;
+  std::vector<std::pair<const PointBlocks*, Index>> sources;
+  std::vector<std::size_t> order;
+
+  Index number(std::size_t at) const { return sources[at].first->number(sources[at].second); }
+};
+
+PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& points)
+    : box_dimensions_(std::min(dimensions, kBoxDimensions)), points_(dimensions) {
+  Building building;
+  for (const PointBlocks* blocks : points) {
+    for (Index at = 0; at < blocks->size(); ++at) {
+      auto& leading = building.leading.emplace_back();
+      for (Index d = 0; d < box_dimensions_; ++d) {
+        leading[static_cast<std::size_t>(d)] = blocks->value(at, d);
+      }
+      building.sources.emplace_back(blocks, at);
+    }
+  }
+  building.order.resize(building.leading.size());
+  std::iota(building.order.begin(), building.order.end(), std::size_t{0});
+  build(building, 0, building.order.size());
+  std::vector<float> values(static_cast<std::size_t>(points_.padded_dimensions()));
+  for (const std::size_t at : building.order) {
+    const auto& [blocks, source] = building.sources[at];
+    for (std::size_t d = 0; d < values.size(); ++d) {
+      values[d] = blocks->value(source, static_cast<Index>(d));
+    }
+    points_.add(building.number(at), values.data());
+  }
+}
+
+std::int32_t PointTree::build(Building& building, std::size_t begin, std::size_t end) {
+  const auto at = static_cast<std::int32_t>(nodes_.size());
+  Node node;
+  node.low.fill(0);
+  node.high.fill(0);
+  const auto first = building.order.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto last = building.order.begin() + static_cast<std::ptrdiff_t>(end);
+  const auto [least, greatest] = std::minmax_element(
+      first, last, [&](auto a, auto b) { return building.number(a) < building.number(b); });
+  node.least = building.number(*least);
+  node.greatest = building.number(*greatest);
+  std::size_t widest = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(box_dimensions_); ++d) {
+    const auto [low, high] = std::minmax_element(first, last, [&](auto a, auto b) {
+      return building.leading[a][d] < building.leading[b][d];
+    });
+    node.low[d] = building.leading[*low][d];
+    node.high[d] = building.leading[*high][d];
+    if (node.high[d] - node.low[d] > node.high[widest] - node.low[widest]) widest = d;
+  }
+  nodes_.push_back(node);
+  if (end - begin <= kLeaf) {
+    nodes_.back().block = static_cast<std::int32_t>(begin / PointBlocks::kLanes);
+    nodes_.back().blocks =
+        static_cast<std::int32_t>((end - begin + PointBlocks::kLanes - 1) / PointBlocks::kLanes);
+    return at;
+  }
+  // Leaves begin with whole blocks.
+  const std::size_t middle = begin + std::max(std::size_t{1}, (end - begin) / 2 / kLeaf) * kLeaf;
+  std::nth_element(first, building.order.begin() + static_cast<std::ptrdiff_t>(middle), last,
+                   [&](auto a, auto b) {
+                     const float left = building.leading[a][widest];
+                     const float right = building.leading[b][widest];
+                     return left != right ? left < right : building.number(a) < building.number(b);
+                   });
+  const std::int32_t left = build(building, begin, middle);
+  const std::int32_t right = build(building, middle, end);
+  nodes_[static_cast<std::size_t>(at)].left = left;
+  nodes_[static_cast<std::size_t>(at)].right = right;
+  return at;
+}
+
+float PointTree::squared_distance(const Node& node, const std::vector<float>& query) const {
+  float sum = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(box_dimensions_); ++d) {
+    const float beyond = std::max({node.low[d] - query[d], query[d] - node.high[d], 0.F});
+    sum += beyond * beyond;
+  }
+  return sum;
+}
+
+void PointTree::search(std::int32_t at, const std::vector<float>& query, Index begin, Index end,
+                       NearestPoint& best) const {
+  const Node& node = nodes_[static_cast<std::size_t>(at)];
+  if (node.least >= end || node.greatest < begin) return;
+  if (node.left < 0) {
+    for (std::int32_t b = node.block; b < node.block + node.blocks; ++b) {
+      points_.search(query, b, begin, end, best);
+    }
+    return;
+  }
+  std::array<std::pair<float, std::int32_t>, 2> children;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const std::int32_t child = c == 0 ? node.left : node.right;
+    children[c] = {squared_distance(nodes_[static_cast<std::size_t>(child)], query), child};
+  }
+  if (children[1].first < children[0].first) std::swap(children[0], children[1]);
+  for (const auto& [squared, child] : children) {
+    if (static_cast<double>(squared * (1 - kRounding)) > best.squared) return;
+    search(child, query, begin, end, best);
+  }
+}
+
+void PointTrees::add(const Eigen::VectorXf& point) {
+  newest_.add(size_++, newest_.padded(point).data());
+  if (newest_.size() < kNewest) return;
+  std::vector<const PointBlocks*> joined = {&newest_};
+  Index count = newest_.size();
+  std::size_t kept = trees_.size();
+  while (kept > 0 && trees_[kept - 1].points().size() <= count) {
+    joined.push_back(&trees_[--kept].points());
+    count += joined.back()->size();
+  }
+  PointTree tree(dimensions_, joined);
+  trees_.erase(trees_.begin() + static_cast<std::ptrdiff_t>(kept), trees_.end());
+  trees_.push_back(std::move(tree));
+  newest_.clear();
+}
+
+NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit, Index begin,
+                                 Index end) const {
+  NearestPoint best{-1, limit};
+  const std::vector<float> padded = newest_.padded(query);
+  for (const PointTree& tree : trees_) tree.search(padded, begin, end, best);
+  const Index first_newest = size_ - newest_.size();
+  const Index last = std::min(end - first_newest, newest_.size());
+  for (Index block = std::max(begin - first_newest, Index{0}) / PointBlocks::kLanes;
+       block * PointBlocks::kLanes < last; ++block) {
+    newest_.search(padded, block, begin, end, best);
+  }
+  return best;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/face_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "crowdface/blend/blend.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/face_mesh.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/alignment.h"
+
+namespace crowdface {
+namespace {
+
+using With = Config::Comparison::With;
+
+/// \throws MissingInput if it cannot be said, as of what is in a folder that may not be read.
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::status_known(status)) return std::filesystem::exists(status);
+  throw MissingInput(concat(path.string(), ": cannot be read: ", error.message()));
+}
+
+/// In which format a crowd has a face. \throws MissingInput if in none.
+MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
+  for (const MeshFormat format : all_mesh_formats()) {
+    if (is_there(directory.mesh(id, format))) return format;
+  }
+  throw MissingInput(
+      concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
+}
+
+/// The mesh with which all faces are compared.
+Positions read_reference(const std::filesystem::path& file, Index vertices) {
+  Positions positions = read_obj(file).positions;
+  if (positions.rows() == vertices) return positions;
+  throw InvalidInput(concat(file.string(), ": expected ", vertices,
+                            " vertices to compare with, found ", positions.rows()));
+}
+
+}  // namespace
+
+FaceComparison::FaceComparison(const Config& config, const Config::Comparison& comparison,
+                               const Inputs& inputs, const CrowdDirectory& directory,
+                               const std::vector<CastFace>& crowd, const Likeness& likeness)
+    : config_(config),
+      comparison_(comparison),
+      inputs_(inputs),
+      directory_(directory),
+      crowd_(crowd),
+      likeness_(likeness) {
+  if (comparison.with == With::kFile && !std::filesystem::is_directory(comparison.file)) {
+    reference_ = read_reference(comparison.file, inputs.faces.topology.vertex_count);
+  }
+}
+
+Positions FaceComparison::mesh_of(std::size_t face) const {
+  return read_face(directory_, crowd_[face].id, config_.output.meshes,
+                   inputs_.faces.topology.vertex_count);
+}
+
+/// Nothing if the face has no neighbour.
+std::optional<Positions> FaceComparison::other(std::size_t face) const {
+  switch (comparison_.with) {
+    case With::kTarget:
+      return target_positions(inputs_.faces, crowd_[face].recipe);
+    case With::kNearest:
+      if (likeness_.near[face].empty()) return std::nullopt;
+      return mesh_of(likeness_.near[face].front().face);
+    case With::kFile:
+      if (reference_.rows() > 0) return reference_;
+      return read_face({comparison_.file}, crowd_[face].id,
+                       {format_of_face({comparison_.file}, crowd_[face].id)},
+                       inputs_.faces.topology.vertex_count);
+    case With::kNothing:
+      break;
+  }
+  return std::nullopt;
+}
+
+ComparedFace FaceComparison::compare(std::size_t face) const {
+  Positions mesh = mesh_of(face);
+  const auto with = other(face);
+  if (!with) return {mesh, Eigen::VectorXd::Zero(mesh.rows())};
+  const Similarity move = fit_similarity(*with, mesh, ScaleFit::kRigid);
+  return {mesh, mm_per(config_.faces.units) * (move.apply(*with) - mesh).rowwise().norm()};
+}
+
+std::string FaceComparison::label(const ComparedFace& compared) const {
+  const Eigen::VectorXd& mm = compared.mm;
+  const int digits =  // as many behind the point as the scale calls for
+      std::clamp(2 - static_cast<int>(std::floor(std::log10(comparison_.scale_mm))), 2, 6);
+  const double rms = mm.size() > 0 ? mm.norm() / std::sqrt(static_cast<double>(mm.size())) : 0;
+  return concat("rms ", format_fixed(rms, digits), " mm, largest ",
+                format_fixed(mm.size() > 0 ? mm.maxCoeff() : 0, digits), " mm");
+}
+
+std::optional<HeatLegend> FaceComparison::legend() const {
+  switch (comparison_.with) {
+    case With::kTarget:
+      return HeatLegend{comparison_.scale_mm, "distance from its target"};
+    case With::kNearest:
+      return HeatLegend{comparison_.scale_mm, "distance from its nearest face"};
+    case With::kFile:
+      return HeatLegend{comparison_.scale_mm,
+                        concat("distance from ", comparison_.file.filename().string())};
+    case With::kNothing:
+      break;
+  }
+  return std::nullopt;
+}
+
+void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems) {
+  const auto& sheet = config.output.contact_sheet;
+  if (!sheet || sheet->compare.with != With::kFile) return;
+  const std::filesystem::path& file = sheet->compare.file;
+  try {
+    if (!is_there(file) || !std::filesystem::is_directory(file)) {
+      read_reference(file, inputs.faces.topology.vertex_count);
+    }
+  } catch (const Error& error) {
+    problems.add(error);
+  }
+}
+
+void check_compared_crowd(const Config& config, const std::vector<CastFace>& crowd) {
+  const auto& sheet = config.output.contact_sheet;
+  if (!sheet || sheet->compare.with != With::kFile) return;
+  const std::filesystem::path& folder = sheet->compare.file;
+  if (!std::filesystem::is_directory(folder)) return;
+  for (const CastFace& face : crowd) format_of_face({folder}, face.id);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/likeness.h"
+#include "crowdface/config/config.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/render/contact_sheet.h"
+
+namespace crowdface {
+
+/// A face, and how far each of its points is from the same point of what it is compared with, moved
+/// onto it; 0 if it is compared with nothing, as the only face of a crowd is with its nearest.
+struct ComparedFace {
+  Positions mesh;
+  Eigen::VectorXd mm;  ///< #vertices
+};
+
+/// Compares the faces of a crowd as a sheet's `compare` says.
+class FaceComparison {
+ public:
+  /// \throws Error  of a file to compare with.
+  FaceComparison(const Config& config, const Config::Comparison& comparison, const Inputs& inputs,
+                 const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
+                 const Likeness& likeness);
+
+  ComparedFace compare(std::size_t face) const;
+  /// "rms 0.12 mm, largest 3.40 mm".
+  std::string label(const ComparedFace& compared) const;
+  /// Of the colours that show the distances; nothing where nothing is compared.
+  std::optional<HeatLegend> legend() const;
+
+ private:
+  Positions mesh_of(std::size_t face) const;
+  std::optional<Positions> other(std::size_t face) const;
+
+  const Config& config_;
+  const Config::Comparison& comparison_;
+  const Inputs& inputs_;
+  const CrowdDirectory& directory_;
+  const std::vector<CastFace>& crowd_;
+  const Likeness& likeness_;
+  Positions reference_;  ///< the one mesh that all are compared with, or empty
+};
+
+/// Adds what is wrong with the mesh, if it is one, that the faces are to be compared with.
+void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems);
+
+/// \throws MissingInput if they are to be compared with those of a crowd that lacks one of them:
+/// better told before the faces are made than after.
+void check_compared_crowd(const Config& config, const std::vector<CastFace>& crowd);
+
+}  // namespace crowdface

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/sheet_labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// "ann", or of a mixture "ann 60 %, bob 40 %".
+std::string target_label(const Recipe& recipe, const std::vector<std::string>& heads) {
+  if (recipe.mixture.empty()) return heads[static_cast<std::size_t>(recipe.target)];
+  std::vector<std::string> parts;
+  for (const SourceWeight& part : recipe.mixture) {
+    parts.push_back(concat(heads[static_cast<std::size_t>(part.head)], ' ',
+                           std::lround(100 * part.weight), " %"));
+  }
+  return join(parts);
+}
+
+}  // namespace
+
+std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,
+                                     const Likeness& likeness) {
+  if (order == SheetOrder::kLikeness) return likeness.order;
+  std::vector<std::size_t> faces(crowd.size());
+  std::iota(faces.begin(), faces.end(), std::size_t{0});
+  if (order == SheetOrder::kPlan) return faces;
+  const auto kin = order == SheetOrder::kFamily ? &CastFace::family : &CastFace::group;
+  std::stable_sort(faces.begin(), faces.end(), [&](std::size_t a, std::size_t b) {
+    const auto& left = crowd[a].*kin;
+    const auto& right = crowd[b].*kin;
+    return left && (!right || *left < *right);  // those of none last
+  });
+  return faces;
+}
+
+std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
+                        std::size_t face, const Likeness& likeness,
+                        const std::vector<std::string>& heads) {
+  const CastFace& labelled = crowd[face];
+  const auto line = [&](SheetLabel label) -> std::string {
+    switch (label) {
+      case SheetLabel::kId:
+        return labelled.id;
+      case SheetLabel::kFamily:
+        return labelled.family ? concat("family ", *labelled.family) : std::string();
+      case SheetLabel::kGroup:
+        return labelled.group ? concat("group ", *labelled.group) : std::string();
+      case SheetLabel::kTarget:
+        return concat("on ", target_label(labelled.recipe, heads));
+      case SheetLabel::kNearest: {
+        if (likeness.near[face].empty()) return {};
+        const Neighbour& near = likeness.near[face].front();
+        return concat("near ", crowd[near.face].id, ", ", format_fixed(rounded(near.mm), 2), " mm");
+      }
+      case SheetLabel::kNearestHead:
+        if (!labelled.notes.nearest) return {};
+        return concat("near ", heads[static_cast<std::size_t>(labelled.notes.nearest->head)], ", ",
+                      format_fixed(rounded(labelled.notes.nearest->head_mm), 2), " mm");
+    }
+    return {};
+  };
+  std::vector<std::string> lines;
+  for (const SheetLabel label : labels) lines.push_back(line(label));
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i) text += concat(i > 0 ? "\n" : "", lines[i]);
+  return text;
+}
+
+}  // namespace crowdface
