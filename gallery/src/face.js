@@ -98,7 +98,7 @@ export class FacePage {
     }, text);
     this.choices.replaceChildren(
       el('div', { class: 'group' }, subject('face', this.face.id),
-        subject('target', `target ${this.face.target}`),
+        subject('target', `${this.face.mixture ? 'largest part of its target' : 'target'} ${this.face.target}`),
         near ? subject('near', `nearest ${near.id}`) : null),
       el('span', { class: 'grow' }),
       el('div', { class: 'group' }, Object.entries(viewNames).map(([view, text]) =>
@@ -171,13 +171,19 @@ export class FacePage {
       [el('dt', {}, name), el('dd', {}, value)])));
   }
 
+  /// Without the crowd's name, which all ids begin with: there is little room under a small picture.
+  shortName(name) {
+    const start = `${this.crowd.name}_`;
+    return name.startsWith(start) ? name.slice(start.length) : name;
+  }
+
   /// The family as a tree: parents, the face among its sisters and brothers, children.
   family() {
     const { parents, siblings, children } = relativesOf(this.crowd, this.face);
     if (parents.length + siblings.length + children.length === 0) return null;
     const cell = (name, face, text, head) => el('button', {
       class: 'neighbour', disabled: !face, title: face ? `Open ${name}` : name, onclick: () => this.go(face),
-    }, picture(face ?? head, name), el('b', {}, name), el('span', {}, text));
+    }, picture(face ?? head, name), el('b', {}, this.shortName(name)), el('span', {}, text));
     const share = this.face.mother_share;
     const gave = ({ role }) => {
       const parts = Object.entries(this.face.inherits ?? {}).filter(([, from]) => from === role).map(([region]) => region);
@@ -224,7 +230,7 @@ export class FacePage {
     const cells = this.face.near.map(({ id, mm }) => {
       const other = this.crowd.byId.get(id);
       return el('button', { class: 'neighbour', onclick: () => this.go(other), title: `Open ${id}` },
-        picture(other, id), el('b', {}, id), el('span', {}, `${short(mm)} mm`));
+        picture(other, id), el('b', {}, this.shortName(id)), el('span', {}, `${short(mm)} mm`));
     });
     return el('section', {}, el('h2', {}, 'Nearest faces'),
       cells.length > 0 ? el('div', { class: 'neighbours' }, cells)
