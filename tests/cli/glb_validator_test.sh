@@ -12,6 +12,7 @@ cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 2}
 faces: {directory: heads, units: cm}
+shapes: {neutral: heads/synth_01.obj, directory: heads}
 output: {directory: out, meshes: [glb], contact_sheet: none}
 YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet

@@ -91,6 +91,8 @@ TEST_F(ExampleConfigs, ThoseOfTheReferenceAreReadToo) {
     touch(concat("scans/", name, ".obj"));
   }
   touch("configs/mask.png");
+  touch("configs/template/neutral.obj");
+  touch("configs/template/shapes/smile.obj");
   touch("masks/bands.1001.png");
   const auto page = std::filesystem::path(CROWDFACE_SOURCE_DIR) / "docs/config.md";
   const std::vector<std::string> blocks = yaml_blocks(read_file(page));

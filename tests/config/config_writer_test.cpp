@@ -197,6 +197,7 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  rigid: []\n"
             "  bound: []\n"
             "  together: []\n"
+            "shapes: none\n"
             "plane:\n"
             "  layout: circle\n"
             "  anchors: {}\n"
@@ -246,6 +247,7 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "    compare: none\n"
             "    compare_scale: 6 mm\n"
             "    formats: [png]\n"
+            "    shapes: 0\n"
             "    texture: false\n");
 }
 
@@ -260,6 +262,7 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "regions: {names: [face, no, low], mask: [mask.png, tiles.<UDIM>.png]}\n"
       "smoothing: {max_size: 12.34567890123 cm, boundary: free, operator: lazy, levels: cubic, "
       "tolerance: 0.125 mm}\n"
+      "shapes: {neutral: heads/ann.obj, directory: heads}\n"
       "plane: {layout: similarity, anchors: {ann: [0.1, -1e-7], 'null': [1e5, "
       "0.30000000000000004]}}\n"
       "sampling:\n"

@@ -75,7 +75,7 @@ TEST(TopologyArrays, SayWhichCornersMakeAFace) {
   TextureCoordinates uvs(4, 2);
   uvs << 0, 0, 1, 0, 0.5, 0.25, 1, 1;
   const TemporaryFolder folder;
-  write_topology_arrays(topology, uvs, folder / "topology");
+  write_topology_arrays(topology, uvs, {}, folder / "topology");
   const auto read = [&](const std::string& name, const std::string& dictionary) {
     BinaryReader file(testing::read_text(folder / ("topology/" + name)));
     EXPECT_EQ(read_header(file), dictionary) << name;

@@ -30,6 +30,7 @@ SmallCrowd everything() {
   crowd.levels = "basis";
   crowd.bowl.materials = true;
   crowd.contact_sheet = "{columns: 2, rows: 2, cell: 32}";
+  crowd.more = "\nshapes: {neutral: heads/ann.obj, directory: shapes}";
   return crowd;
 }
 
@@ -38,6 +39,7 @@ class Resume : public ::testing::Test {
  protected:
   Resume() : folder_(everything()) {
     folder_.folder().write("heads/bowl.mtl", "newmtl skin\n");
+    folder_.folder().write("shapes/smile.obj", testing::bowl_text(folder_.crowd().bowl, 40));
     run();
     whole_ = crowd_files(folder_.out());
   }

@@ -109,6 +109,14 @@ struct Config {
     std::vector<std::vector<std::string>> together;  ///< each a rigid part
   } parts;
 
+  /// Expressions of a template, to be carried to every face.
+  struct Shapes {
+    std::filesystem::path neutral;  ///< empty: there are none
+    std::filesystem::path directory;
+    std::vector<std::filesystem::path> files;  ///< one a shape, by name; the neutral mesh is none
+    std::vector<std::string> names;            ///< #files
+  } shapes;
+
   struct Plane {
     Layout layout = Layout::kCircle;
     std::map<Eigen::Index, PlanePoint> anchors;  ///< by head; override the layout, all if kManual
@@ -148,6 +156,7 @@ struct Config {
     SheetOrder order = SheetOrder::kPlan;
     Comparison compare;
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< png is always among them
+    int shapes = 0;  ///< faces that are shown with each of their shapes, on pages of their own
     bool texture = false;  ///< surfaces in the colours of the heads' own textures
   };
   struct Output {

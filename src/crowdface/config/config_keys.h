@@ -163,6 +163,8 @@ std::string write_regions(const Config& config, const ConfigWriting& writing);
 std::optional<StarterLines> regions_starter(const StarterFacts& facts);
 void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_parts(const Config& config, const ConfigWriting& writing);
+void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_shapes(const Config& config, const ConfigWriting& writing);
 void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_believability(const Config& config, const ConfigWriting& writing);
 Starter believability_starter();

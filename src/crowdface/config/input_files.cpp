@@ -49,6 +49,8 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
 std::vector<fs::path> input_files(const Config& config) {
   std::vector<fs::path> files = {config.file};
   files.insert(files.end(), config.faces.files.begin(), config.faces.files.end());
+  if (!config.shapes.files.empty()) files.push_back(config.shapes.neutral);
+  files.insert(files.end(), config.shapes.files.begin(), config.shapes.files.end());
   for (const std::string& mask : config.regions.mask) add_image(mask, files);
   if (config.distance.mask) add_image(*config.distance.mask, files);
   files.insert(files.end(), config.review.files.begin(), config.review.files.end());

@@ -98,6 +98,22 @@ const Keys<Sheet>& contact_sheet_keys() {
          return length(kLongestScaleMm).write(sheet.compare.scale_mm, writing);
        }},
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]")),
+      {"shapes",
+       [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
+         const auto faces = whole(0, 64).read(node, draft);
+         sheet.shapes = static_cast<int>(faces.value_or(0));
+         if (sheet.shapes == 0) return;
+         if (draft.config.shapes.files.empty()) {
+           draft.complaints.about(node, "there are no shapes: the key shapes is missing, or none");
+         }
+         if (draft.config.output.meshes.empty()) {
+           draft.complaints.about(node,
+                                  "shapes are shown on meshes, and output.meshes asks for none");
+         }
+       },
+       [](const Sheet& sheet, const ConfigWriting& writing) {
+         return whole(0, 64).write(static_cast<std::uint64_t>(sheet.shapes), writing);
+       }},
       word_key("texture", &Sheet::texture)};
   return keys;
 }

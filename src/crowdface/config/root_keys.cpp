@@ -121,6 +121,7 @@ const Keys<Config>& root_keys() {
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
       {"parts", read_parts, write_parts},
+      {"shapes", read_shapes, write_shapes},
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
       section_key("sampling", &Config::sampling, sampling_keys()),
       section_key("distance", &Config::distance, distance_keys()),

@@ -57,7 +57,17 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
 void remove_crowd(const CrowdDirectory& directory) {
   std::error_code ignored;
   if (fs::exists(directory.plan(), ignored)) {
-    for (const std::string& id : ids_in_plan(read_file(directory.plan()))) {
+    const std::vector<std::string> ids = ids_in_plan(read_file(directory.plan()));
+    const std::set<std::string> known(ids.begin(), ids.end());
+    for (const fs::path& file : list_files(directory.meshes(), [&](const fs::path& path) {
+           const std::string name = path.filename().string();
+           const std::size_t plus = name.find('+');
+           return plus != std::string::npos && known.contains(name.substr(0, plus)) &&
+                  mesh_format_of(path).has_value();
+         })) {
+      remove_file(file);
+    }
+    for (const std::string& id : ids) {
       for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
       remove_file(directory.render(id));
     }
@@ -231,7 +241,7 @@ bool is_numbered_sheet(const fs::path& path) {
   const std::string ending = path.extension().string();
   if (ending != ".png" && ending != ".exr" && ending != ".pdf") return false;
   if (stem == "index" || stem == "sheets") return true;
-  for (const std::string_view start : {"sheet_", "heads_", "index_", "sheets_"}) {
+  for (const std::string_view start : {"sheet_", "heads_", "shapes_", "index_", "sheets_"}) {
     if (stem.starts_with(start) && parse_unsigned(stem.substr(start.size()))) return true;
   }
   return false;
@@ -269,8 +279,9 @@ std::vector<fs::path> CrowdDirectory::kept_reviews() const {
   return kept;
 }
 
-fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format) const {
-  return meshes() / concat(id, extension_of(format));
+fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format,
+                              const std::string& shape) const {
+  return meshes() / concat(id, shape.empty() ? "" : "+", shape, extension_of(format));
 }
 
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,

@@ -47,7 +47,9 @@ struct CrowdDirectory {
   std::filesystem::path meshes() const { return root / "meshes"; }
   std::filesystem::path renders() const { return root / "renders"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
-  std::filesystem::path mesh(const std::string& id, MeshFormat format) const;
+  /// \param shape  of one of the face's shapes, or of all (no face's id holds the '+' between)
+  std::filesystem::path mesh(const std::string& id, MeshFormat format,
+                             const std::string& shape = {}) const;
   /// Arrays that say how positions alone (MeshFormat::kPoints) form faces.
   std::filesystem::path topology() const { return meshes() / "topology"; }
   std::filesystem::path render(const std::string& id) const { return renders() / (id + ".png"); }

@@ -10,6 +10,7 @@
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
+#include "crowdface/shapes/shape_set.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
 namespace crowdface {
@@ -24,6 +25,8 @@ struct Inputs {
   Components components;
   PartList parts;   ///< `parts: none`: empty
   Components skin;  ///< the components with all skin joined into the largest
+  ShapeSet shapes;
+  Digest shapes_digest;  ///< if there are any
   RegionWeights regions;
   std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without
   double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads

@@ -10,6 +10,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/alignment_check.h"
+#include "crowdface/heads/load_shapes.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
 #include "crowdface/smooth/level_size.h"
@@ -230,6 +231,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   const std::size_t before = problems.size();
   read_textures(config, inputs, problems);
   find_named_parts(config, inputs, problems);
+  load_shapes(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;
   return inputs;
 }

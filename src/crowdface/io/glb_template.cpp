@@ -15,6 +15,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
 #include "crowdface/io/single_precision.h"
@@ -116,10 +117,13 @@ class BufferLayout {
     scene_["bufferViews"] = Json::array();
     scene_["accessors"] = Json::array();
   }
-  void add_view(std::size_t size, int target) {
-    scene_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", size_}, {"byteLength", size}, {"target", target}});
+  /// \return which view it is.
+  std::size_t add_view(std::size_t size, int target = 0) {
+    Json view = {{"buffer", 0}, {"byteOffset", size_}, {"byteLength", size}};
+    if (target != 0) view["target"] = target;
+    scene_["bufferViews"].push_back(std::move(view));
     size_ += size;
+    return scene_["bufferViews"].size() - 1;
   }
   /// \param offset  bytes from where the last view begins.
   /// \return which accessor it is.
@@ -131,6 +135,21 @@ class BufferLayout {
     accessor["count"] = count;
     accessor["type"] = type;
     scene_["accessors"].push_back(std::move(accessor));
+    return scene_["accessors"].size() - 1;
+  }
+  /// Of vectors that are zero but for some. \return which accessor it is.
+  std::size_t add_sparse(std::size_t count, std::size_t some, std::size_t indices,
+                         std::size_t values) {
+    Json accessor = {{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}};
+    accessor["sparse"] = {{"count", some},
+                          {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
+                          {"values", {{"bufferView", values}}}};
+    scene_["accessors"].push_back(std::move(accessor));
+    return scene_["accessors"].size() - 1;
+  }
+  /// Of zeros.
+  std::size_t add_zeros(std::size_t count) {
+    scene_["accessors"].push_back({{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}});
     return scene_["accessors"].size() - 1;
   }
   void finish() { scene_["buffers"].push_back(Json::object({{"byteLength", size_}})); }
@@ -185,6 +204,37 @@ Json to_json(const Eigen::RowVector3d& vector) {
   return json;
 }
 
+/// The rows of a target's moves that the file holds: of its vertices, then of what seams split off.
+/// \param split    the original vertices of those from `vertices` on
+/// \param indices  gets the vertices of the file
+std::vector<std::uint32_t> target_rows(const GlbTarget& target, Index vertices,
+                                       const std::vector<std::uint32_t>& split,
+                                       std::string& indices) {
+  std::vector<std::uint32_t> row_of(static_cast<std::size_t>(vertices), kNoIndex), rows;
+  for (std::uint32_t row = 0; row < target.vertices.size(); ++row) {
+    row_of[target.vertices[row]] = row;
+    rows.push_back(row);
+    append_number(indices, target.vertices[row]);
+  }
+  for (std::size_t i = 0; i < split.size(); ++i) {
+    if (row_of[split[i]] == kNoIndex) continue;
+    rows.push_back(row_of[split[i]]);
+    append_number(indices, static_cast<std::uint32_t>(static_cast<std::size_t>(vertices) + i));
+  }
+  return rows;
+}
+
+/// The bounds of a target in which some vertices may stay.
+std::pair<Eigen::RowVector3d, Eigen::RowVector3d> bounds_of(const Displacements& target,
+                                                            Index vertices) {
+  Eigen::RowVector3d least = Eigen::RowVector3d::Zero(), most = least;
+  if (target.moves.rows() == 0) return {least, most};
+  least = target.moves.colwise().minCoeff();
+  most = target.moves.colwise().maxCoeff();
+  if (target.moves.rows() == vertices) return {least, most};
+  return {least.cwiseMin(0), most.cwiseMax(0)};
+}
+
 /// One row a split vertex: first all rows, then those of the further split vertices again.
 void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32_t>& split) {
   const auto further = static_cast<Index>(split.size());
@@ -222,6 +272,33 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   BufferLayout buffer(scene);
   const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty());
   add_primitives(scene, buffer, groups, attributes, options);
+  std::string indices;
+  std::vector<std::size_t> views;
+  for (const GlbTarget& target : options.targets) {
+    const std::size_t before = indices.size();
+    targets_.push_back({target_rows(target, vertices_, split_, indices), 0});
+    if (target.vertices.empty()) continue;
+    views.push_back(buffer.add_view(indices.size() - before));
+  }
+  Json accessors = Json::array(), names = Json::array(), weights = Json::array();
+  for (std::size_t t = 0, view = 0; t < targets_.size(); ++t) {
+    Target& target = targets_[t];
+    const std::size_t size = target.rows.size() * kVectorSize;
+    target.accessor = target.rows.empty()
+                          ? buffer.add_zeros(split.vertices.size())
+                          : buffer.add_sparse(split.vertices.size(), target.rows.size(),
+                                              views[view++], buffer.add_view(size));
+    target_bytes_ += size;
+    accessors.push_back({{"POSITION", target.accessor}});
+    names.push_back(options.targets[t].name);
+    weights.push_back(0.0);
+  }
+  if (!targets_.empty()) {
+    Json& mesh = scene["meshes"][0];
+    for (Json& primitive : mesh["primitives"]) primitive["targets"] = accessors;
+    mesh["weights"] = std::move(weights);
+    mesh["extras"] = {{"targetNames", std::move(names)}};
+  }
   buffer.finish();
   json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 
@@ -229,6 +306,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   for (const Triangles& group : groups) {
     shared_.append(reinterpret_cast<const char*>(group.data()), group.size() * sizeof(group[0]));
   }
+  shared_ += indices;
 }
 
 std::size_t GlbTemplate::vector_bytes() const {
@@ -236,22 +314,32 @@ std::size_t GlbTemplate::vector_bytes() const {
 }
 
 std::size_t GlbTemplate::memory_bytes() const {
-  return shared_.size() + json_.size() + split_.size() * sizeof(split_[0]);
+  return shared_.size() + json_.size() + split_.size() * sizeof(split_[0]) +
+         target_bytes_ / kVectorSize * sizeof(std::uint32_t);
 }
 
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
-                                const std::string& name) const {
+                                const std::string& name,
+                                std::span<const Displacements> moves) const {
+  require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
   require_finite(positions, vertices_, name);
   require_finite(normals, vertices_, name);
   Json scene = Json::parse(json_);
   scene["accessors"][0]["min"] = to_json(positions.colwise().minCoeff());
   scene["accessors"][0]["max"] = to_json(positions.colwise().maxCoeff());
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    require_finite(moves[t].moves, moves[t].moves.rows(), name);
+    const auto [least, most] = bounds_of(moves[t], vertices_);
+    Json& accessor = scene["accessors"][targets_[t].accessor];
+    accessor["min"] = to_json(least);
+    accessor["max"] = to_json(most);
+  }
   scene["nodes"][0]["name"] = name;
   scene["meshes"][0]["name"] = name;
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');
 
-  const std::size_t binary_size = 2 * vector_bytes() + shared_.size();
+  const std::size_t binary_size = encode_bytes() + shared_.size();
   const std::size_t total = kBinaryHeader + json.size() + binary_size;
   if (total > std::numeric_limits<std::uint32_t>::max()) {
     throw InvalidInput(concat(name, ": a GLB file of ", total,
@@ -269,11 +357,17 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
 
   EncodedFile file;
   file.add(head);
-  char* vectors = file.reserve(2 * vector_bytes());
+  char* vectors = file.reserve(encode_bytes());
   put_vectors(vectors, positions, split_);
   put_vectors(vectors + vector_bytes(), normals, split_);
   file.refer_to({vectors, 2 * vector_bytes()});
   file.refer_to(shared_);
+  char* const values = vectors + 2 * vector_bytes();
+  char* at = values;
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    for (const std::uint32_t row : targets_[t].rows) at = put_row(at, moves[t].moves, row);
+  }
+  file.refer_to({values, target_bytes_});
   return file;
 }
 

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "crowdface/core/units.h"
 #include "crowdface/io/encoded_file.h"
+#include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -18,12 +20,19 @@ struct GlbMaterial {
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
 };
 
+/// A morph target that every file has: its name, and the vertices that it moves, ascending.
+struct GlbTarget {
+  std::string name;
+  std::vector<std::uint32_t> vertices;
+};
+
 struct GlbOptions {
   LengthUnit unit = LengthUnit::kMetre;  ///< of the positions; the file's node scales to metres
   Axis up = {1, 1};                      ///< of the positions; the node turns them to +Y …
   Axis front = {2, 1};                   ///< … and +Z, which is glTF's front
   std::vector<GlbMaterial> materials;
   std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
+  std::vector<GlbTarget> targets;
 };
 
 /// Binary glTF 2.0 files of one topology. What all faces share (texture coordinates, triangles,
@@ -41,21 +50,30 @@ class GlbTemplate {
   /// \param normals  #V by 3, unit; always needed, because a viewer shades a mesh without them flat.
   /// \param name     of the mesh, in the file and in messages.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
-  EncodedFile encode(const Positions& positions, const Positions& normals,
-                     const std::string& name) const;
+  /// \param moves    #targets: of their vertices, from `positions`.
+  EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
+                     std::span<const Displacements> moves = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;
   /// What one encode takes.
-  std::size_t encode_bytes() const { return 2 * vector_bytes(); }
+  std::size_t encode_bytes() const { return 2 * vector_bytes() + target_bytes_; }
 
  private:
+  /// One target: the rows of its moves that its values are, one after the other, and its accessor.
+  struct Target {
+    std::vector<std::uint32_t> rows;
+    std::size_t accessor = 0;
+  };
+
   std::size_t vector_bytes() const;
 
   Index vertices_;
   std::vector<std::uint32_t> split_;  ///< original vertices of the split ones from #V on
   std::string shared_;                ///< the part of the buffer that all faces share
-  std::string json_;                  ///< the scene of any face; bounds and names to be filled in
+  std::vector<Target> targets_;
+  std::size_t target_bytes_ = 0;  ///< of the values of all targets
+  std::string json_;              ///< the scene of any face; bounds and names to be filled in
 };
 
 /// The positions of a file that GlbTemplate made. \throws InvalidInput if it is any other.

@@ -8,6 +8,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
 #include "crowdface/io/single_precision.h"
@@ -18,9 +19,10 @@ namespace {
 constexpr Index kRowsPerBlock = 1 << 15;
 
 /// The header as NumPy writes it: padded, so that the numbers begin at a multiple of 64 bytes.
+/// \param type  as Python has it: "'<f4'".
 std::string npy_header(std::string_view type, const std::string& shape) {
   std::string dictionary =
-      concat("{'descr': '", type, "', 'fortran_order': False, 'shape': (", shape, "), }");
+      concat("{'descr': ", type, ", 'fortran_order': False, 'shape': (", shape, "), }");
   constexpr std::size_t kPrefix = 10, kAlignment = 64;
   const std::size_t used = kPrefix + dictionary.size() + 1;
   dictionary.append((kAlignment - used % kAlignment) % kAlignment, ' ');
@@ -33,7 +35,7 @@ std::string npy_header(std::string_view type, const std::string& shape) {
 }
 
 std::string positions_header(Index vertices) {
-  return npy_header("<f4", concat(vertices, ", 3"));
+  return npy_header("'<f4'", concat(vertices, ", 3"));
 }
 
 std::size_t data_size(Index vertices) {
@@ -50,14 +52,14 @@ void require_int32(std::size_t count) {
 void write_indices(const std::vector<std::uint32_t>& indices, const std::filesystem::path& path) {
   require_int32(indices.size());
   EncodedFile file;
-  file.add(npy_header("<i4", concat(indices.size(), ",")));
+  file.add(npy_header("'<i4'", concat(indices.size(), ",")));
   const auto bytes = std::as_bytes(std::span(indices));  // kNoIndex is −1
   file.refer_to({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   file.write(path);
 }
 
 void write_uvs(const TextureCoordinates& uvs, const std::filesystem::path& path) {
-  std::string bytes = npy_header("<f4", concat(uvs.rows(), ", 2"));
+  std::string bytes = npy_header("'<f4'", concat(uvs.rows(), ", 2"));
   for (Index i = 0; i < uvs.rows(); ++i) {
     append_number(bytes, to_single(uvs(i, 0)));
     append_number(bytes, to_single(uvs(i, 1)));
@@ -84,6 +86,40 @@ EncodedFile encode_npy(const Positions& positions, const std::string& what) {
   return file;
 }
 
+EncodedFile encode_npy(std::span<const Displacements> shapes, const std::string& what) {
+  constexpr std::size_t kRecord = 2 * sizeof(std::uint32_t) + 3 * sizeof(float);
+  std::size_t records = 0;
+  for (const Displacements& shape : shapes) {
+    require_finite(shape.moves, static_cast<Index>(shape.vertices.size()), what);
+    records += shape.vertices.size();
+  }
+  EncodedFile file;
+  file.add(npy_header("[('shape', '<u4'), ('vertex', '<u4'), ('delta', '<f4', (3,))]",
+                      concat(records, ",")));
+  char* const data = file.reserve(records * kRecord);
+  char* out = data;
+  for (std::uint32_t s = 0; s < shapes.size(); ++s) {
+    for (std::size_t i = 0; i < shapes[s].vertices.size(); ++i) {
+      out = put_number(put_number(out, s), shapes[s].vertices[i]);
+      out = put_row(out, shapes[s].moves, static_cast<Index>(i));
+    }
+  }
+  file.refer_to({data, records * kRecord});
+  return file;
+}
+
+std::string encode_names_npy(std::span<const std::string> names) {
+  constexpr std::size_t kLongest = 64;
+  std::string bytes = npy_header("'<U64'", concat(names.size(), ","));
+  for (const std::string& name : names) {
+    require(name.size() <= kLongest, "names of up to 64 characters");
+    for (std::size_t i = 0; i < kLongest; ++i) {
+      append_number(bytes, static_cast<std::uint32_t>(i < name.size() ? name[i] : 0));
+    }
+  }
+  return bytes;
+}
+
 Positions read_npy(const std::filesystem::path& path) {
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
@@ -104,16 +140,21 @@ Positions read_npy(const std::filesystem::path& path) {
 
 std::vector<std::filesystem::path> write_topology_arrays(const Topology& topology,
                                                          const TextureCoordinates& uvs,
+                                                         std::span<const std::string> shapes,
                                                          const std::filesystem::path& folder) {
   make_directories(folder);
   std::vector<std::filesystem::path> files = {folder / kTopologyArrays[0],
                                               folder / kTopologyArrays[1]};
   write_indices(topology.corner_vertices, files[0]);
   write_indices(topology.face_offsets, files[1]);
+  if (!shapes.empty()) {
+    files.push_back(folder / kTopologyArrays[4]);
+    write_file(files.back(), encode_names_npy(shapes));
+  }
   if (topology.corner_uvs.empty()) return files;
   files.insert(files.end(), {folder / kTopologyArrays[2], folder / kTopologyArrays[3]});
-  write_uvs(uvs, files[2]);
-  write_indices(topology.corner_uvs, files[3]);
+  write_uvs(uvs, folder / kTopologyArrays[2]);
+  write_indices(topology.corner_uvs, folder / kTopologyArrays[3]);
   return files;
 }
 

@@ -17,6 +17,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/pictures/face_comparison.h"
+#include "crowdface/pictures/shape_sheet.h"
 #include "crowdface/pictures/sheet_labels.h"
 #include "crowdface/pictures/sheet_writer.h"
 #include "crowdface/render/heat_colours.h"
@@ -38,6 +39,7 @@ class CrowdSheets {
               const std::vector<CastFace>& crowd, const Likeness& likeness)
       : config_(config),
         sheet_(sheet),
+        inputs_(inputs),
         directory_(directory),
         renders_(renders),
         crowd_(crowd),
@@ -49,6 +51,7 @@ class CrowdSheets {
     const std::size_t pages = write_faces();
     write_heads();
     write_families();
+    add_shape_pages(config_, sheet_, inputs_, directory_, renders_, crowd_, pages_);
     return {pages, pages_.finish()};
   }
 
@@ -250,6 +253,7 @@ class CrowdSheets {
 
   const Config& config_;
   const Config::ContactSheet& sheet_;
+  const Inputs& inputs_;
   const CrowdDirectory& directory_;
   const CrowdRenders& renders_;
   const std::vector<CastFace>& crowd_;

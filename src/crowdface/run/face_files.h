@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "crowdface/core/file.h"
@@ -12,9 +13,17 @@
 
 namespace crowdface {
 
+/// Which of a face's mesh files: the face, or what it has of its shapes.
+struct MeshName {
+  MeshFormat format = MeshFormat::kObj;
+  std::string shape = {};  ///< of one shape; kAllShapes; empty: the face
+};
+/// The displacements of all shapes.
+inline constexpr const char* kAllShapes = "shapes";
+
 /// A face's file as it was written.
 struct MeshFile {
-  MeshFormat format = MeshFormat::kObj;
+  MeshName name;
   Digest digest;
   std::uint64_t bytes = 0;
 };

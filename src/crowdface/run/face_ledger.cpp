@@ -5,6 +5,7 @@
 
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
+#include "crowdface/run/mesh_writers.h"
 
 namespace crowdface {
 namespace {
@@ -17,6 +18,7 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   hasher.add(kFaceFilesVersion).add(kPrepareVersion).add(job.settings);
   hasher.add(config.output.meshes.size());
   for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
+  if (!job.inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(job.inputs.shapes_digest);
   hasher.add(static_cast<int>(config.faces.units));
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
@@ -81,15 +83,15 @@ Digest FaceLedger::key_of(const CastFace& face) const {
 std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   const auto entry = ledger_.proven(item_of(face), key_of(face));
   if (!entry) return std::nullopt;
-  const std::vector<MeshFormat>& formats = job_.config.output.meshes;
+  const std::vector<MeshName> names = mesh_names(job_.config.output.meshes, job_.inputs.shapes);
   const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);
-  if (entry->files.size() != formats.size() + pictures) return std::nullopt;
+  if (entry->files.size() != names.size() + pictures) return std::nullopt;
   FaceFiles files;
-  for (std::size_t f = 0; f < formats.size(); ++f) {
+  for (std::size_t f = 0; f < names.size(); ++f) {
     files.meshes.push_back(
-        {formats[f], entry->files[f].content.digest, entry->files[f].content.bytes});
+        {names[f], entry->files[f].content.digest, entry->files[f].content.bytes});
   }
-  if (extras_.picture) files.picture = entry->files[formats.size()].content;
+  if (extras_.picture) files.picture = entry->files[names.size()].content;
   if (extras_.preview) files.preview = entry->files.back().content;
   try {
     if (extras_.skin) files.skin = skin_of(entry->note);
@@ -103,7 +105,8 @@ void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
   LedgerEntry entry{item_of(face), key_of(face), {}, {}};
   for (const MeshFile& mesh : files.meshes) {
     entry.files.push_back(
-        {directory_.relative(directory_.mesh(face.id, mesh.format)), {mesh.bytes, mesh.digest}});
+        {directory_.relative(directory_.mesh(face.id, mesh.name.format, mesh.name.shape)),
+         {mesh.bytes, mesh.digest}});
   }
   if (files.picture) {
     entry.files.push_back({directory_.relative(directory_.render(face.id)), *files.picture});

@@ -108,7 +108,8 @@ class FaceOutput {
     {
       const Busy busy(write_);
       for (const EncodedMesh& mesh : meshes) {
-        files.meshes.push_back(write_mesh(mesh, directory_.mesh(face.id, mesh.format)));
+        files.meshes.push_back(
+            write_mesh(mesh, directory_.mesh(face.id, mesh.name.format, mesh.name.shape)));
       }
     }
     if (renders_ != nullptr) {

@@ -8,7 +8,9 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/named_parts.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/surface_kind.h"
@@ -34,6 +36,9 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs) {
     options.materials.push_back(glb_material(name));
   }
   options.face_materials = inputs.materials.of_face;
+  for (const Shape& shape : inputs.shapes.shapes) {
+    options.targets.push_back({shape.name, shape.moves.vertices});
+  }
   return options;
 }
 
@@ -42,11 +47,29 @@ std::size_t normals_bytes(const Topology& topology) {
          sizeof(double);
 }
 
+std::size_t shape_bytes(const ShapeSet& shapes) {
+  std::size_t vertices = 0;
+  for (const Shape& shape : shapes.shapes) vertices += shape.moves.vertices.size();
+  return vertices * (3 * sizeof(double) + sizeof(std::uint32_t));
+}
+
 }  // namespace
+
+std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const ShapeSet& shapes) {
+  std::vector<MeshName> names;
+  for (const MeshFormat format : formats) names.push_back({format, {}});
+  if (shapes.shapes.empty()) return names;
+  for (const MeshFormat format : formats) {
+    if (format == MeshFormat::kPoints) names.push_back({format, kAllShapes});
+    if (format != MeshFormat::kObj) continue;
+    for (const Shape& shape : shapes.shapes) names.push_back({format, shape.name});
+  }
+  return names;
+}
 
 MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
                          std::vector<MeshFormat> formats, std::span<const CastFace> crowd)
-    : inputs_(inputs), formats_(std::move(formats)) {
+    : inputs_(inputs), formats_(std::move(formats)), names_(mesh_names(formats_, inputs.shapes)) {
   const FaceSet& faces = inputs.faces;
   std::set<Index> targets;
   for (const CastFace& face : crowd) targets.insert(face.recipe.target);
@@ -58,6 +81,9 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
   }
   if (need_normals) fans_.emplace(faces.topology);
+  if (!inputs.shapes.shapes.empty() && (has(MeshFormat::kGlb) || names_.size() > formats_.size())) {
+    shapes_.emplace(faces, inputs.adjacency, inputs.parts, head_axes(config), inputs.shapes);
+  }
 }
 
 void MeshWriters::add_obj_templates(const std::vector<Index>& targets) {
@@ -81,31 +107,42 @@ bool MeshWriters::needs_normals(Index target) const {
   return has(MeshFormat::kGlb) || (has(MeshFormat::kPly) && had_normals(target));
 }
 
+EncodedFile MeshWriters::encode(const MeshName& mesh, const CastFace& face,
+                                const Positions& positions, const Positions& normals,
+                                std::span<const Displacements> moves) const {
+  const std::string& id = face.id;
+  const Index target = face.recipe.target;
+  switch (mesh.format) {
+    case MeshFormat::kObj: {
+      if (mesh.shape.empty()) return obj_.at(target).encode(positions, id);
+      const std::vector<Shape>& shapes = inputs_.shapes.shapes;
+      const auto shape = std::find_if(shapes.begin(), shapes.end(),
+                                      [&](const Shape& known) { return known.name == mesh.shape; });
+      Positions moved = positions;
+      moves[static_cast<std::size_t>(shape - shapes.begin())].add_to(moved);
+      return obj_.at(target).encode(moved, concat(id, ", ", mesh.shape));
+    }
+    case MeshFormat::kPly:
+      return ply_->encode(positions, had_normals(target) ? normals : Positions(), id);
+    case MeshFormat::kGlb:
+      return glb_->encode(positions, normals, id, moves);
+    case MeshFormat::kPoints:
+      return mesh.shape.empty() ? encode_npy(positions, id) : encode_npy(moves, id);
+  }
+  throw BrokenPrecondition("MeshWriters: an unknown format");
+}
+
 std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face,
                                              const Positions& positions) const {
-  const std::string& id = face.id;
   Positions normals;
   if (needs_normals(face.recipe.target)) {
     normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
   }
+  std::vector<Displacements> moves;
+  if (shapes_) moves = shapes_->carry(face.recipe.target, positions);
   std::vector<EncodedMesh> meshes;
-  for (const MeshFormat format : formats_) {
-    switch (format) {
-      case MeshFormat::kObj:
-        meshes.push_back({format, obj_.at(face.recipe.target).encode(positions, id)});
-        break;
-      case MeshFormat::kPly:
-        meshes.push_back(
-            {format,
-             ply_->encode(positions, had_normals(face.recipe.target) ? normals : Positions(), id)});
-        break;
-      case MeshFormat::kGlb:
-        meshes.push_back({format, glb_->encode(positions, normals, id)});
-        break;
-      case MeshFormat::kPoints:
-        meshes.push_back({format, encode_npy(positions, id)});
-        break;
-    }
+  for (const MeshName& name : names_) {
+    meshes.push_back({name, encode(name, face, positions, normals, moves)});
   }
   return meshes;
 }
@@ -115,13 +152,16 @@ std::size_t MeshWriters::memory_bytes() const {
   for (const auto& [target, form] : obj_) bytes += form.memory_bytes();
   if (ply_) bytes += ply_->memory_bytes();
   if (glb_) bytes += glb_->memory_bytes();
+  if (shapes_) bytes += shape_bytes(inputs_.shapes);
   return bytes;
 }
 
 std::size_t MeshWriters::encode_bytes() const {
   std::size_t obj = 0;
   for (const auto& [target, form] : obj_) obj = std::max(obj, form.encode_bytes());
-  std::size_t bytes = obj + (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
+  if (shapes_ && has(MeshFormat::kObj)) obj *= 1 + inputs_.shapes.shapes.size();
+  std::size_t bytes = (shapes_ ? 2 * shape_bytes(inputs_.shapes) : 0) + obj +
+                      (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
   if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
   if (glb_) bytes += glb_->encode_bytes();
   if (has(MeshFormat::kPoints)) bytes += npy_encode_bytes(inputs_.faces.topology.vertex_count);
@@ -130,7 +170,7 @@ std::size_t MeshWriters::encode_bytes() const {
 
 MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path) {
   mesh.file.write(path);
-  return {mesh.format, mesh.file.digest(), mesh.file.size()};
+  return {mesh.name, mesh.file.digest(), mesh.file.size()};
 }
 
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, const std::vector<MeshFormat>& formats) {
@@ -138,21 +178,23 @@ std::uint64_t estimate_mesh_bytes(const Inputs& inputs, const std::vector<MeshFo
   const auto faces = static_cast<std::uint64_t>(inputs.faces.topology.face_count());
   const auto corners = static_cast<std::uint64_t>(inputs.faces.topology.corner_count());
   constexpr std::uint64_t kVector = 3 * sizeof(float);
-  std::uint64_t obj = 0, bytes = 0;
+  std::uint64_t obj = 0, bytes = 0, moved = 0;
+  for (const Shape& shape : inputs.shapes.shapes) moved += shape.moves.vertices.size();
   for (const ObjFile& file : inputs.files) obj += file.file.bytes().size();
   for (const MeshFormat format : formats) {
     switch (format) {
       case MeshFormat::kObj:
-        bytes += obj / inputs.files.size();
+        bytes += obj / inputs.files.size() * (1 + inputs.shapes.shapes.size());
         break;
       case MeshFormat::kPly:
         bytes += kVector * vertices + faces + sizeof(std::uint32_t) * corners;
         break;
       case MeshFormat::kGlb:  // positions, normals, texture coordinates, ids; triangles
-        bytes += 3 * kVector * vertices + kVector * (corners - 2 * faces);
+        bytes += 3 * kVector * vertices + kVector * (corners - 2 * faces) +
+                 (kVector + sizeof(std::uint32_t)) * moved;
         break;
       case MeshFormat::kPoints:
-        bytes += kVector * vertices;
+        bytes += kVector * vertices + (kVector + 2 * sizeof(std::uint32_t)) * moved;
         break;
     }
   }

@@ -19,14 +19,19 @@
 #include "crowdface/io/ply_template.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/face_files.h"
+#include "crowdface/shapes/shape_transfer.h"
 
 namespace crowdface {
 
-/// A face in one format, ready to be written.
+/// A face in one format, or one of its shapes, ready to be written.
 struct EncodedMesh {
-  MeshFormat format = MeshFormat::kObj;
+  MeshName name;
   EncodedFile file;
 };
+
+/// The files that each face has in these formats, the faces' own first. With shapes an OBJ file has
+/// one beside it for each of them, and points have their displacements; a GLB file holds them.
+std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const ShapeSet& shapes);
 
 /// Writes the faces of a crowd in the formats asked for. What the faces share is prepared once;
 /// encoding and writing then need no more than positions, and may be done by different threads.
@@ -38,7 +43,8 @@ class MeshWriters {
   MeshWriters(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
               std::span<const CastFace> crowd);
 
-  /// The face in each of the formats, in their order; refers to this object.
+  /// The face in each of the formats, in their order, then its shapes (see mesh_names); refers to
+  /// this object.
   /// \throws InvalidInput if positions are not finite.
   std::vector<EncodedMesh> encode(const CastFace& face, const Positions& positions) const;
 
@@ -49,6 +55,8 @@ class MeshWriters {
  private:
   void add_obj_templates(const std::vector<Index>& targets);
   bool has(MeshFormat format) const;
+  EncodedFile encode(const MeshName& mesh, const CastFace& face, const Positions& positions,
+                     const Positions& normals, std::span<const Displacements> moves) const;
   bool needs_normals(Index target) const;
   bool had_normals(Index target) const;
 
@@ -57,7 +65,9 @@ class MeshWriters {
   std::map<Index, ObjTemplate> obj_;  ///< of each head that is a target
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
-  std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
+  std::vector<MeshName> names_;
+  std::optional<ShapeTransfer> shapes_;  ///< if there are any that a format holds
+  std::optional<NormalFans> fans_;       ///< of the vertices, if a format needs normals
 };
 
 /// Writes what `encode` made and tells what it was.

@@ -93,7 +93,14 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
   Json faces = Json::array();
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     Json face = {{"id", cast.crowd[i].id}};
-    for (const MeshFile& mesh : files[i].meshes) face[report_key(mesh.format)] = mesh.digest.hex();
+    for (const MeshFile& mesh : files[i].meshes) {
+      const MeshName& name = mesh.name;
+      if (name.shape.empty()) {
+        face[report_key(name.format)] = mesh.digest.hex();
+      } else {
+        face["shapes"][name.shape + std::string(extension_of(name.format))] = mesh.digest.hex();
+      }
+    }
     if (files[i].skin) {
       const SkinDefects& skin = *files[i].skin;
       face["skin"] = {{"triangles", skin.local.compared},

@@ -70,10 +70,13 @@ void write_shared_arrays(const Inputs& inputs, const std::vector<MeshFormat>& fo
   key.add(inputs.topology_digest)
       .add_array(std::span(inputs.faces.topology.corner_uvs))
       .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
+  std::vector<std::string> shapes;
+  for (const Shape& shape : inputs.shapes.shapes) shapes.push_back(shape.name);
+  for (const std::string& shape : shapes) key.add(shape);
   if (ledger.proven(kItem, key.digest())) return;
   std::vector<std::string> names;
   for (const fs::path& file :
-       write_topology_arrays(inputs.faces.topology, uvs, directory.topology())) {
+       write_topology_arrays(inputs.faces.topology, uvs, shapes, directory.topology())) {
     names.push_back(directory.relative(file));
   }
   ledger.record(kItem, key.digest(), names);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/config/config.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/heads/inputs.h"
+
+namespace crowdface {
+
+/// Reads the shapes that a config names, in parallel, into inputs whose faces are known. Every problem
+/// is added: a mesh that cannot be read, or is not in the heads' topology.
+void load_shapes(const Config& config, Inputs& inputs, Problems& problems);
+
+}  // namespace crowdface

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// Where some vertices of a mesh go; all others stay.
+struct Displacements {
+  std::vector<std::uint32_t> vertices;  ///< ascending
+  Positions moves;                      ///< #vertices by 3
+
+  /// \param positions  #V by 3
+  void add_to(Positions& positions) const {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      positions.row(vertices[i]) += moves.row(static_cast<Index>(i));
+    }
+  }
+};
+
+}  // namespace crowdface

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/frame_field.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+// Shares of the skin's extent, some 43 cm.
+constexpr double kSpacing = 0.06;  // between places
+constexpr double kBetween = 0.1;   // how far a place is heard
+constexpr double kPatch = 0.1;     // of skin around a place that tells its map
+/// How much the whole skin counts beside a patch, as a share of the patch's spread.
+constexpr double kWhole = 0.02;
+/// Vertices that stand for all: of the skin, of candidates for places, of a patch.
+constexpr std::size_t kMostSkin = 4000, kMostCandidates = 20000, kMostPatch = 400;
+
+double bump(double distance) {
+  const double rest = 1 - distance * distance;
+  return rest > 0 ? rest * rest : 0;
+}
+
+/// The inverse of a symmetric positive definite matrix, by cofactors.
+Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m) {
+  const Eigen::Vector3d a = m.row(0).transpose(), b = m.row(1).transpose(),
+                        c = m.row(2).transpose();
+  const Eigen::Vector3d bc = cross3(b, c), ca = cross3(c, a), ab = cross3(a, b);
+  Eigen::Matrix3d inverse;
+  inverse.col(0) = bc;
+  inverse.col(1) = ca;
+  inverse.col(2) = ab;
+  return inverse / dot3(a, bc);
+}
+
+/// Vertices that lie as far from each other as can be: the next is always the farthest from those
+/// before, until none is as far as `spacing`.
+std::vector<std::uint32_t> spread_over(const Positions& positions,
+                                       std::span<const std::uint32_t> vertices, double spacing) {
+  std::vector<double> nearest(vertices.size(), std::numeric_limits<double>::max());
+  std::vector<std::uint32_t> chosen;
+  for (std::size_t next = 0; nearest[next] > spacing;) {
+    chosen.push_back(vertices[next]);
+    const Eigen::Vector3d here = row3(positions, vertices[next]);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      nearest[i] = std::min(nearest[i], length3(row3(positions, vertices[i]) - here));
+    }
+    next = static_cast<std::size_t>(std::max_element(nearest.begin(), nearest.end()) -
+                                    nearest.begin());
+  }
+  return chosen;
+}
+
+}  // namespace
+
+FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
+                       std::span<const std::uint32_t> used)
+    : neutral_(&neutral), some_skin_(some_of(skin, kMostSkin)), ones_(some_skin_.size(), 1.0) {
+  const auto chosen = spread_over(neutral, some_of(skin, kMostCandidates), kSpacing * extent);
+  places_.resize(chosen.size());
+  parallel_for_each(chosen.size(), [&](std::size_t p) {
+    const Eigen::Vector3d middle = row3(neutral, chosen[p]);
+    std::vector<std::uint32_t> patch;
+    for (const std::uint32_t v : skin) {
+      if (length3(row3(neutral, v) - middle) < kPatch * extent) patch.push_back(v);
+    }
+    places_[p] = place_at(neutral, some_of(patch, kMostPatch), kPatch * extent, chosen[p]);
+  });
+  for (const std::uint32_t v : used) {
+    std::vector<Share> shares;
+    Share nearest{0, std::numeric_limits<double>::max()};
+    double sum = 0;
+    for (std::uint32_t p = 0; p < places_.size(); ++p) {
+      const double distance = length3(row3(neutral, v) - places_[p].middle);
+      if (distance < nearest.weight) nearest = {p, distance};
+      const double weight = bump(distance / (kBetween * extent));
+      if (weight > 0) shares.push_back({p, weight});
+      sum += weight;
+    }
+    if (shares.empty()) shares.push_back({nearest.place, sum = 1});
+    for (Share& share : shares) share.weight /= sum;
+    shares_.add_group(shares);
+  }
+}
+
+FrameField::Place FrameField::place_at(const Positions& neutral,
+                                       std::span<const std::uint32_t> patch, double reach,
+                                       std::uint32_t vertex) {
+  Place place{row3(neutral, vertex), vertex, {}, {}};
+  std::vector<double> weights;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double sum = 0;
+  for (const std::uint32_t v : patch) {
+    const Eigen::Vector3d from = row3(neutral, v) - place.middle;
+    weights.push_back(bump(length3(from) / reach));
+    mean += weights.back() * from;
+    sum += weights.back();
+  }
+  mean /= sum;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const Eigen::Vector3d from = row3(neutral, patch[i]) - place.middle - mean;
+    for (Index r = 0; r < 3; ++r) {
+      for (Index c = 0; c < 3; ++c) spread(r, c) += weights[i] * from(r) * from(c);
+    }
+  }
+  const double whole = kWhole * (spread(0, 0) + spread(1, 1) + spread(2, 2));
+  if (!(whole > 0)) {
+    place.rest = Eigen::Matrix3d::Identity();
+    return place;
+  }
+  for (Index i = 0; i < 3; ++i) spread(i, i) += whole;
+  const Eigen::Matrix3d inverse = inverse3(spread);
+  place.rest = whole * inverse;
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const Eigen::Vector3d from = row3(neutral, patch[i]) - place.middle - mean;
+    place.samples.push_back({patch[i], weights[i] * apply3(inverse, from)});
+  }
+  return place;
+}
+
+FrameField::Frames FrameField::frames(const Positions& face) const {
+  Frames frames{fit_rigid_motion(*neutral_, face, some_skin_, ones_), {}};
+  frames.of_place.resize(places_.size());
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    const Place& place = places_[p];
+    Eigen::Matrix3d& map = frames.of_place[p];
+    for (Index c = 0; c < 3; ++c) map.col(c) = frames.whole.turn(place.rest.col(c));
+    // From one vertex on, so that where the face stands makes no difference to rounding.
+    const Eigen::Vector3d origin = row3(face, place.vertex);
+    for (const Sample& sample : place.samples) {
+      const Eigen::Vector3d from = row3(face, sample.vertex) - origin;
+      for (Index r = 0; r < 3; ++r) {
+        for (Index c = 0; c < 3; ++c) map(r, c) += from(r) * sample.weight(c);
+      }
+    }
+  }
+  return frames;
+}
+
+Eigen::Matrix3d FrameField::at(std::size_t i, const Frames& frames) const {
+  Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
+  for (const Share& share : shares_.of(i)) map += share.weight * frames.of_place[share.place];
+  return map;
+}
+
+}  // namespace crowdface

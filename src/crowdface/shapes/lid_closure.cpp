@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/lid_closure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "crowdface/core/fixed_order.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+// Lengths are shares of the eyeball's radius, some 12 mm.
+constexpr double kWholeShare = 1.8, kNoShare = 3;   // from the eyeball's centre
+constexpr double kWholeHold = 0.27, kNoHold = 0.6;  // off the eyeball's surface
+/// Cosine of the angle to the axis at which holding off begins, and over which it grows.
+constexpr double kHoldFrom = -0.25, kHoldOver = 0.25;
+constexpr std::size_t kPlaces = 32;  // along the opening
+constexpr double kProfile = 0.35;    // of a place, to either side
+constexpr double kBlur = .12;        // over which places are evened out
+constexpr double kLeastClosed = 0.05;
+/// What is left of an opening that counts as closed.
+constexpr double kLeft = 0.4;
+constexpr double kMargin = 0.004;  // kept free where template and face are
+constexpr int kSteps = 8;
+
+/// From 1 up to `whole` to 0 from `none` on, smoothly.
+double fading(double at, double whole, double none) {
+  const double t = std::clamp((none - at) / (none - whole), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// 1 for skin that belongs to the upper lid, −1 for the lower one's, by the nearest of the rim.
+std::vector<double> sides(const TemplateEye& eye, const Positions& neutral) {
+  std::vector<double> side(static_cast<std::size_t>(neutral.rows()), 0.0);
+  for (const std::uint32_t v : eye.skin) {
+    double nearest = std::numeric_limits<double>::max();
+    for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
+      const std::uint32_t rim = eye.lids.vertices[eye.lids.rim[r]];
+      const double distance = length3(row3(neutral, v) - row3(neutral, rim));
+      if (distance >= nearest) continue;
+      nearest = distance;
+      side[v] = eye.lids.upper[r] ? 1 : -1;
+    }
+  }
+  return side;
+}
+
+/// Where the lid's rim is at a place along the opening.
+Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
+                       const Eigen::Vector3d& along) {
+  double nearest = std::numeric_limits<double>::max();
+  Eigen::Vector3d found = eye.ball.centre();
+  for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
+    if (eye.lids.upper[r] != upper) continue;
+    const Eigen::Vector3d point = row3(shape, eye.lids.vertices[eye.lids.rim[r]]);
+    const double distance = std::abs(dot3(point, along) - at);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    found = point;
+  }
+  return found;
+}
+
+std::uint32_t row_of(const Displacements& shape, std::uint32_t vertex) {
+  const auto at = std::lower_bound(shape.vertices.begin(), shape.vertices.end(), vertex);
+  if (at == shape.vertices.end() || *at != vertex) return kNoIndex;
+  return static_cast<std::uint32_t>(at - shape.vertices.begin());
+}
+
+}  // namespace
+
+FaceEye::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
+  const BallMap::Gap found = ball->gap_at(motion.undo(point) - ball->centre());
+  return {motion.scale * found.gap, motion.turn(found.normal) / motion.scale};
+}
+
+LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
+                       const Displacements& shape, const HeadAxes& axes)
+    : axes_(axes), radius_(eye.ball.radius()) {
+  if (eye.lids.rim.empty()) return;
+  add_places(eye, adjacency, neutral, shape, axes);
+  const FaceEye at_rest{&eye.ball, {}};
+  const Eigen::Vector3d along = axes.side();
+  std::vector<double> middles;
+  for (const Place& place : places_) middles.push_back(place.along);
+  for (const std::uint32_t v : eye.skin) {
+    const std::uint32_t row = row_of(shape, v);
+    if (row == kNoIndex) continue;
+    const Eigen::Vector3d before = row3(neutral, v), after = before + row3(shape.moves, row);
+    const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
+    const Eigen::Vector3d from = before - eye.ball.centre();
+    const double cosine = dot3(from, axes.front) / length3(from);
+    Lid lid{row, v, 0, 0, gap_after, gap_after - gap_before, {}};
+    lid.hold = fading(std::min(std::abs(gap_before), std::abs(gap_after)), kWholeHold * radius_,
+                      kNoHold * radius_) *
+               std::clamp((cosine - kHoldFrom) / kHoldOver, 0.0, 1.0);
+    if (!places_.empty())
+      lid.share = fading(length3(from), kWholeShare * radius_, kNoShare * radius_);
+    if (lid.share == 0 && lid.hold == 0) continue;
+    double sum = 0;
+    for (const double middle : middles) {
+      const double x = (dot3(after, along) - middle) / (kBlur * radius_);
+      lid.places.push_back(1 / ((x * x + 1) * (x * x + 1)));
+      sum += lid.places.back();
+    }
+    for (double& weight : lid.places) weight *= lid.share / sum;
+    lids_.push_back(std::move(lid));
+  }
+}
+
+void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
+                            const Positions& neutral, const Displacements& shape,
+                            const HeadAxes& axes) {
+  Positions closed = neutral;
+  shape.add_to(closed);
+  const Eigen::Vector3d along = axes.side();
+  const std::vector<double> side = sides(eye, neutral);
+  double low = std::numeric_limits<double>::max(), high = -low;
+  for (const std::uint32_t r : eye.lids.rim) {
+    const double at = dot3(row3(neutral, eye.lids.vertices[r]), along);
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kPlaces;
+    const Eigen::Vector3d middle =
+        (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
+    ContactPlace cut{middle + (at - dot3(middle, along)) * along, axes.up, along, {}, {}};
+    cut_profiles(adjacency, closed, eye.skin, side, kProfile * radius_, cut);
+    if (cut.low.empty() || cut.high.empty()) continue;
+    const double before = cut.gap(neutral), after = cut.gap(closed);
+    if (before - after < kLeastClosed * radius_ || after > kLeft * before) continue;
+    Place place{{}, {}, at, {}, before - after};
+    const auto add = [&](const std::vector<EdgePoint>& points, std::vector<Point>& to) {
+      for (const EdgePoint& point : points) {
+        to.push_back({point, row_of(shape, point.a), row_of(shape, point.b)});
+      }
+    };
+    add(cut.low, place.low);
+    add(cut.high, place.high);
+    places_.push_back(std::move(place));
+  }
+  const std::vector<Gap> closed_gaps = gaps({along, axes.up}, neutral, shape.moves);
+  for (std::size_t p = 0; p < places_.size(); ++p) places_[p].gap = closed_gaps[p];
+}
+
+std::vector<std::uint32_t> LidClosure::rows() const {
+  std::vector<std::uint32_t> rows;
+  for (const Lid& lid : lids_) rows.push_back(lid.row);
+  return rows;
+}
+
+LidClosure::Rim LidClosure::rim_point(const std::vector<Point>& points, double sign,
+                                      const Axes& axes, const Positions& face,
+                                      const Positions& moves) {
+  Rim rim{0, -std::numeric_limits<double>::max()};
+  for (const Point& point : points) {
+    Eigen::Vector3d at =
+        (1 - point.on.share) * row3(face, point.on.a) + point.on.share * row3(face, point.on.b);
+    if (point.row_a != kNoIndex) at += (1 - point.on.share) * row3(moves, point.row_a);
+    if (point.row_b != kNoIndex) at += point.on.share * row3(moves, point.row_b);
+    const double height = sign * dot3(at, axes.up);
+    if (height > rim.height) rim = {dot3(at, axes.along), height};
+  }
+  return {rim.along, sign * rim.height};
+}
+
+std::vector<LidClosure::Gap> LidClosure::gaps(const Axes& axes, const Positions& face,
+                                              const Positions& moves) const {
+  std::vector<Rim> low;
+  for (const Place& place : places_) low.push_back(rim_point(place.low, 1, axes, face, moves));
+  std::vector<Rim> sorted = low;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Rim& a, const Rim& b) { return a.along < b.along; });
+  std::vector<Gap> gaps;
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    const Rim high = rim_point(places_[p].high, -1, axes, face, moves);
+    const auto next = std::lower_bound(sorted.begin(), sorted.end(), high.along,
+                                       [](const Rim& rim, double at) { return rim.along < at; });
+    double below = next == sorted.end() ? sorted.back().height : next->height;
+    if (next != sorted.begin() && next != sorted.end()) {
+      const Rim& before = *std::prev(next);
+      const double t = (high.along - before.along) / (next->along - before.along);
+      below = (1 - t) * before.height + t * next->height;
+    }
+    gaps.push_back({high.height - low[p].height, high.height - below});
+  }
+  return gaps;
+}
+
+void LidClosure::close(const Eigen::Vector3d& up, const Positions& carried,
+                       std::span<const double> gains, Positions& moves) const {
+  for (const Lid& lid : lids_) {
+    const Eigen::Vector3d move = row3(carried, lid.row);
+    const double gain = fixed_dot(lid.places, gains);
+    moves.row(lid.row) = (move + gain * dot3(move, up) * up).transpose();
+  }
+}
+
+void LidClosure::hold_off(const Positions& face, const FaceEye& eye,
+                          std::span<const double> rest_gaps, double scale, Positions& moves) const {
+  for (std::size_t i = 0; i < lids_.size(); ++i) {
+    const Lid& lid = lids_[i];
+    if (lid.hold == 0) continue;
+    const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
+    const double least = std::min({rest_gaps[i], scale * lid.least, kMargin * scale * radius_});
+    const double wanted = std::max(rest_gaps[i] + scale * lid.gap_change, least);
+    moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
+  }
+}
+
+void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
+                     Positions& moves) const {
+  const Axes axes{whole.turn(axes_.side()) / whole.scale, whole.turn(axes_.up) / whole.scale};
+  const Positions carried = moves;
+  std::vector<double> rest_gaps;
+  for (const Lid& lid : lids_) rest_gaps.push_back(eye.gap_at(row3(face, lid.vertex)).gap);
+  std::vector<double> gains(places_.size(), 0.0);
+  for (int step = 0;; ++step) {
+    close(axes.up, carried, gains, moves);
+    hold_off(face, eye, rest_gaps, whole.scale, moves);
+    if (step == kSteps || places_.empty()) return;
+    const std::vector<Gap> now = gaps(axes, face, moves);
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+      const Gap& wanted = places_[p].gap;
+      const double missing = std::max(now[p].paired - whole.scale * wanted.paired,
+                                      now[p].plumb - whole.scale * std::max(wanted.plumb, 0.0));
+      gains[p] += missing / (whole.scale * places_[p].closed);
+    }
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/parts/ball_map.h"
+#include "crowdface/parts/contact_place.h"
+#include "crowdface/parts/eye_socket.h"
+#include "crowdface/parts/rigid_motion.h"
+#include "crowdface/shapes/shape_set.h"
+
+namespace crowdface {
+
+/// An eye of the template.
+struct TemplateEye {
+  BallMap ball;
+  Lids lids;
+  std::vector<std::uint32_t> skin;  ///< around the eye, ascending
+};
+
+/// Where an eyeball of a face is: a map of one, and the motion that carries it there.
+struct FaceEye {
+  const BallMap* ball;
+  RigidMotion motion;
+
+  struct Gap {
+    double gap;
+    Eigen::Vector3d normal;  ///< outward, unit
+  };
+  Gap gap_at(const Eigen::Vector3d& point) const;
+};
+
+/// How the lids of one eye move in a shape, so that a blink closes on eyes of any size. Carried by frames
+/// alone, lids meet or miss each other by millimetres, because an opening is no piece of skin that
+/// could be measured. Where the shape closes the lids on the template, what they move up or down is
+/// made so much more or less that they are as near to each other on the face; and lids keep off the
+/// eyeball, as the template's do.
+class LidClosure {
+ public:
+  /// \param shape  some of its rows are skin around the eye
+  LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
+             const Displacements& shape, const HeadAxes& axes);
+
+  /// Whether the shape moves this eye's lids.
+  bool empty() const { return lids_.empty(); }
+  /// The rows of the shape that `fit` may change.
+  std::vector<std::uint32_t> rows() const;
+
+  /// \param face   #V by 3, at rest
+  /// \param whole  from the template to the face
+  /// \param moves  as the shape's, carried to the face; made to fit
+  void fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
+           Positions& moves) const;
+
+ private:
+  /// A point of a lid's profile; rows are of the shape, or kNoIndex for what does not move.
+  struct Point {
+    EdgePoint on;
+    std::uint32_t row_a, row_b;
+  };
+  /// Between the rims at a place; negative where the upper lid reaches below the lower one.
+  struct Gap {
+    double paired;  ///< of the points that lie above each other on the template
+    double plumb;   ///< straight down from the upper one, whatever lies there
+  };
+  struct Place {
+    std::vector<Point> low, high;
+    double along;   ///< the opening
+    Gap gap;        ///< in the template's shape
+    double closed;  ///< by how much it is less than at rest
+  };
+  /// Of a face: along the opening, and from the lower lid to the upper one; unit.
+  struct Axes {
+    Eigen::Vector3d along, up;
+  };
+  /// A point of a rim in the plane of those.
+  struct Rim {
+    double along, height;
+  };
+  struct Lid {
+    std::uint32_t row, vertex;
+    double share;                ///< of what closes the lids: 1 around the eye, less farther off
+    double hold;                 ///< of what holds it off the eyeball: 1 near it
+    double least, gap_change;    ///< of its gap on the template
+    std::vector<double> places;  ///< how much it hears of each, of sum one
+  };
+
+  void add_places(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
+                  const Displacements& shape, const HeadAxes& axes);
+  void close(const Eigen::Vector3d& up, const Positions& carried, std::span<const double> gains,
+             Positions& moves) const;
+  void hold_off(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
+                double scale, Positions& moves) const;
+  static Rim rim_point(const std::vector<Point>& points, double sign, const Axes& axes,
+                       const Positions& face, const Positions& moves);
+  std::vector<Gap> gaps(const Axes& axes, const Positions& face, const Positions& moves) const;
+
+  HeadAxes axes_;
+  double radius_ = 0;
+  std::vector<Place> places_;
+  std::vector<Lid> lids_;
+};
+
+}  // namespace crowdface
