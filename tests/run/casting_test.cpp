@@ -510,6 +510,9 @@ TEST(Casting, WhatCannotBeDoneIsToldAndLeavesNothing) {
   run(folder, overrides);
   EXPECT_EQ(plan_lines(folder.out()).size(), 60U);
   EXPECT_GE(closest_pair(Measured(folder)), *parse_double(mm) - kTolerance);
+  // The last faces were hard to find, and that was said while they were looked for.
+  const std::string log = testing::read_text(folder.out() / "crowdface.log");
+  EXPECT_LT(log.find("faces are getting scarce: number "), log.find("casting: 60"));
 }
 
 TEST(Casting, ExtrapolationThatGoesTooFarIsThrownAway) {

@@ -19,7 +19,7 @@ constexpr std::uint64_t kBatch = 64;
 /// Faces 1 … count, each against all before it.
 void cast_first_fit(const Casting& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const Kinship& kinship, CrowdSoFar& crowd,
-                    const std::function<void()>& joined, CrowdCast& result) {
+                    const FaceJoined& joined, CrowdCast& result) {
   for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
     throw_if_interrupted();
     const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
@@ -43,15 +43,14 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
         return;
       }
       crowd.add(std::move(found->face), std::move(found->point));
-      if (joined) joined();
+      if (joined) joined(search.rejections().total());
     }
   }
 }
 
 }  // namespace
 
-CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge,
-                     const std::function<void()>& joined) {
+CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJoined& joined) {
   CrowdCast result;
   CrowdSoFar crowd(judge.space().dimensions());
   for (const HandRecipe& hand : casting.recipes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,5 +33,9 @@ struct CrowdCast {
   Rejections rejections;
   std::optional<Shortfall> shortfall;
 };
+
+/// Told after each sampled face; nothing if empty.
+/// \param thrown  candidates for it that were thrown away: many where the crowd is nearly full.
+using FaceJoined = std::function<void(std::uint64_t thrown)>;
 
 }  // namespace crowdface

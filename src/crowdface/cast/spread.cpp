@@ -105,7 +105,7 @@ void FarthestPoints::pick(Index candidate) {
 }
 
 void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
-                 const Kinship& kinship, CrowdSoFar& crowd, const std::function<void()>& joined,
+                 const Kinship& kinship, CrowdSoFar& crowd, const FaceJoined& joined,
                  CrowdCast& result) {
   CandidatePool pool =
       draw_pool(casting, judge, kinds, casting.count, casting.diversity.pool_for_each());
@@ -136,7 +136,7 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vect
     face.id = face_id(casting.name, index);
     face.index = index;
     crowd.add(std::move(face), pool.points[at]);
-    if (joined) joined();
+    if (joined) joined(0);
   }
 }
 

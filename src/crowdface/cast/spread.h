@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -56,7 +55,7 @@ class FarthestPoints {
 
 /// Faces 1 … count as the most spread set out of a pool.
 void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
-                 const Kinship& kinship, CrowdSoFar& crowd, const std::function<void()>& joined,
+                 const Kinship& kinship, CrowdSoFar& crowd, const FaceJoined& joined,
                  CrowdCast& result);
 
 }  // namespace crowdface

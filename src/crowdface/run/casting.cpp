@@ -8,6 +8,7 @@
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 
@@ -117,6 +118,15 @@ std::string asked_of(const Config& config, Reason reason) {
       break;
   }
   return concat("believability.", name_of(reason));
+}
+
+/// Says early that a crowd may not get full: the last faces of one that will not take most of the time.
+/// \param thrown  candidates that were thrown away for the face that is number `cast`.
+bool tell_if_scarce(const Casting& casting, std::uint64_t cast, std::uint64_t thrown) {
+  if (thrown < static_cast<std::uint64_t>(casting.diversity.max_attempts) / 5) return false;
+  log_info(concat("faces are getting scarce: number ", cast, " of ", casting.count, " took ",
+                  thrown, " candidates; the crowd may need a smaller diversity.min_distance"));
+  return true;
 }
 
 /// What a user can change, most promising first.
@@ -263,7 +273,13 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   crowd.shortfall = hopeless_spread(casting, judge);
   if (!crowd.shortfall) {
     Progress progress("casting", casting.count);
-    crowd = cast_crowd(casting, judge, [&] { progress.step(); });
+    std::uint64_t done = 0;
+    bool told = false;
+    crowd = cast_crowd(casting, judge, [&](std::uint64_t thrown) {
+      progress.step();
+      ++done;
+      told = told || tell_if_scarce(casting, done, thrown);
+    });
   }
   if (crowd.shortfall) {
     constexpr std::size_t kMostTrials = 20;
