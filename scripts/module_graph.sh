@@ -37,6 +37,7 @@ shapes 4
 blend 4
 wrap 4
 cast 5
+texture 5
 config 6
 crowd 6
 heads 7

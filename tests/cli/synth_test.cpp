@@ -72,9 +72,11 @@ TEST(Synth, PaintsSkinsThatSheetsShow) {
     return read_text(folder / concat(name, "/renders/mob_0001.png"));
   };
   EXPECT_NE(sheet("painted", "true"), sheet("plain", "false"));
-  EXPECT_TRUE(fs::exists(folder / "painted/meshes/synth_01_albedo.png") ||
-              fs::exists(folder / "painted/meshes/synth_02_albedo.png"))
-      << "the mesh brings its texture along";
+  EXPECT_TRUE(fs::exists(folder / "painted/meshes/blended/mob_0001.png"));
+  EXPECT_THAT(read_text(folder / "painted/meshes/mob_0001.mtl"),
+              HasSubstr("map_Kd blended/mob_0001.png"));
+  EXPECT_THAT(read_text(folder / "painted/meshes/mob_0001.obj"),
+              HasSubstr("mtllib mob_0001.mtl\n"));
 
   for (const char* size : {"63", "9000", "big"}) {
     crowdface(64, {"synth", "-o", heads, "--textures", size}, {"--textures"});

@@ -47,12 +47,16 @@ Read read(const TemporaryFolder& folder, const std::string& materials) {
   return read;
 }
 
+HeadTextures load(const Read& read, int most_px) {
+  return load_coats(find_worn_textures(read.faces, read.files), most_px);
+}
+
 TEST(HeadTextures, ComeFromTheMaterialOfEachFaceInLinearLight) {
   const TemporaryFolder folder;
   write_png(folder, "tex/left.png", 2, {255, 0, 188});
   const Read head =
       read(folder, "newmtl skin left\nmap_Kd -clamp on tex\\left.png\nnewmtl right\n");
-  const HeadTextures textures = load_textures(head.faces, head.files, 1024);
+  const HeadTextures textures = load(head, 1024);
   ASSERT_EQ(textures.coats.size(), 1U);
   const TextureCoat& coat = textures.coats[0];
   EXPECT_EQ(coat.of_face, (std::vector<std::uint32_t>{0, TextureCoat::kNone}));
@@ -70,30 +74,29 @@ TEST(HeadTextures, TilesAreToldByTheCoordinates) {
   const Read head = read(folder,
                          "newmtl skin left\nmap_Kd skin.<UDIM>.png\n"
                          "newmtl right\nmap_Kd skin.<UDIM>.png\n");
-  const HeadTextures textures = load_textures(head.faces, head.files, 2);
+  const HeadTextures textures = load(head, 2);
   EXPECT_EQ(textures.coats[0].of_face, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_FLOAT_EQ(colour_at(*textures.coats[0].textures[1], {1.5F, 0.5F})[1], 1);
   EXPECT_EQ(textures.coats[0].textures[1]->width, 2) << "made smaller";
 }
 
-TEST(HeadTextures, AMissingOneIsAWarningAndNoneAtAllIsRefused) {
+TEST(HeadTextures, AMissingOneIsAWarning) {
   const TemporaryFolder folder;
   write_png(folder, "left.png", 1, {9, 9, 9});
   const Read one = read(folder, "newmtl skin left\nmap_Kd left.png\nnewmtl right\nmap_Kd no.png\n");
-  const HeadTextures textures = load_textures(one.faces, one.files, 8);
+  const HeadTextures textures = load(one, 8);
   EXPECT_EQ(textures.coats[0].of_face[1], TextureCoat::kNone);
   ASSERT_FALSE(textures.warnings.empty());
   EXPECT_THAT(textures.warnings.back(), HasSubstr("no.png"));
   const Read none = read(folder, "newmtl skin left\nnewmtl right\n");
-  expect_error(ExitCode::kMissingInput, {"head.obj", "output.contact_sheet.texture", "map_Kd"},
-               [&] { load_textures(none.faces, none.files, 8); });
+  EXPECT_FALSE(find_worn_textures(none.faces, none.files).any());
 }
 
 TEST(HeadTextures, ADamagedOneIsRefusedByName) {
   const TemporaryFolder folder;
   folder.write("left.png", "no picture");
   const Read head = read(folder, "newmtl skin left\nmap_Kd left.png\n");
-  expect_error(ExitCode::kBadData, {"left.png"}, [&] { load_textures(head.faces, head.files, 8); });
+  expect_error(ExitCode::kBadData, {"left.png"}, [&] { load(head, 8); });
 }
 
 /// Two heads, each with its own material file.
@@ -104,7 +107,7 @@ Digest digest_of(const TemporaryFolder& folder, const std::string& first,
   folder.write("other.mtl", second);
   both.files.push_back(
       read_obj(folder.write("other.obj", text.replace(text.find("head.mtl"), 8, "other.mtl"))));
-  return load_textures(both.faces, both.files, 8).digest;
+  return load(both, 8).digest;
 }
 
 // It held the files' names and contents in the order in which they were met, and nothing else.
@@ -132,7 +135,7 @@ TEST(HeadTextures, ANameTooLongForTheSystemIsThatOfNoFile) {
   write_png(folder, "left.png", 1, {9, 9, 9});
   const Read head = read(folder, "newmtl skin left\nmap_Kd left.png\nnewmtl right\nmap_Kd " +
                                      std::string(300, 'x') + ".png\n");
-  const HeadTextures textures = load_textures(head.faces, head.files, 8);
+  const HeadTextures textures = load(head, 8);
   EXPECT_EQ(textures.coats[0].of_face, (std::vector<std::uint32_t>{0, TextureCoat::kNone}));
   EXPECT_FALSE(textures.warnings.empty());
 }
@@ -142,7 +145,7 @@ TEST(HeadTextures, WarningsOfASharedMaterialFileAreToldOnce) {
   write_png(folder, "left.png", 1, {9, 9, 9});
   Read heads = read(folder, "newmtl skin left\nmap_Kd left.png\nmap_Ks gone.png\n");
   heads.files.push_back(read_obj(folder.write("second.obj", kHead)));
-  const HeadTextures textures = load_textures(heads.faces, heads.files, 8);
+  const HeadTextures textures = load(heads, 8);
   EXPECT_EQ(textures.coats[0].of_face, textures.coats[1].of_face);
   EXPECT_EQ(textures.warnings.size(), 1U);
 }

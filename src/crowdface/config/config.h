@@ -42,6 +42,21 @@ enum class Gallery {
   kNone,
 };
 
+/// What colours faces have.
+enum class TextureBlend {
+  kAuto,    ///< each its own, blended from the heads', where these have different ones
+  kTarget,  ///< those of their target
+  kNone,    ///< none that pictures show; files are as with kTarget
+};
+/// A format that faces' own textures are written in.
+enum class TextureFormat { kPng, kJpeg };
+/// Whether pictures show textures.
+enum class SheetTexture {
+  kAuto,  ///< where there are any
+  kYes,
+  kNo,
+};
+
 /// How the levels of smoothing are represented.
 enum class Levels {
   kBasis,  ///< fields fitted to each head, as many as a tolerance needs
@@ -117,6 +132,12 @@ struct Config {
     std::vector<std::string> names;            ///< #files
   } shapes;
 
+  struct Textures {
+    TextureBlend blend = TextureBlend::kAuto;
+    std::optional<std::uint64_t> size;  ///< texels of the longer side; none: the largest head's
+    std::vector<TextureFormat> formats = {TextureFormat::kPng};
+  } textures;
+
   struct Plane {
     Layout layout = Layout::kCircle;
     std::map<Eigen::Index, PlanePoint> anchors;  ///< by head; override the layout, all if kManual
@@ -157,7 +178,7 @@ struct Config {
     Comparison compare;
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< png is always among them
     int shapes = 0;  ///< faces that are shown with each of their shapes, on pages of their own
-    bool texture = false;  ///< surfaces in the colours of the heads' own textures
+    SheetTexture texture = SheetTexture::kAuto;
   };
   struct Output {
     std::filesystem::path directory;

@@ -59,6 +59,14 @@ const Keys<Config::Blending>& blending_keys() {
   return keys;
 }
 
+const Keys<Config::Textures>& textures_keys() {
+  using Textures = Config::Textures;
+  static const Keys<Textures> keys = {
+      word_key("blend", &Textures::blend), key("size", &Textures::size, whole(16, 16384)),
+      key("formats", &Textures::formats, words<TextureFormat>("a list of formats, [png, jpeg]"))};
+  return keys;
+}
+
 using Plane = Config::Plane;
 
 void read_anchors(const YamlNode& node, Plane& plane, ConfigDraft& draft) {
@@ -122,6 +130,7 @@ const Keys<Config>& root_keys() {
       section_key("blending", &Config::blending, blending_keys()),
       {"parts", read_parts, write_parts},
       {"shapes", read_shapes, write_shapes},
+      section_key("textures", &Config::textures, textures_keys()),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
       section_key("sampling", &Config::sampling, sampling_keys()),
       section_key("distance", &Config::distance, distance_keys()),

@@ -14,7 +14,8 @@ inline constexpr int kPartsVersion =
 inline constexpr int kPrepareVersion = 4;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
 inline constexpr int kFaceFilesVersion = 5;
-inline constexpr int kShapesVersion = 1;  ///< shapes carried to a face of the same positions
-inline constexpr int kSheetVersion = 6;   ///< contact sheets and the gallery, of the same pictures
+inline constexpr int kShapesVersion = 1;   ///< shapes carried to a face of the same positions
+inline constexpr int kTextureVersion = 1;  ///< textures of faces' own
+inline constexpr int kSheetVersion = 6;    ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

@@ -35,6 +35,7 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
   const fs::path data = directory.gallery() / "data";
   return {directory.meshes(),
           directory.topology(),
+          directory.blended(),
           directory.renders(),
           directory.head_render("").parent_path(),
           directory.founder_render("").parent_path(),
@@ -69,6 +70,7 @@ void remove_crowd(const CrowdDirectory& directory) {
     }
     for (const std::string& id : ids) {
       for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
+      remove_file(directory.meshes() / (id + ".mtl"));
       remove_file(directory.render(id));
     }
   }
@@ -78,6 +80,8 @@ void remove_crowd(const CrowdDirectory& directory) {
   for (const fs::path& sheet : crowd_sheets(directory)) remove_file(sheet);
   remove_files(directory.head_render("").parent_path(), has_ending(".png"));
   remove_files(directory.founder_render("").parent_path(), has_ending(".png"));
+  remove_files(directory.blended(), has_ending(".png"));
+  remove_files(directory.blended(), has_ending(".jpg"));
   for (const fs::path& folder :
        {directory.gallery_face("").parent_path(), directory.gallery_head("").parent_path(),
         directory.gallery() / "data"}) {

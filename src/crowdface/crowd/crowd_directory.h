@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crowdface/crowd/shard.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
@@ -52,6 +53,8 @@ struct CrowdDirectory {
                              const std::string& shape = {}) const;
   /// Arrays that say how positions alone (MeshFormat::kPoints) form faces.
   std::filesystem::path topology() const { return meshes() / "topology"; }
+  /// Textures of faces' own, which their material files name.
+  std::filesystem::path blended() const { return meshes() / kBlendedFolder; }
   std::filesystem::path render(const std::string& id) const { return renders() / (id + ".png"); }
   std::filesystem::path head_render(const std::string& name) const {
     return renders() / "heads" / (name + ".png");

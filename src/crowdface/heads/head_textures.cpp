@@ -6,44 +6,24 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <system_error>
 #include <utility>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/interrupt.h"
-#include "crowdface/core/text.h"
-#include "crowdface/io/image.h"
-#include "crowdface/io/material_files.h"
-#include "crowdface/io/tile_files.h"
+#include "crowdface/heads/light_of_image.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
 
-Texture to_texture(const Image& image, int most_px) {
-  std::vector<float> linear(65536);
-  for (std::size_t i = 0; i < linear.size(); ++i) {
-    const float value = static_cast<float>(i) / 65535.0F;
-    linear[i] = from_srgb(Eigen::Array3f::Constant(value))[0];
-  }
-  const bool grey = image.channels < 3;
-  return shrunk_texture(image.width, image.height, most_px, [&](int y, std::span<Light> texels) {
-    for (int x = 0; x < image.width; ++x) {
-      Light& light = texels[static_cast<std::size_t>(x)];
-      for (int c = 0; c < 3; ++c) {
-        const float value = image.at(x, y, grey ? 0 : c);
-        light[c] = image.of_floats()
-                       ? std::max(value, 0.0F)
-                       : linear[static_cast<std::size_t>(std::lround(65535.0F * value))];
-      }
-    }
-  });
-}
+/// A texture and the digest of its file.
+struct TextureFile {
+  std::shared_ptr<const Texture> texture;
+  Digest content;
+};
 
 /// The texture, and its share of all images' memory for as long as it lives.
-std::shared_ptr<const Texture> read_texture(const fs::path& path, int most_px) {
+TextureFile read_texture(const fs::path& path, int most_px) {
   struct Kept {
     ImageMemory memory;
     Texture texture;
@@ -52,140 +32,84 @@ std::shared_ptr<const Texture> read_texture(const fs::path& path, int most_px) {
   const auto texels = static_cast<std::uint64_t>(std::min(image.width, most_px)) *
                       static_cast<std::uint64_t>(std::min(image.height, most_px));
   ImageMemory memory = take_image_memory(path, texels * sizeof(Light));
-  const auto kept =
-      std::make_shared<const Kept>(Kept{std::move(memory), to_texture(image, most_px)});
-  return {kept, &kept->texture};
+  const LightRows light = light_of(image);
+  const auto kept = std::make_shared<const Kept>(
+      Kept{std::move(memory), shrunk_texture(light.width, light.height, most_px, light.row)});
+  return {{kept, &kept->texture}, hash_file(path).digest};
 }
 
-/// A texture and the digest of its file.
-struct TextureFile {
-  std::shared_ptr<const Texture> texture;  ///< nothing if there is no such file
-  Digest content;
-};
-
-/// Texture files, each read once however many heads name it.
-class TextureShelf {
- public:
-  explicit TextureShelf(int most_px) : most_px_(most_px) {}
-
-  const TextureFile& get(const fs::path& path) {
-    const auto known = files_.find(path);
-    if (known != files_.end()) return known->second;
-    throw_if_interrupted();
-    TextureFile file;
-    std::error_code ignored;  // a name longer than the system allows is that of no file
-    if (fs::is_regular_file(path, ignored)) {
-      file.texture = read_texture(path, most_px_);
-      file.content = hash_file(path).digest;
+Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb, int most_px) {
+  static const std::vector<float> light = [] {
+    std::vector<float> table;
+    for (int i = 0; i < 256; ++i) {
+      table.push_back(from_srgb(Eigen::Array3f::Constant(static_cast<float>(i) / 255.0F))[0]);
     }
-    return files_.emplace(path, std::move(file)).first->second;
-  }
-
- private:
-  int most_px_;
-  std::map<fs::path, TextureFile> files_;
-};
-
-/// The number of the UDIM tile that a face lies in, told by its middle, so that corners on a border
-/// do no harm. The first for a face without coordinates or outside all tiles.
-int tile_of(const FaceSet& faces, Index face) {
-  const Topology& topology = faces.topology;
-  Eigen::RowVector2d sum(0, 0);
-  double corners = 0;
-  const auto f = static_cast<std::size_t>(face);
-  for (auto c = topology.face_offsets[f]; c < topology.face_offsets[f + 1]; ++c) {
-    if (topology.corner_uvs[c] == kNoIndex) return kFirstTile;
-    sum += faces.uvs.row(topology.corner_uvs[c]);
-    corners += 1;
-  }
-  const Eigen::RowVector2d middle = sum / corners;
-  if (!(middle.minCoeff() >= 0 && middle.x() < 10 && middle.y() < 900)) return kFirstTile;
-  return tile_number(std::floor(middle.x()), std::floor(middle.y()));
-}
-
-std::vector<int> tiles_of(const FaceSet& faces) {
-  std::vector<int> tiles(static_cast<std::size_t>(faces.topology.face_count()), kFirstTile);
-  if (faces.topology.corner_uvs.empty()) return tiles;
-  for (std::size_t f = 0; f < tiles.size(); ++f) tiles[f] = tile_of(faces, static_cast<Index>(f));
-  return tiles;
-}
-
-/// What one head's faces wear.
-struct NamedCoat {
-  TextureCoat coat;
-  std::vector<Digest> contents;  ///< #textures
-  std::vector<fs::path> missing;
-};
-
-/// \param tiles  #faces.
-NamedCoat coat_of(const ColourTextures& named, const std::vector<int>& tiles,
-                  const FaceMaterials& materials, TextureShelf& shelf) {
-  NamedCoat result;
-  result.coat.of_face.assign(tiles.size(), TextureCoat::kNone);
-  std::map<fs::path, std::uint32_t> rows;
-  for (std::size_t f = 0; f < tiles.size(); ++f) {
-    throw_if_interrupted();
-    const auto found = named.of_material.find(materials.names[materials.of_face[f]]);
-    if (found == named.of_material.end()) continue;
-    const fs::path path = with_tile(found->second, tiles[f]);
-    const auto [row, is_new] = rows.emplace(path, TextureCoat::kNone);
-    if (is_new) {
-      const TextureFile& file = shelf.get(path);
-      if (file.texture) {
-        row->second = static_cast<std::uint32_t>(result.coat.textures.size());
-        result.coat.textures.push_back(file.texture);
-        result.contents.push_back(file.content);
-      } else {
-        result.missing.push_back(path);
-      }
+    return table;
+  }();
+  return shrunk_texture(width, height, most_px, [&](int y, std::span<Light> texels) {
+    const std::uint8_t* at =
+        srgb.data() + 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y);
+    for (Light& texel : texels) {
+      for (int c = 0; c < 3; ++c) texel[c] = light[*at++];
     }
-    result.coat.of_face[f] = row->second;
-  }
-  return result;
-}
-
-/// Which face wears what, whatever the files are called.
-void add_coat(const NamedCoat& named, Hasher& hasher) {
-  hasher.add(named.contents.size());
-  for (const Digest& content : named.contents) hasher.add(content);
-  hasher.add_array(std::span<const std::uint32_t>(named.coat.of_face));
+  });
 }
 
 }  // namespace
 
-HeadTextures load_textures(const FaceSet& faces, std::span<const ObjFile> files, int most_px) {
-  HeadTextures result;
-  Hasher hasher;
-  TextureShelf shelf(most_px);
-  // Heads of one folder mostly share their material files.
-  std::map<std::pair<fs::path, std::vector<std::string>>, ColourTextures> known;
-  bool any = false;
-  const std::vector<int> tiles = tiles_of(faces);
-  const bool has_uvs = !faces.topology.corner_uvs.empty();
-  for (const ObjFile& file : files) {
-    const auto [entry, is_new] =
-        known.try_emplace({file.path.parent_path(), file.material_libraries});
-    ColourTextures& named = entry->second;
-    if (is_new) {
-      named = find_colour_textures(file.path, file.material_libraries);
-      for (const std::string& text : named.warnings) result.warnings.push_back(text);
-      if (!has_uvs) named.of_material.clear();
-    }
-    NamedCoat wears =
-        coat_of(named, tiles, face_materials(file.materials, faces.topology.face_count()), shelf);
-    for (const fs::path& path : wears.missing) {
-      result.warnings.push_back(concat(file.path.string(), ": the texture ", quoted(path.string()),
-                                       " is missing; pictures show the surface without"));
-    }
-    any = any || !wears.coat.textures.empty();
-    add_coat(wears, hasher);
-    result.coats.push_back(std::move(wears.coat));
+int shown_texels(const Config::ContactSheet& sheet) {
+  constexpr int kLeast = 1024;
+  return std::max(kLeast, 2 * sheet.cell);
+}
+
+TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPicture>& pictures,
+                    int most_px) {
+  TextureCoat coat;
+  coat.of_face = layout.of_face;
+  for (const BlendedPicture& picture : pictures) {
+    coat.textures.push_back(std::make_shared<const Texture>(
+        texture_of(picture.width, picture.height, picture.srgb, most_px)));
   }
-  if (!any) {
-    throw MissingInput(concat(files.front().path.string(),
-                              ": output.contact_sheet.texture asks for textures, and no head's "
-                              "materials name one that is there (map_Kd in the file of mtllib, and "
-                              "texture coordinates)"));
+  return coat;
+}
+
+std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px) {
+  const auto h = static_cast<std::size_t>(head);
+  if (!textures.coats.empty()) return textures.coats[h];
+  if (!textures.blend()) return std::nullopt;
+  const TextureLayout& layout = textures.blended.layout;
+  TextureCoat coat;
+  std::vector<std::uint32_t> row(layout.pictures.size(), TextureCoat::kNone);
+  for (std::size_t p = 0; p < row.size(); ++p) {
+    const TextureMap* map = textures.blended.maps[p][h].get();
+    if (map == nullptr) continue;
+    row[p] = static_cast<std::uint32_t>(coat.textures.size());
+    coat.textures.push_back(std::make_shared<const Texture>(
+        texture_of(map->width, map->height, srgb8_of(*map), most_px)));
+  }
+  for (const std::uint32_t picture : layout.of_face) {
+    coat.of_face.push_back(picture == kNoIndex ? TextureCoat::kNone : row[picture]);
+  }
+  return coat;
+}
+
+HeadTextures load_coats(HeadsTextures found, int most_px) {
+  HeadTextures result;
+  result.warnings = std::move(found.warnings);
+  std::map<fs::path, TextureFile> shelf;  // each read once however many heads name it
+  Hasher hasher;
+  for (WornTextures& worn : found.heads) {
+    TextureCoat coat;
+    hasher.add(worn.files.size());
+    for (const WornTextures::File& file : worn.files) {
+      const auto [known, is_new] = shelf.try_emplace(file.path);
+      if (is_new) known->second = read_texture(file.path, most_px);
+      coat.textures.push_back(known->second.texture);
+      hasher.add(known->second.content);
+    }
+    coat.of_face = std::move(worn.of_face);
+    hasher.add_array(std::span<const std::uint32_t>(coat.of_face));
+    result.coats.push_back(std::move(coat));
   }
   result.digest = hasher.digest();
   return result;

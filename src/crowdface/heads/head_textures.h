@@ -1,29 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "crowdface/config/config.h"
 #include "crowdface/core/hash.h"
-#include "crowdface/io/obj_file.h"
-#include "crowdface/mesh/topology.h"
+#include "crowdface/heads/worn_textures.h"
 #include "crowdface/render/texture.h"
+#include "crowdface/texture/crowd_textures.h"
 
 namespace crowdface {
 
-/// The textures that the heads' own materials name (`map_Kd`).
-struct HeadTextures {
-  std::vector<TextureCoat> coats;  ///< #heads, or empty: surfaces have their own colours
-  Digest digest;  ///< of the files read, and of which face of which head wears which
-  std::vector<std::string> warnings;  ///< about files that are missing
+/// What a picture of the blended texture is called, beside the face's id.
+struct PictureName {
+  std::string part;  ///< the material that it is for, if there are several; else empty
+  int tile = 0;      ///< its UDIM number; 0: none
 };
 
-/// Reads them, each file once. PNG, TIFF and JPEG are taken for sRGB, floats for linear light.
-/// \param faces    the topology and coordinates that all heads share.
-/// \param files    #heads.
-/// \param most_px  larger textures are made smaller: more than this no picture shows.
-/// \throws MissingInput if no face of any head gets a texture; InvalidInput if a file is damaged.
-HeadTextures load_textures(const FaceSet& faces, std::span<const ObjFile> files, int most_px);
+/// The colour textures of the heads, as far as anything needs them.
+struct HeadTextures {
+  /// Each face gets a texture of its own, blended from these; no pictures: it does not.
+  CrowdTextures blended;
+  std::vector<PictureName> names;  ///< #pictures of the layout
+
+  std::vector<TextureCoat>
+      coats;      ///< #heads, for pictures; or empty: surfaces have their own colours
+  Digest digest;  ///< of the files read, and of which face of which head wears which
+  std::vector<std::string> warnings;  ///< about files that are missing
+
+  bool blend() const { return !names.empty(); }
+  bool any() const { return blend() || !coats.empty(); }
+};
+
+/// Pixels a side that textures keep in pictures, if they have them: more no sheet shows.
+int shown_texels(const Config::ContactSheet& sheet);
+
+/// Colours a surface with pictures of a layout, in linear light.
+/// \param most_px  larger ones are made smaller: more than this no picture shows.
+TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPicture>& pictures,
+                    int most_px);
+/// What a head wears itself; nothing if it has no texture.
+std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px);
+
+/// Textures to be shown as the heads have them, each file read once. PNG, TIFF and JPEG are taken for
+/// sRGB, floats for linear light.
+/// \param most_px  larger textures are made smaller.
+/// \throws InvalidInput if a file is damaged, naming it.
+HeadTextures load_coats(HeadsTextures found, int most_px);
+
+/// Textures to be blended, all brought to one layout, that of the first head that has any. Head by head the
+/// files of a picture are made one, of the size of the largest or of `size`.
+/// \param size     texels of the longer side; nothing: that of the largest, at most 4,096.
+/// \throws InvalidInput as above.
+HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& materials,
+                                   HeadsTextures found, std::optional<std::uint64_t> size);
 
 }  // namespace crowdface

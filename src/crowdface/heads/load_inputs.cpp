@@ -19,7 +19,6 @@ namespace crowdface {
 namespace {
 
 constexpr double kUvTolerance = 1e-4;
-constexpr int kLeastTexture = 1024;  // pixels a side that textures keep, if they have them
 
 bool is_missing(const std::filesystem::path& file) {
   std::error_code ignored;
@@ -158,10 +157,29 @@ void warn(Inputs& inputs, std::string text) {
 
 void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
-  if (!sheet || !sheet->texture) return;
+  const bool shown = sheet && sheet->texture != SheetTexture::kNo;
+  const bool blend =
+      config.textures.blend == TextureBlend::kAuto && (shown || !config.output.meshes.empty());
+  if (config.textures.blend == TextureBlend::kNone || !(shown || blend)) return;
   try {
-    inputs.textures =
-        load_textures(inputs.faces, inputs.files, std::max(kLeastTexture, 2 * sheet->cell));
+    HeadsTextures found = find_worn_textures(inputs.faces, inputs.files);
+    const bool asked_for = sheet && sheet->texture == SheetTexture::kYes;
+    if (asked_for && !found.any()) {
+      throw MissingInput(concat(
+          config.faces.files.front().string(),
+          ": output.contact_sheet.texture asks for textures, and no head's materials name one that "
+          "is there (map_Kd in the file of mtllib, and texture coordinates)"));
+    }
+    if (!asked_for) {
+      for (std::string& text : leave_out_unreadable(found)) warn(inputs, std::move(text));
+    }
+    if (!found.any()) return;
+    if (blend && found.differ()) {
+      inputs.textures = load_blended_textures(inputs.faces, inputs.materials, std::move(found),
+                                              config.textures.size);
+    } else if (shown) {
+      inputs.textures = load_coats(std::move(found), shown_texels(*sheet));
+    }
     for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
   } catch (const Error& error) {
     problems.add(error);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/encoded_file.h"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "crowdface/core/file.h"
 
@@ -22,6 +24,31 @@ void EncodedFile::add(std::string_view text) {
 char* EncodedFile::reserve(std::size_t capacity) {
   memory_.push_back(std::make_unique_for_overwrite<char[]>(capacity));
   return memory_.back().get();
+}
+
+bool EncodedFile::replace_line(std::string_view word, std::string_view line) {
+  const std::vector<std::string_view> old = std::move(pieces_);
+  pieces_.clear();
+  size_ = 0;
+  bool found = false;
+  for (const std::string_view piece : old) {
+    std::size_t kept = 0;
+    for (std::size_t at = piece.find(word); at != piece.npos; at = piece.find(word, at + 1)) {
+      const std::size_t before = piece.substr(0, at).find_last_not_of(" \t");
+      // Pieces begin at a line's end, but for the first.
+      const bool begins =
+          before == piece.npos ? piece.data() == old.front().data() : piece[before] == '\n';
+      const std::size_t after = at + word.size();
+      if (!begins || after >= piece.size() || (piece[after] != ' ' && piece[after] != '\t'))
+        continue;
+      refer_to(piece.substr(kept, at - kept));
+      if (!found) add(line);
+      found = true;
+      kept = std::min(piece.find_first_of("\r\n", after), piece.size());
+    }
+    refer_to(piece.substr(kept));
+  }
+  return found;
 }
 
 Digest EncodedFile::digest() const {

@@ -23,6 +23,10 @@ class EncodedFile {
   /// Takes `capacity` bytes of memory, not initialised, for pieces that refer_to is told of.
   char* reserve(std::size_t capacity);
 
+  /// Puts a line in the place of the first that begins with this word and a blank, and leaves out further
+  /// ones. \return whether there was any.
+  bool replace_line(std::string_view word, std::string_view line);
+
   std::uint64_t size() const { return size_; }
   /// hash_bytes of the whole.
   Digest digest() const;

@@ -84,6 +84,9 @@ Json material_json(const GlbMaterial& material) {
   for (const float part : material.colour) colour.push_back(tidy(static_cast<double>(part)));
   json["pbrMetallicRoughness"] = {
       {"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.6}};
+  if (material.image) {
+    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *material.image}};
+  }
   if (material.colour[3] < 1) json["alphaMode"] = "BLEND";
   json["doubleSided"] = true;  // heads are open at the neck
   return json;
@@ -198,6 +201,33 @@ void add_primitives(Json& scene, BufferLayout& buffer, const std::vector<Triangl
   if (!materials.empty()) scene["materials"] = std::move(materials);
 }
 
+/// Images come last in the buffer; how long they are, and where they lie, is filled in for each file.
+void add_images(Json& scene, const GlbOptions& options) {
+  if (options.images == 0) return;
+  scene["images"] = Json::array();
+  scene["textures"] = Json::array();
+  for (std::size_t i = 0; i < options.images; ++i) {
+    scene["images"].push_back(
+        {{"bufferView", scene["bufferViews"].size()}, {"mimeType", options.image_type}});
+    scene["textures"].push_back(Json::object({{"source", i}}));
+    scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 0}});
+  }
+}
+
+/// \param size  of the buffer without them. \return its size with them.
+std::size_t place_images(Json& scene, std::size_t size, std::span<const std::string_view> images) {
+  Json& views = scene["bufferViews"];
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    Json& view = views[views.size() - images.size() + i];
+    view["byteOffset"] = size;
+    view["byteLength"] = images[i].size();
+    size += images[i].size();
+  }
+  size += (4 - size % 4) % 4;
+  scene["buffers"][0]["byteLength"] = size;
+  return size;
+}
+
 Json to_json(const Eigen::RowVector3d& vector) {
   Json json = Json::array();
   for (const double part : vector) json.push_back(static_cast<double>(to_single(part)));
@@ -253,7 +283,7 @@ void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32
 
 GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
                          const GlbOptions& options)
-    : vertices_(topology.vertex_count) {
+    : vertices_(topology.vertex_count), images_(options.images) {
   constexpr Index kMostVertices = 1 << 24;
   if (vertices_ > kMostVertices || topology.face_count() == 0) {
     throw InvalidInput(concat("GLB: expected a mesh with faces and at most ", kMostVertices,
@@ -300,6 +330,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     mesh["extras"] = {{"targetNames", std::move(names)}};
   }
   buffer.finish();
+  add_images(scene, options);
   json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 
   shared_ = texture_coordinates(split, uvs) + vertex_ids(split);
@@ -320,8 +351,10 @@ std::size_t GlbTemplate::memory_bytes() const {
 
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
                                 const std::string& name,
-                                std::span<const Displacements> moves) const {
+                                std::span<const Displacements> moves,
+                                std::span<const std::string_view> images) const {
   require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
+  require(images.size() == images_, "a GLB file with ", images.size(), " images for ", images_);
   require_finite(positions, vertices_, name);
   require_finite(normals, vertices_, name);
   Json scene = Json::parse(json_);
@@ -336,10 +369,12 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   }
   scene["nodes"][0]["name"] = name;
   scene["meshes"][0]["name"] = name;
+  const std::size_t arrays_size = encode_bytes() + shared_.size();
+  const std::size_t binary_size =
+      images.empty() ? arrays_size : place_images(scene, arrays_size, images);
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');
 
-  const std::size_t binary_size = encode_bytes() + shared_.size();
   const std::size_t total = kBinaryHeader + json.size() + binary_size;
   if (total > std::numeric_limits<std::uint32_t>::max()) {
     throw InvalidInput(concat(name, ": a GLB file of ", total,
@@ -368,6 +403,12 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
     for (const std::uint32_t row : targets_[t].rows) at = put_row(at, moves[t].moves, row);
   }
   file.refer_to({values, target_bytes_});
+  std::size_t written = arrays_size;
+  for (const std::string_view image : images) {
+    file.refer_to(image);
+    written += image.size();
+  }
+  file.add(std::string(binary_size - written, '\0'));
   return file;
 }
 

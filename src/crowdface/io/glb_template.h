@@ -3,8 +3,10 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/core/units.h"
@@ -18,6 +20,7 @@ namespace crowdface {
 struct GlbMaterial {
   std::string name;                            ///< may be empty
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
+  std::optional<std::size_t> image = {};  ///< its colours, times `colour`: one of the file's images
 };
 
 /// A morph target that every file has: its name, and the vertices that it moves, ascending.
@@ -33,6 +36,8 @@ struct GlbOptions {
   std::vector<GlbMaterial> materials;
   std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
   std::vector<GlbTarget> targets;
+  std::size_t images = 0;                     ///< that each file brings along …
+  std::string image_type = "image/png";       ///< … and of which format
 };
 
 /// Binary glTF 2.0 files of one topology. What all faces share (texture coordinates, triangles,
@@ -49,10 +54,12 @@ class GlbTemplate {
   /// The file with these positions; refers to this object.
   /// \param normals  #V by 3, unit; always needed, because a viewer shades a mesh without them flat.
   /// \param name     of the mesh, in the file and in messages.
+  /// \param images   files, as many as the options say; must outlive the result.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   /// \param moves    #targets: of their vertices, from `positions`.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
-                     std::span<const Displacements> moves = {}) const;
+                     std::span<const Displacements> moves = {},
+                     std::span<const std::string_view> images = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;
@@ -69,6 +76,7 @@ class GlbTemplate {
   std::size_t vector_bytes() const;
 
   Index vertices_;
+  std::size_t images_;
   std::vector<std::uint32_t> split_;  ///< original vertices of the split ones from #V on
   std::string shared_;                ///< the part of the buffer that all faces share
   std::vector<Target> targets_;

@@ -208,14 +208,22 @@ std::string encode(const std::string& format, const OIIO::ImageSpec& spec,
   return {bytes.begin(), bytes.end()};
 }
 
-Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
+/// Opens a file and refuses what should not be decoded.
+std::unique_ptr<OIIO::ImageInput> open_checked(const path& file, const MappedFile& mapped,
+                                               OIIO::Filesystem::IOMemReader& bytes,
+                                               const ImageLimits& limits, OIIO::ImageSpec& spec) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
-  OIIO::ImageSpec spec;
-  OIIO::Filesystem::IOMemReader bytes(mapped.bytes().data(), mapped.bytes().size());
-  const auto input = open(file, format, bytes, spec);
+  auto input = open(file, format, bytes, spec);
   check_kind(file, format, spec);
   check_size(file, spec, limits);
   if (format == "png") check_png_claim(file, mapped.bytes(), spec);
+  return input;
+}
+
+Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
+  OIIO::ImageSpec spec;
+  OIIO::Filesystem::IOMemReader bytes(mapped.bytes().data(), mapped.bytes().size());
+  const auto input = open_checked(file, mapped, bytes, limits, spec);
   Image image{spec.width, spec.height, spec.nchannels, spec.alpha_channel, {}, {}};
   if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(spec));
   read_pixels(*input, file, image);
@@ -240,13 +248,31 @@ Image read_image(const path& file, const ImageLimits& limits) {
   }
 }
 
-std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
+ImageSize read_image_size(const path& file, const ImageLimits& limits) {
+  const MappedFile mapped(file);
+  OIIO::ImageSpec spec;
+  OIIO::Filesystem::IOMemReader bytes(mapped.bytes().data(), mapped.bytes().size());
+  open_checked(file, mapped, bytes, limits, spec);
+  return {spec.width, spec.height};
+}
+
+std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
+                       PngEffort effort) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
   require_size(width, height, channels, pixels.size());
   OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
   spec.alpha_channel = channels % 2 == 0 ? channels - 1 : -1;
   spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (effort == PngEffort::kFast) spec.attribute("png:compressionLevel", 1);
   return encode("png", spec, OIIO::TypeDesc::UINT8, pixels.data());
+}
+
+std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {
+  require_size(width, height, 3, pixels.size());
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("compression", "jpeg:92");
+  spec.attribute("jpeg:subsampling", "4:4:4");
+  return encode("jpeg", spec, OIIO::TypeDesc::UINT8, pixels.data());
 }
 
 std::string encode_exr(int width, int height, std::span<const float> pixels) {

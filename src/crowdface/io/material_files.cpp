@@ -45,24 +45,15 @@ bool stays_inside(const fs::path& relative) {
   return !normal.empty() && normal.is_relative() && *normal.begin() != "..";
 }
 
-bool is_texture_statement(std::string_view word) {
-  return word.starts_with("map_") || word == "bump" || word == "disp" || word == "decal" ||
-         word == "refl" || word == "norm";
-}
-
 /// Calls `body` with the first word of each line that has at least two, and with all that stands
 /// behind it.
 template <class Body>
 void for_each_statement(std::string_view text, const Body& body) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line = text.substr(begin, end - begin);
+    const MaterialStatement statement = material_statement(text.substr(begin, end - begin));
     begin = end + 1;
-    line = line.substr(0, line.find_last_not_of(kBlanks) + 1);
-    line = line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
-    const std::size_t blank = line.find_first_of(kBlanks);
-    if (blank == line.npos) continue;
-    body(line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank)));
+    if (!statement.word.empty()) body(statement.word, statement.rest);
   }
 }
 
@@ -80,7 +71,8 @@ bool is_name_of_ours(const fs::path& relative) {
   const bool is_mesh = std::any_of(normal.begin(), normal.end(), [&](const fs::path& part) {
     return std::count(kMeshes.begin(), kMeshes.end(), lower_case(part.extension().string())) > 0;
   });
-  return is_mesh || lower_case(normal.begin()->string()) == "topology";
+  const std::string folder = lower_case(normal.begin()->string());
+  return is_mesh || folder == "topology" || folder == kBlendedFolder;
 }
 
 /// Why a file of this name is not copied; empty if it is.
@@ -103,7 +95,14 @@ class Collector {
     for (const std::string& name : words_of(argument)) take_library(name);
   }
 
-  MaterialFiles take_files() { return std::move(files_); }
+  MaterialFiles take_files() {
+    for (const auto& [relative, files] : colour_files_) {
+      for (const std::size_t file : files) {
+        files_.files[file].is_colour = !not_colours_.contains(relative);
+      }
+    }
+    return std::move(files_);
+  }
   std::map<std::string, fs::path> take_colours() { return std::move(colours_); }
 
  private:
@@ -185,7 +184,9 @@ class Collector {
           leads_below(folder_ / with_tile(relative, kFirstTile), folder_)) {
         colours_.emplace(material, (folder_ / relative).lexically_normal());
       }
-      if (seen == Seen::kNew) take_texture(relative);
+      const bool colour = word == "map_Kd";
+      if (seen == Seen::kNew) take_texture(relative, colour);
+      if (seen == Seen::kBefore && !colour) not_colours_.insert(relative);
     });
   }
 
@@ -207,13 +208,17 @@ class Collector {
     return known->second;
   }
 
-  void take_texture(const fs::path& relative) {
+  void take_texture(const fs::path& relative, bool colour) {
     std::vector<fs::path> tiles;
     if (stays_inside(relative)) tiles = find_tiles(folder_ / relative);
+    const std::size_t before = files_.files.size();
     for (const fs::path& tile : tiles) {
       take_file(relative.parent_path() / tile.filename(), "texture");
     }
     if (tiles.empty()) take_file(relative, "texture");
+    for (std::size_t i = before; colour && i < files_.files.size(); ++i) {
+      colour_files_[relative].push_back(i);
+    }
   }
 
   fs::path mesh_, folder_;
@@ -222,6 +227,8 @@ class Collector {
   std::map<std::string, fs::path> textures_of_;  ///< by what a statement says; of one library
   MaterialFiles files_;
   std::map<std::string, fs::path> colours_;
+  std::map<fs::path, std::vector<std::size_t>> colour_files_;  ///< first named by `map_Kd`
+  std::set<fs::path> not_colours_;                             ///< and elsewhere, too
 };
 
 Collector collect(const fs::path& mesh, const std::vector<std::string>& libraries) {
@@ -231,6 +238,19 @@ Collector collect(const fs::path& mesh, const std::vector<std::string>& librarie
 }
 
 }  // namespace
+
+MaterialStatement material_statement(std::string_view line) {
+  line = line.substr(0, line.find_last_not_of(kBlanks) + 1);
+  line = line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
+  const std::size_t blank = line.find_first_of(kBlanks);
+  if (blank == line.npos) return {};
+  return {line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank))};
+}
+
+bool is_texture_statement(std::string_view word) {
+  return word.starts_with("map_") || word == "bump" || word == "disp" || word == "decal" ||
+         word == "refl" || word == "norm";
+}
 
 MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::string>& libraries) {
   return collect(mesh, libraries).take_files();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace crowdface {
@@ -13,6 +14,7 @@ struct MaterialFile {
   std::filesystem::path from;      ///< where it is
   std::filesystem::path relative;  ///< where it goes, below the meshes' folder
   bool is_library = false;         ///< not a texture
+  bool is_colour = false;          ///< a texture that is named as `map_Kd` alone
 };
 
 struct MaterialFiles {
@@ -20,10 +22,22 @@ struct MaterialFiles {
   std::vector<std::string> warnings;  ///< about names that have no file here or may have none there
 };
 
+/// Beside meshes: what lies in this folder is ours alone.
+inline constexpr std::string_view kBlendedFolder = "blended";
+
+/// The first word of a material file's line and all that stands behind it; nothing if it has no two words.
+struct MaterialStatement {
+  std::string_view word, rest;
+};
+MaterialStatement material_statement(std::string_view line);
+/// Whether a statement of this word names a texture.
+bool is_texture_statement(std::string_view word);
+
 /// The material files that a mesh names and the textures that those name, with <UDIM> in their names
 /// all tiles that are there. A file that is missing or cannot be read is a warning, not an error; so
 /// is a path that leads out of the mesh's folder, which is not followed, a name that a mesh may have
-/// (one that ends in .obj, .ply, .glb or .npy, or lies in `topology`), and more names than
+/// (one that ends in .obj, .ply, .glb or .npy, or lies in `topology`
+/// or `blended`), and more names than
 /// input_limits().textures.
 /// \param mesh       path of the OBJ file.
 /// \param libraries  the arguments of its `mtllib` lines; each may name several files.

@@ -35,7 +35,9 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
       renderer_(inputs.faces.topology,
                 RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
                 surfaces_of(config, inputs), &inputs.faces.heads.front().positions),
-      textures_(inputs.textures) {}
+      textures_(inputs.textures),
+      textured_(sheet.texture != SheetTexture::kNo),
+      most_texels_(shown_texels(sheet)) {}
 
 void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
   make_directories(directory.renders());
@@ -43,7 +45,8 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
 }
 
 WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
-                                    Index target, const Positions& positions) const {
+                                    Index target, const Positions& positions,
+                                    const std::vector<BlendedPicture>* textures) const {
   // As every mesh file holds them, so that pictures made from those are the same.
   const Positions single =
       positions.unaryExpr([](double value) -> double { return to_single(value); });
@@ -51,7 +54,9 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
     write_file(path, bytes);
     return FileDigest{bytes.size(), hash_bytes(bytes)};
   };
-  WrittenPictures written{put(directory.render(id), render_png(single, target)), std::nullopt};
+  const std::string picture =
+      textures != nullptr ? render_png(single, *textures) : render_png(single, target);
+  WrittenPictures written{put(directory.render(id), picture), std::nullopt};
   if (gallery_ != nullptr) {
     written.preview = put(directory.gallery_face(id), gallery_->face_script(id, single));
   }
@@ -72,10 +77,17 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
   return to_png(side_by_side(views));
 }
 
-std::string CrowdRenders::render_png(const Positions& positions, Index target) const {
-  const bool textured = !textures_.coats.empty();
-  return render_png(positions, nullptr,
-                    textured ? &textures_.coats[static_cast<std::size_t>(target)] : nullptr);
+std::string CrowdRenders::render_png(const Positions& positions,
+                                     const std::vector<BlendedPicture>& textures) const {
+  if (!textured_) return render_png(positions, nullptr, nullptr);
+  const TextureCoat coat = coat_of(textures_.blended.layout, textures, most_texels_);
+  return render_png(positions, nullptr, &coat);
+}
+
+std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
+  const std::optional<TextureCoat> coat =
+      textured_ ? coat_of_head(textures_, head, most_texels_) : std::nullopt;
+  return render_png(positions, nullptr, coat ? &*coat : nullptr);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions,

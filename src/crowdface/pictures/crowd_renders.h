@@ -33,12 +33,17 @@ class CrowdRenders {
   /// The folders that `write` needs.
   void make_folders(const CrowdDirectory& directory) const;
   /// Writes a face's picture, and what the gallery shows of it.
+  /// \param textures  of its own, or null: it bears its target's, if there are any.
   WrittenPictures write(const CrowdDirectory& directory, const std::string& id, Index target,
-                        const Positions& positions) const;
+                        const Positions& positions,
+                        const std::vector<BlendedPicture>* textures) const;
 
   /// All views of a face side by side, as a PNG file's bytes.
-  /// \param target  the head whose texture it bears, if there are textures.
-  std::string render_png(const Positions& positions, Index target) const;
+  /// \param textures  of its own.
+  std::string render_png(const Positions& positions,
+                         const std::vector<BlendedPicture>& textures) const;
+  /// \param head  whose texture it bears, if there are textures.
+  std::string render_png(const Positions& positions, Index head) const;
   /// The same in colours of the vertices.
   std::string render_png(const Positions& positions, const VertexColours& colours) const;
   /// The first of the views alone.
@@ -51,6 +56,8 @@ class CrowdRenders {
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;
   const HeadTextures& textures_;
+  bool textured_;
+  int most_texels_;
   const GalleryMeshes* gallery_ = nullptr;
 };
 

@@ -30,12 +30,13 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
 
 CrowdPictures::CrowdPictures(const Config& config, const Config::ContactSheet& sheet,
                              const Inputs& inputs, const Digest& settings,
-                             const CrowdDirectory& directory)
+                             const CrowdDirectory& directory, const TextureBlender* textures)
     : config_(config),
       sheet_(sheet),
       inputs_(inputs),
       settings_(settings),
       directory_(directory),
+      textures_(textures),
       renders_(config, sheet, inputs),
       page_(page_for(config)) {
   if (!page_) return;
@@ -54,10 +55,11 @@ void CrowdPictures::write_heads() const {
 }
 
 void CrowdPictures::write_founder(const std::string& family, const Positions& positions,
-                                  Index target) const {
+                                  const Recipe& recipe) const {
   const std::filesystem::path path = directory_.founder_render(family);
   make_directories(path.parent_path());
-  write_file(path, renders_.render_png(positions, target));
+  write_file(path, textures_ != nullptr ? renders_.render_png(positions, textures_->blend(recipe))
+                                        : renders_.render_png(positions, recipe.target));
 }
 
 void CrowdPictures::write_faces(const std::vector<CastFace>& crowd) const {
@@ -66,9 +68,12 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd) const {
   parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
     throw_if_interrupted();
     const CastFace& face = crowd[static_cast<std::size_t>(i)];
+    std::vector<BlendedPicture> textures;
+    if (textures_ != nullptr) textures = textures_->blend(face.recipe);
     renders_.write(
         directory_, face.id, face.recipe.target,
-        read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count));
+        read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count),
+        textures.empty() ? nullptr : &textures);
     progress.step();
   });
 }

@@ -8,6 +8,7 @@
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/pictures/gallery.h"
 #include "crowdface/pictures/sheets.h"
+#include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
 
@@ -17,14 +18,17 @@ class CrowdPictures {
   /// \param config, inputs, directory  must outlive this object.
   /// \param sheet     how its sheets are to be; likewise.
   /// \param settings  see settings_digest; the gallery shows it.
+  /// \param textures  of faces' own, or null; likewise.
   CrowdPictures(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
-                const Digest& settings, const CrowdDirectory& directory);
+                const Digest& settings, const CrowdDirectory& directory,
+                const TextureBlender* textures);
 
   const CrowdRenders& renders() const { return renders_; }
 
   void write_heads() const;
   /// The picture of a family's founder, whom no mesh file of the crowd holds.
-  void write_founder(const std::string& family, const Positions& positions, Index target) const;
+  void write_founder(const std::string& family, const Positions& positions,
+                     const Recipe& recipe) const;
   /// Each face again from its mesh.
   void write_faces(const std::vector<CastFace>& crowd) const;
 
@@ -37,6 +41,7 @@ class CrowdPictures {
   const Inputs& inputs_;
   Digest settings_;
   const CrowdDirectory& directory_;
+  const TextureBlender* textures_;
   CrowdRenders renders_;
   std::optional<std::filesystem::path> page_;  ///< of the gallery, if there is to be one
   std::unique_ptr<GalleryMeshes> gallery_;

@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 /// Copies each file once: heads of one folder mostly share theirs.
 class MaterialCopies {
  public:
-  MaterialCopies(const CrowdDirectory& directory, Ledger& ledger)
-      : directory_(directory), ledger_(ledger) {}
+  /// \param own_colours  whether faces have material files and colour textures of their own.
+  MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, bool own_colours)
+      : directory_(directory), ledger_(ledger), own_colours_(own_colours) {}
 
   void add(const ObjFile& file, const std::string& head) {
     const auto [found, is_unknown] =
@@ -29,7 +30,9 @@ class MaterialCopies {
     for (const std::string& warning : found->second.warnings) {
       heads_of_warning_[warning].push_back(head);
     }
-    for (const MaterialFile& material : found->second.files) copy(material, head);
+    for (const MaterialFile& material : found->second.files) {
+      if (!own_colours_ || !(material.is_library || material.is_colour)) copy(material, head);
+    }
   }
 
   std::vector<std::string> warnings() const {
@@ -60,6 +63,7 @@ class MaterialCopies {
 
   const CrowdDirectory& directory_;
   Ledger& ledger_;
+  bool own_colours_;
   std::map<std::pair<fs::path, std::vector<std::string>>, MaterialFiles> known_;
   std::map<fs::path, Digest> read_, copied_;
   std::map<std::string, std::vector<std::string>> heads_of_warning_;
@@ -71,7 +75,7 @@ std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirecto
                                         const std::vector<CastFace>& crowd, Ledger& ledger) {
   std::set<Index> targets;
   for (const CastFace& face : crowd) targets.insert(face.recipe.target);
-  MaterialCopies copies(directory, ledger);
+  MaterialCopies copies(directory, ledger, inputs.textures.blend());
   for (const Index target : targets) {
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.files[head], inputs.faces.heads[head].name);

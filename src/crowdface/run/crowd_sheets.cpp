@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/likeness_file.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_ledger.h"
@@ -47,7 +48,7 @@ void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilde
     throw_if_interrupted();
     const Recipe* recipe = &founder.face.recipe;
     builder.build({&recipe, 1}, built);
-    pictures.write_founder(founder.family, built[0], recipe->target);
+    pictures.write_founder(founder.family, built[0], *recipe);
   }
 }
 
@@ -64,6 +65,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
     ids.push_back(cast.crowd[i].id);
     hasher.add(files[i].picture->digest);
     for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
+    for (const FileDigest& own : files[i].own) hasher.add(own.digest);
   }
   hasher.add(format_likeness(crowd_likeness(cast.anchors, cast.points), job.names, ids));
   return hasher.digest();
@@ -118,8 +120,9 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   }
   if (crowd.empty()) return log_info("a crowd of no faces has no sheets");
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
+  const FaceTextures textures(job.config, job.inputs);
   const CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs,
-                               job.settings, directory);
+                               job.settings, directory, textures.blender());
   pictures.write_heads();
   pictures.write_faces(crowd);
   const std::vector<FamilyFounder> founders = read_founders(job, directory);

@@ -31,6 +31,7 @@ struct MeshFile {
 /// What one face's files are.
 struct FaceFiles {
   std::vector<MeshFile> meshes;
+  std::vector<FileDigest> own;        ///< textures and materials of its own, see own_file_names
   std::optional<FileDigest> picture;  ///< if it was rendered
   std::optional<FileDigest> preview;  ///< its mesh in the gallery, if there is one
   std::optional<SkinDefects> skin;    ///< against the target's, if it was judged

@@ -6,6 +6,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/mesh_writers.h"
+#include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 namespace {
@@ -23,12 +24,18 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
   }
+  if (job.inputs.textures.blend() && !config.output.meshes.empty()) {
+    hasher.add(kTextureVersion).add(job.inputs.textures.digest);
+    hasher.add(config.textures.formats.size());
+    for (const TextureFormat format : config.textures.formats) hasher.add(static_cast<int>(format));
+  }
   hasher.add(extras.skin).add(extras.picture).add(extras.preview);
   if (extras.picture) {
     const Config::ContactSheet& sheet = *config.output.contact_sheet;
     hasher.add(sheet.cell).add(sheet.views.size());
     for (const View view : sheet.views) hasher.add(static_cast<int>(view));
     hasher.add(job.inputs.textures.digest);
+    if (job.inputs.textures.blend()) hasher.add(kTextureVersion);
     for (const auto& [material, surface] : config.output.surfaces) {
       hasher.add(material).add(static_cast<int>(surface.kind)).add(surface.colour.has_value());
       for (const std::uint8_t value : surface.colour.value_or(std::array<std::uint8_t, 3>{})) {
@@ -84,14 +91,19 @@ std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   const auto entry = ledger_.proven(item_of(face), key_of(face));
   if (!entry) return std::nullopt;
   const std::vector<MeshName> names = mesh_names(job_.config.output.meshes, job_.inputs.shapes);
+  const std::vector<std::string> own =
+      own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);
   const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);
-  if (entry->files.size() != names.size() + pictures) return std::nullopt;
+  if (entry->files.size() != names.size() + own.size() + pictures) return std::nullopt;
   FaceFiles files;
   for (std::size_t f = 0; f < names.size(); ++f) {
     files.meshes.push_back(
         {names[f], entry->files[f].content.digest, entry->files[f].content.bytes});
   }
-  if (extras_.picture) files.picture = entry->files[names.size()].content;
+  for (std::size_t o = 0; o < own.size(); ++o) {
+    files.own.push_back(entry->files[names.size() + o].content);
+  }
+  if (extras_.picture) files.picture = entry->files[names.size() + own.size()].content;
   if (extras_.preview) files.preview = entry->files.back().content;
   try {
     if (extras_.skin) files.skin = skin_of(entry->note);
@@ -107,6 +119,11 @@ void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
     entry.files.push_back(
         {directory_.relative(directory_.mesh(face.id, mesh.name.format, mesh.name.shape)),
          {mesh.bytes, mesh.digest}});
+  }
+  const std::vector<std::string> own =
+      own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);
+  for (std::size_t o = 0; o < own.size(); ++o) {
+    entry.files.push_back({directory_.relative(directory_.meshes() / own[o]), files.own[o]});
   }
   if (files.picture) {
     entry.files.push_back({directory_.relative(directory_.render(face.id)), *files.picture});

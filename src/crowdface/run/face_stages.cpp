@@ -14,6 +14,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/face_textures.h"
 
 namespace crowdface {
 namespace {
@@ -51,7 +52,7 @@ std::uint64_t vertex_count(const Inputs& inputs) {
 std::uint64_t input_bytes(const Inputs& inputs) {
   return inputs.faces.heads.size() * vertex_count(inputs) * 3 * sizeof(double) +
          static_cast<std::uint64_t>(inputs.regions.alpha.size()) * sizeof(double) +
-         kMeshBytesAVertex * vertex_count(inputs);
+         kMeshBytesAVertex * vertex_count(inputs) + texture_bytes(inputs.textures);
 }
 
 /// What all threads take while they make pictures.
@@ -86,11 +87,15 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
 /// Encodes, writes and renders one face after the other, on any thread.
 class FaceOutput {
  public:
-  FaceOutput(const FaceBuilder& builder, const MeshWriters& writers,
+  FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const TextureBlender* textures,
+             const OwnTextures* own, std::span<const MeshFormat> formats,
              const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
              const FaceSet& faces, const FaceLedger& ledger)
       : builder_(builder),
         writers_(writers),
+        textures_(textures),
+        own_(own),
+        formats_(formats),
         directory_(directory),
         renders_(renders),
         check_(check),
@@ -100,22 +105,17 @@ class FaceOutput {
   FaceFiles write(const CastFace& face, const Positions& positions) {
     throw_if_interrupted();
     FaceFiles files;
-    std::vector<EncodedMesh> meshes;
-    {
-      const Busy busy(encode_);
-      meshes = writers_.encode(face, positions);
+    std::vector<BlendedPicture> pictures;
+    if (textures_ != nullptr) {
+      const Busy busy(blend_);
+      pictures = textures_->blend(face.recipe);
     }
-    {
-      const Busy busy(write_);
-      for (const EncodedMesh& mesh : meshes) {
-        files.meshes.push_back(
-            write_mesh(mesh, directory_.mesh(face.id, mesh.name.format, mesh.name.shape)));
-      }
-    }
+    write_meshes(face, positions, pictures, files);
     if (renders_ != nullptr) {
       const Busy busy(render_);
       const WrittenPictures written =
-          renders_->write(directory_, face.id, face.recipe.target, positions);
+          renders_->write(directory_, face.id, face.recipe.target, positions,
+                          textures_ != nullptr ? &pictures : nullptr);
       files.picture = written.picture;
       files.preview = written.preview;
     }
@@ -129,6 +129,7 @@ class FaceOutput {
   }
 
   void add_to(StageBusy& busy) const {
+    busy.blend += blend_;
     busy.encode += encode_;
     busy.write += write_;
     busy.render += render_;
@@ -136,14 +137,43 @@ class FaceOutput {
   }
 
  private:
+  void write_meshes(const CastFace& face, const Positions& positions,
+                    const std::vector<BlendedPicture>& pictures, FaceFiles& files) {
+    if (formats_.empty()) return;
+    std::vector<std::string> textures;
+    std::vector<std::string_view> of_mesh;
+    std::vector<EncodedMesh> meshes;
+    {
+      const Busy busy(encode_);
+      if (own_ != nullptr) {
+        textures = own_->encode(pictures);
+        of_mesh = own_->of_mesh(textures);
+      }
+      meshes = writers_.encode(face, positions, of_mesh);
+    }
+    const Busy busy(write_);
+    for (const EncodedMesh& mesh : meshes) {
+      files.meshes.push_back(
+          write_mesh(mesh, directory_.mesh(face.id, mesh.name.format, mesh.name.shape)));
+    }
+    if (own_ == nullptr) return;
+    for (const OwnFile& file : own_->files(face, formats_, std::move(textures))) {
+      write_file(directory_.meshes() / file.name, file.bytes);
+      files.own.push_back({file.bytes.size(), hash_bytes(file.bytes)});
+    }
+  }
+
   const FaceBuilder& builder_;
   const MeshWriters& writers_;
+  const TextureBlender* textures_;
+  const OwnTextures* own_;
+  std::span<const MeshFormat> formats_;
   const CrowdDirectory& directory_;
   const CrowdRenders* renders_;
   const SkinCheck* check_;
   const FaceSet& faces_;
   const FaceLedger& ledger_;
-  std::atomic<double> encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
+  std::atomic<double> blend_ = 0, encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
 };
 
 /// A group of faces in memory, and what is still being done with it.
@@ -160,15 +190,22 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 }
 
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                       const FaceBuilder& builder, const std::vector<CastFace>& crowd,
-                       std::uint64_t memory)
+                       const FaceBuilder& builder, const TextureBlender* textures,
+                       const std::vector<CastFace>& crowd, std::uint64_t memory)
     : faces_(inputs.faces),
       writes_meshes_(!config.output.meshes.empty()),
       writers_(config, inputs, config.output.meshes, crowd),
-      builder_(builder) {
+      builder_(builder),
+      textures_(textures),
+      meshes_(config.output.meshes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + writers_.memory_bytes();
   std::uint64_t of_thread = writers_.encode_bytes();
+  if (textures_ != nullptr) {
+    own_.emplace(config, inputs, crowd);
+    standing += textures_->memory_bytes();
+    of_thread += textures_->blend_bytes() + own_->encode_bytes();
+  }
   if (skin_is_judged(config, inputs)) {
     std::set<Index> targets;
     for (const CastFace& face : crowd) targets.insert(face.recipe.target);
@@ -184,11 +221,11 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
                              const FaceLedger& ledger, const std::vector<CastFace>& faces) const {
   BuiltFaces built;
   built.files.resize(faces.size());
-  if (writes_meshes_) make_directories(directory.meshes());
+  if (writes_meshes_) make_directories(own_ ? directory.blended() : directory.meshes());
   if (renders != nullptr) renders->make_folders(directory);
 
-  FaceOutput output(builder_, writers_, directory, renders, check_ ? &*check_ : nullptr, faces_,
-                    ledger);
+  FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
+                    renders, check_ ? &*check_ : nullptr, faces_, ledger);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;
@@ -214,7 +251,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   }
   for (Slot& slot : slots) slot.tasks.wait();
   output.add_to(built.busy);
-  built.busy.blend = blend_seconds;
+  built.busy.blend += blend_seconds;
   return built;
 }
 

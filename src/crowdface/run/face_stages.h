@@ -11,7 +11,9 @@
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/mesh_writers.h"
+#include "crowdface/run/own_textures.h"
 #include "crowdface/run/report.h"
+#include "crowdface/texture/texture_blender.h"
 #include "crowdface/validity/skin_check.h"
 
 namespace crowdface {
@@ -30,11 +32,13 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 class FaceStages {
  public:
   /// \param builder  must outlive this object, as inputs and prepared heads must.
+  /// \param textures  blends those of faces' own, or null; likewise.
   /// \param crowd    recipes of all faces that may be made.
   /// \param memory  bytes that the whole process may take; sets how many faces are blended together.
   /// \throws UsageError if one face at a time does not fit.
   FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
-             const FaceBuilder& builder, const std::vector<CastFace>& crowd, std::uint64_t memory);
+             const FaceBuilder& builder, const TextureBlender* textures,
+             const std::vector<CastFace>& crowd, std::uint64_t memory);
 
   /// Each face is recorded when all its files are there. While one group of faces is written and
   /// rendered the next is blended: two groups at most are in memory.
@@ -47,6 +51,9 @@ class FaceStages {
   bool writes_meshes_;
   MeshWriters writers_;
   const FaceBuilder& builder_;
+  const TextureBlender* textures_;
+  std::optional<OwnTextures> own_;  ///< none: faces have no textures of their own
+  std::span<const MeshFormat> meshes_;
   std::optional<SkinCheck> check_;  ///< none: no mesh is judged
   std::size_t at_once_;
 };

@@ -15,6 +15,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/ledger.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/face_comparison.h"
 #include "crowdface/pictures/sheets.h"
 #include "crowdface/run/casting.h"
@@ -66,12 +67,15 @@ class CrowdLog {
 /// A crowd cast from prepared heads, and what builds its faces.
 struct CastJob {
   CastJob(const Job& job, Prepared heads)
-      : prepared(std::move(heads)), builder([&job, this] {
+      : prepared(std::move(heads)),
+        builder([&job, this] {
           return std::make_unique<FaceBuilder>(job.config, job.inputs, prepared);
-        }) {}
+        }),
+        textures([&job] { return std::make_unique<FaceTextures>(job.config, job.inputs); }) {}
 
   Prepared prepared;
   Lazy<FaceBuilder> builder;
+  Lazy<FaceTextures> textures;
   Cast cast;
 };
 
@@ -198,7 +202,8 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   std::vector<std::string> warnings = write_materials(job, directory, cast, ledger);
   write_shared_arrays(job.inputs, job.config.output.meshes, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
-    return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory);
+    return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
+                                           cast_job.textures.get().blender());
   });
   const StageBusy busy = timed(stages, "build", [&] {
     const CrowdRenders* renders =
@@ -258,8 +263,8 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   const auto crowd = cast_job(job, options, stages);
   Lazy<FaceStages> face_stages([&] {
     return std::make_unique<FaceStages>(job.config, job.inputs, crowd->prepared,
-                                        crowd->builder.get(), crowd->cast.crowd,
-                                        memory_for(options));
+                                        crowd->builder.get(), crowd->textures.get().blender(),
+                                        crowd->cast.crowd, memory_for(options));
   });
   if (is_new && !crowd->cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);

@@ -14,6 +14,7 @@
 #include "crowdface/io/npy.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/surface_kind.h"
+#include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 namespace {
@@ -27,17 +28,42 @@ GlbMaterial glb_material(const std::string& name) {
   return {name, {colour(0), colour(1), colour(2), opacity}};
 }
 
+/// A material for each that faces have together with a picture of their own textures.
+void add_textured_materials(const Config& config, const Inputs& inputs, GlbOptions& options) {
+  options.images = inputs.textures.names.size();
+  if (config.textures.formats.front() == TextureFormat::kJpeg) options.image_type = "image/jpeg";
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+  for (std::size_t f = 0; f < options.face_materials.size(); ++f) {
+    const std::uint32_t material = options.face_materials[f];
+    const std::uint32_t picture = inputs.textures.blended.layout.of_face[f];
+    const auto [row, is_new] =
+        known.emplace(std::pair(material, picture), static_cast<std::uint32_t>(known.size()));
+    options.face_materials[f] = row->second;
+    if (!is_new) continue;
+    GlbMaterial made = glb_material(inputs.materials.names[material]);
+    if (picture != kNoIndex) {
+      made.colour = {1, 1, 1, made.colour[3]};
+      made.image = picture;
+    }
+    options.materials.push_back(std::move(made));
+  }
+}
+
 GlbOptions glb_options(const Config& config, const Inputs& inputs) {
   GlbOptions options;
   options.unit = config.faces.units;
   options.up = config.faces.up;
   options.front = config.faces.front;
-  for (const std::string& name : inputs.materials.names) {
-    options.materials.push_back(glb_material(name));
-  }
   options.face_materials = inputs.materials.of_face;
   for (const Shape& shape : inputs.shapes.shapes) {
     options.targets.push_back({shape.name, shape.moves.vertices});
+  }
+  if (inputs.textures.blend()) {
+    add_textured_materials(config, inputs, options);
+  } else {
+    for (const std::string& name : inputs.materials.names) {
+      options.materials.push_back(glb_material(name));
+    }
   }
   return options;
 }
@@ -109,7 +135,8 @@ bool MeshWriters::needs_normals(Index target) const {
 
 EncodedFile MeshWriters::encode(const MeshName& mesh, const CastFace& face,
                                 const Positions& positions, const Positions& normals,
-                                std::span<const Displacements> moves) const {
+                                std::span<const Displacements> moves,
+                                std::span<const std::string_view> textures) const {
   const std::string& id = face.id;
   const Index target = face.recipe.target;
   switch (mesh.format) {
@@ -125,15 +152,15 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const CastFace& face,
     case MeshFormat::kPly:
       return ply_->encode(positions, had_normals(target) ? normals : Positions(), id);
     case MeshFormat::kGlb:
-      return glb_->encode(positions, normals, id, moves);
+      return glb_->encode(positions, normals, id, moves, textures);
     case MeshFormat::kPoints:
       return mesh.shape.empty() ? encode_npy(positions, id) : encode_npy(moves, id);
   }
   throw BrokenPrecondition("MeshWriters: an unknown format");
 }
 
-std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face,
-                                             const Positions& positions) const {
+std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positions& positions,
+                                             std::span<const std::string_view> textures) const {
   Positions normals;
   if (needs_normals(face.recipe.target)) {
     normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
@@ -142,7 +169,10 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face,
   if (shapes_) moves = shapes_->carry(face.recipe.target, positions);
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
-    meshes.push_back({name, encode(name, face, positions, normals, moves)});
+    meshes.push_back({name, encode(name, face, positions, normals, moves, textures)});
+    if (name.format == MeshFormat::kObj && !textures.empty()) {
+      meshes.back().file.replace_line("mtllib", concat("mtllib ", material_file_name(face.id)));
+    }
   }
   return meshes;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/cast/cast_face.h"
@@ -44,9 +45,12 @@ class MeshWriters {
               std::span<const CastFace> crowd);
 
   /// The face in each of the formats, in their order, then its shapes (see mesh_names); refers to
-  /// this object.
+  /// this object and to the textures.
+  /// \param textures  files of the face's own pictures, as far as there are any, for GLB; OBJ files name
+  ///                  the face's own material file instead.
   /// \throws InvalidInput if positions are not finite.
-  std::vector<EncodedMesh> encode(const CastFace& face, const Positions& positions) const;
+  std::vector<EncodedMesh> encode(const CastFace& face, const Positions& positions,
+                                  std::span<const std::string_view> textures = {}) const;
 
   /// What this object itself takes, and what the encoding of one face takes at most.
   std::size_t memory_bytes() const;
@@ -56,7 +60,8 @@ class MeshWriters {
   void add_obj_templates(const std::vector<Index>& targets);
   bool has(MeshFormat format) const;
   EncodedFile encode(const MeshName& mesh, const CastFace& face, const Positions& positions,
-                     const Positions& normals, std::span<const Displacements> moves) const;
+                     const Positions& normals, std::span<const Displacements> moves,
+                     std::span<const std::string_view> textures) const;
   bool needs_normals(Index target) const;
   bool had_normals(Index target) const;
 

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/worn_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/io/tile_files.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+using TilePlace = std::array<std::int32_t, 2>;
+
+/// The UDIM tile that a face lies in, told by its middle, so that corners on a border do no harm. The
+/// first for a face without coordinates or outside all tiles.
+TilePlace tile_of(const FaceSet& faces, Index face) {
+  Eigen::RowVector2d sum(0, 0);
+  double corners = 0;
+  for (const std::uint32_t uv : faces.topology.face_uvs(face)) {
+    if (uv == kNoIndex) return {0, 0};
+    sum += faces.uvs.row(uv);
+    corners += 1;
+  }
+  const Eigen::RowVector2d middle = sum / corners;
+  if (!(middle.minCoeff() >= 0 && middle.x() < 10 && middle.y() < 900)) return {0, 0};
+  return {static_cast<std::int32_t>(middle.x()), static_cast<std::int32_t>(middle.y())};
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;  // a name longer than the system allows is that of no file
+  return fs::is_regular_file(path, ignored);
+}
+
+WornTextures worn_by(const ColourTextures& named, const std::vector<TilePlace>& tiles,
+                     const FaceMaterials& materials, std::vector<fs::path>& missing) {
+  WornTextures worn;
+  worn.of_face.assign(tiles.size(), kNoIndex);
+  std::map<fs::path, std::uint32_t> rows;
+  for (std::size_t f = 0; f < tiles.size(); ++f) {
+    throw_if_interrupted();
+    const auto found = named.of_material.find(materials.names[materials.of_face[f]]);
+    if (found == named.of_material.end()) continue;
+    const fs::path path = with_tile(found->second, tile_number(tiles[f][0], tiles[f][1]));
+    const auto [row, is_new] = rows.emplace(path, kNoIndex);
+    if (is_new && is_there(path)) {
+      row->second = static_cast<std::uint32_t>(worn.files.size());
+      worn.files.push_back({path, found->second});
+    } else if (is_new) {
+      missing.push_back(path);
+    }
+    worn.of_face[f] = row->second;
+  }
+  return worn;
+}
+
+}  // namespace
+
+bool HeadsTextures::any() const {
+  return std::any_of(heads.begin(), heads.end(),
+                     [](const WornTextures& worn) { return !worn.files.empty(); });
+}
+
+bool HeadsTextures::differ() const {
+  const auto paths_of = [](const WornTextures& worn) {
+    std::vector<fs::path> paths;
+    for (const WornTextures::File& file : worn.files) paths.push_back(file.path);
+    return paths;
+  };
+  const WornTextures* first = nullptr;
+  for (const WornTextures& worn : heads) {
+    if (worn.files.empty()) continue;
+    if (first == nullptr) first = &worn;
+    if (paths_of(worn) != paths_of(*first)) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
+  std::vector<std::string> warnings;
+  std::map<fs::path, bool> readable;
+  for (WornTextures& worn : textures.heads) {
+    std::vector<std::uint32_t> row(worn.files.size(), kNoIndex);
+    std::vector<WornTextures::File> kept;
+    for (std::size_t i = 0; i < worn.files.size(); ++i) {
+      const auto [known, is_new] = readable.try_emplace(worn.files[i].path, true);
+      try {
+        if (is_new) read_image_size(worn.files[i].path, {.jpeg = true});
+      } catch (const InvalidInput& error) {
+        known->second = false;
+        warnings.push_back(concat(error.what(), "; the texture is neither blended nor shown"));
+      }
+      if (!known->second) continue;
+      row[i] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(worn.files[i]);
+    }
+    worn.files = std::move(kept);
+    for (std::uint32_t& file : worn.of_face) {
+      if (file != kNoIndex) file = row[file];
+    }
+  }
+  return warnings;
+}
+
+HeadsTextures find_worn_textures(const FaceSet& faces, std::span<const ObjFile> files) {
+  HeadsTextures result;
+  const Index face_count = faces.topology.face_count();
+  const bool has_uvs = !faces.topology.corner_uvs.empty();
+  for (Index f = 0; f < face_count; ++f) {
+    result.tile.push_back(has_uvs ? tile_of(faces, f) : TilePlace{0, 0});
+  }
+  // Heads of one folder mostly share their material files.
+  std::map<std::pair<fs::path, std::vector<std::string>>, ColourTextures> known;
+  for (const ObjFile& file : files) {
+    const auto [entry, is_new] =
+        known.try_emplace({file.path.parent_path(), file.material_libraries});
+    ColourTextures& named = entry->second;
+    if (is_new) {
+      named = find_colour_textures(file.path, file.material_libraries);
+      for (const std::string& text : named.warnings) result.warnings.push_back(text);
+      if (!has_uvs) named.of_material.clear();
+    }
+    std::vector<fs::path> missing;
+    result.heads.push_back(
+        worn_by(named, result.tile, face_materials(file.materials, face_count), missing));
+    for (const fs::path& path : missing) {
+      result.warnings.push_back(concat(file.path.string(), ": the texture ", quoted(path.string()),
+                                       " is missing; pictures show the surface without"));
+    }
+  }
+  return result;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// The files that one head's materials name for the colours of its faces (`map_Kd`).
+struct WornTextures {
+  struct File {
+    std::filesystem::path path;  ///< is there
+    std::filesystem::path name;  ///< as the material says; may hold <UDIM>
+  };
+  std::vector<File> files;             ///< each once, as faces first wear them
+  std::vector<std::uint32_t> of_face;  ///< #F rows of `files`, or kNoIndex
+};
+
+/// Of all heads, and what is missing.
+struct HeadsTextures {
+  std::vector<WornTextures> heads;                ///< #heads
+  std::vector<std::array<std::int32_t, 2>> tile;  ///< #F, column and row of each face's UDIM tile
+  std::vector<std::string> warnings;
+
+  bool any() const;
+  /// Whether two heads have different ones.
+  bool differ() const;
+};
+
+/// Takes away what is no image that we read: those heads have no texture there. \return what to say of it.
+std::vector<std::string> leave_out_unreadable(HeadsTextures& textures);
+
+/// Reads material files, and asks which textures are there; reads none of these.
+/// \param faces  the topology and coordinates that all heads share. \param files  #heads.
+HeadsTextures find_worn_textures(const FaceSet& faces, std::span<const ObjFile> files);
+
+}  // namespace crowdface

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crowdface/cast/cast_face.h"
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/io/own_materials.h"
+
+namespace crowdface {
+
+/// A file of a face beside its mesh, ready to be written.
+struct OwnFile {
+  std::string name;  ///< below the meshes' folder
+  std::string bytes;
+};
+
+/// The names of all such files of a face: its textures, unless a GLB file alone holds them, and its
+/// material file, if there is an OBJ file to name it. None if faces get no textures of their own.
+/// \param meshes  the formats that are written.
+std::vector<std::string> own_file_names(const Config& config, const Inputs& inputs,
+                                        std::span<const MeshFormat> meshes, const std::string& id);
+
+/// "ID.mtl".
+std::string material_file_name(const std::string& id);
+
+/// Encodes the textures of faces, and writes their material files.
+class OwnTextures {
+ public:
+  /// \param config, inputs  must outlive this object. \param crowd  all faces that may be written.
+  OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd);
+
+  /// The pictures in each of the formats, picture by picture.
+  std::vector<std::string> encode(const std::vector<BlendedPicture>& pictures) const;
+  /// Of those in all formats, the ones that a mesh refers to: the first of each picture.
+  std::vector<std::string_view> of_mesh(const std::vector<std::string>& encoded) const;
+  /// Those of own_file_names.
+  std::vector<OwnFile> files(const CastFace& face, std::span<const MeshFormat> meshes,
+                             std::vector<std::string> encoded) const;
+
+  /// About what encoding the pictures of one face takes.
+  std::uint64_t encode_bytes() const;
+
+ private:
+  /// The materials of a target, and which picture each of them shows.
+  struct Materials {
+    OwnMaterials file;
+    std::map<std::string, std::size_t> pictures;
+  };
+
+  const Config& config_;
+  const Inputs& inputs_;
+  std::map<Index, Materials> of_target_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/texture/optical_density.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crowdface {
+namespace {
+
+constexpr double kFloor = 1.0 / 4096;
+
+double scale() {
+  static const double value = kMostDensity / std::log((1 + kFloor) / kFloor);
+  return value;
+}
+
+double light_of(double density) {
+  return (1 + kFloor) * std::exp(-density / scale()) - kFloor;
+}
+
+double light_of_srgb(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace
+
+Density density_of_light(float light) {
+  const double clamped = std::clamp(static_cast<double>(light), 0.0, 1.0);
+  const double density = scale() * std::log((1 + kFloor) / (clamped + kFloor));
+  return static_cast<Density>(std::clamp(std::floor(density + 0.5), 0.0, double{kMostDensity}));
+}
+
+float light_of_density(float density) {
+  return static_cast<float>(std::clamp(light_of(static_cast<double>(density)), 0.0, 1.0));
+}
+
+const std::vector<Density>& densities_of_srgb8() {
+  static const std::vector<Density> table = [] {
+    std::vector<Density> densities;
+    for (int value = 0; value < 256; ++value) {
+      densities.push_back(density_of_light(static_cast<float>(light_of_srgb(value / 255.0))));
+    }
+    return densities;
+  }();
+  return table;
+}
+
+const std::vector<std::uint8_t>& srgb8_of_densities() {
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> values(65536);
+    int value = 255;
+    for (std::size_t density = 0; density < values.size(); ++density) {
+      // A value stands for all light above the middle between it and the next lower one.
+      const double light = light_of(static_cast<double>(density));
+      while (value > 0 && light < light_of_srgb((value - 0.5) / 255)) --value;
+      values[density] = static_cast<std::uint8_t>(value);
+    }
+    return values;
+  }();
+  return table;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/blend/recipe.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/region/region_weights.h"
+#include "crowdface/texture/crowd_textures.h"
+#include "crowdface/texture/surface_statistics.h"
+
+namespace crowdface {
+
+struct TextureBlending {
+  StatisticsScale scale;
+  /// #V: how much each vertex counts in a face's mean; not all zero.
+  std::vector<double> areas;
+  /// #V: whether the target alone lends its colours there (eyes, teeth); or empty.
+  std::vector<bool> of_target;
+};
+
+/// Gives each face a texture of its own, from those of the heads (docs/textures.md). With the densities
+/// D_h of the heads and their coarse part C_h,
+///
+///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
+///
+/// The weights W_h are one set for the whole face, half the target's and half the mean of the regions';
+/// v_h is half of that and half what the region's weights are at the place. The gain g gives detail the
+/// strength that a mean takes from it: g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi of the details' covariances c, 1
+/// where details agree, 1/√Σ v_h² where they do not (after Heitz & Neyret 2018). Where a head has no
+/// texture the others have its weight. The same bits on any number of threads.
+class TextureBlender {
+ public:
+  /// \param regions, textures  must outlive this object; so must the maps.
+  TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
+                 const Adjacency& adjacency, const RegionWeights& regions,
+                 const CrowdTextures& textures, TextureBlending options);
+
+  /// One picture for each of the layout's. Any thread may ask.
+  std::vector<BlendedPicture> blend(const Recipe& recipe) const;
+
+  /// What this object itself takes, and what the blending of one face takes.
+  std::size_t memory_bytes() const;
+  std::size_t blend_bytes() const;
+
+ private:
+  struct Fields;
+
+  Fields fields(std::size_t picture, const Recipe& recipe) const;
+  BlendedPicture paint(std::size_t picture, const Fields& fields) const;
+  const RegionWeights& regions_;
+  const CrowdTextures& textures_;
+  TextureBlending options_;
+  std::vector<SurfaceTexels> texels_;  ///< #pictures
+  SurfaceStatistics statistics_;
+  std::vector<double> region_shares_;  ///< #regions, how much of the face each covers
+};
+
+/// What each head lends of its colours in each region, as the recipe's weights are: those of its sources,
+/// and where these do not sum to one (Normalization::kPrinted) the target has the rest.
+/// \return #regions by #heads, rows summing to one.
+std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_t heads);
+
+}  // namespace crowdface

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/texture/texture_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kRowsPerBlock = 16;
+
+/// Texels of a row or column that make up one of another size.
+struct Taps {
+  int first = 0;
+  std::vector<float> weights;  ///< summing to one
+};
+
+std::vector<Taps> taps_of(int from, int to) {
+  const double scale = static_cast<double>(from) / to, reach = std::max(1.0, scale);
+  std::vector<Taps> all;
+  for (int i = 0; i < to; ++i) {
+    const double centre = (i + 0.5) * scale - 0.5;
+    const int first = std::max(0, static_cast<int>(std::floor(centre - reach)) + 1);
+    const int last = std::min(from - 1, static_cast<int>(std::ceil(centre + reach)) - 1);
+    Taps taps{std::min(first, from - 1), {}};
+    double sum = 0;
+    for (int j = taps.first; j <= std::max(last, taps.first); ++j) {
+      const double weight = std::max(1e-6, 1 - std::abs(j - centre) / reach);
+      taps.weights.push_back(static_cast<float>(weight));
+      sum += weight;
+    }
+    for (float& weight : taps.weights) weight = static_cast<float>(weight / sum);
+    all.push_back(std::move(taps));
+  }
+  return all;
+}
+
+using Row = std::vector<Eigen::Array3f>;
+
+void add_row(const Row& row, float weight, Row& sum) {
+  for (std::size_t x = 0; x < row.size(); ++x) sum[x] += weight * row[x];
+}
+
+}  // namespace
+
+TextureMap make_texture_map(int width, int height, const LightRows& picture) {
+  require(width > 0 && height > 0 && picture.width > 0 && picture.height > 0, "a texture of ",
+          width, " x ", height, " texels of one of ", picture.width, " x ", picture.height);
+  const std::vector<Taps> across = taps_of(picture.width, width);
+  const std::vector<Taps> down = taps_of(picture.height, height);
+  TextureMap map{width, height, {}};
+  map.planes.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  parallel_blocks(height, kRowsPerBlock, [&](int begin, int end) {
+    Row row(static_cast<std::size_t>(picture.width)), sum(row.size());
+    for (int y = begin; y < end; ++y) {
+      const Taps& rows = down[static_cast<std::size_t>(y)];
+      std::fill(sum.begin(), sum.end(), Eigen::Array3f::Zero());
+      for (std::size_t t = 0; t < rows.weights.size(); ++t) {
+        picture.row(rows.first + static_cast<int>(t), row);
+        add_row(row, rows.weights[t], sum);
+      }
+      for (int x = 0; x < width; ++x) {
+        const Taps& texels = across[static_cast<std::size_t>(x)];
+        Eigen::Array3f light = Eigen::Array3f::Zero();
+        for (std::size_t t = 0; t < texels.weights.size(); ++t) {
+          light += texels.weights[t] * sum[static_cast<std::size_t>(texels.first) + t];
+        }
+        for (int c = 0; c < 3; ++c) map.row(c, y)[x] = density_of_light(light[c]);
+      }
+    }
+  });
+  return map;
+}
+
+std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
+  const std::vector<std::uint8_t>& table = srgb8_of_densities();
+  const std::size_t texels = map.planes.size() / 3;
+  std::vector<std::uint8_t> bytes(map.planes.size());
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < texels; ++i) bytes[3 * i + c] = table[map.planes[c * texels + i]];
+  }
+  return bytes;
+}
+
+}  // namespace crowdface
