@@ -121,6 +121,9 @@ void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(surface.kind, b.output.surfaces.at(name).kind) << name;
     EXPECT_EQ(surface.colour, b.output.surfaces.at(name).colour) << name;
   }
+  EXPECT_EQ(a.textures.blend, b.textures.blend);
+  EXPECT_EQ(a.textures.size, b.textures.size);
+  EXPECT_EQ(a.textures.formats, b.textures.formats);
   ASSERT_EQ(a.output.contact_sheet.has_value(), b.output.contact_sheet.has_value());
   if (a.output.contact_sheet) {
     EXPECT_EQ(a.output.contact_sheet->columns, b.output.contact_sheet->columns);
@@ -198,6 +201,9 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  bound: []\n"
             "  together: []\n"
             "shapes: none\n"
+            "textures:\n"
+            "  blend: auto\n"
+            "  formats: [png]\n"
             "plane:\n"
             "  layout: circle\n"
             "  anchors: {}\n"
@@ -248,7 +254,7 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "    compare_scale: 6 mm\n"
             "    formats: [png]\n"
             "    shapes: 0\n"
-            "    texture: false\n");
+            "    texture: auto\n");
 }
 
 TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
@@ -280,6 +286,7 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "0.75,\n"
       "            quotas: {cyd: 0.25}, candidates: 3, pool: 7, max_attempts: 99}\n"
       "believability: {max_deviation: 4, max_stretch: 5, max_flipped: 0.125, meshes: all}\n"
+      "textures: {blend: target, size: 512, formats: [jpeg, png]}\n"
       "families:\n"
       "  - {name: 'yes', members: 2, target: bob, max_distance: 1.5 mm}\n"
       "  - {name: kin, members: 3, parents: {mother: ann, father: yes_02}, inherit: {no: father},\n"

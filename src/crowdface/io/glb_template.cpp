@@ -350,8 +350,7 @@ std::size_t GlbTemplate::memory_bytes() const {
 }
 
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
-                                const std::string& name,
-                                std::span<const Displacements> moves,
+                                const std::string& name, std::span<const Displacements> moves,
                                 std::span<const std::string_view> images) const {
   require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
   require(images.size() == images_, "a GLB file with ", images.size(), " images for ", images_);

@@ -36,8 +36,8 @@ struct GlbOptions {
   std::vector<GlbMaterial> materials;
   std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
   std::vector<GlbTarget> targets;
-  std::size_t images = 0;                     ///< that each file brings along …
-  std::string image_type = "image/png";       ///< … and of which format
+  std::size_t images = 0;                ///< that each file brings along …
+  std::string image_type = "image/png";  ///< … and of which format
 };
 
 /// Binary glTF 2.0 files of one topology. What all faces share (texture coordinates, triangles,

@@ -119,7 +119,7 @@ std::uint64_t OwnTextures::encode_bytes() const {
     texels +=
         static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height);
   }
-  return 6 * texels;  // an encoder's file and its copy, at most as large as the pixels
+  return 12 * texels;  // files and their copies, then what is rendered
 }
 
 }  // namespace crowdface
