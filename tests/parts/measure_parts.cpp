@@ -78,7 +78,7 @@ class Watch {
         for (const Part& other : parts_.parts) {
           if (other.part_class != PartClass::kBound) continue;
           for (const std::uint32_t v : other.vertices) {
-            const auto nearest = teeth.nearest(mean_.row(v).transpose(), 1 / mm_);
+            const auto nearest = teeth.nearest(mean_.row(v).transpose(), 1 / kMm);
             if (nearest.vertex != kNoIndex) gums_.emplace_back(v, nearest.vertex);
           }
         }
@@ -101,7 +101,7 @@ class Watch {
           Vector3d outward = normal_at(mesh, place);
           if (outward.dot(place.position - centre) < 0) outward = -outward;
           const double side = outward.dot(point - place.position) < 0 ? -1 : 1;
-          result.push_back(side * place.distance * mm_);
+          result.push_back(side * place.distance * kMm);
         }
         return result;
       };
@@ -109,7 +109,7 @@ class Watch {
       reading.around.push_back(gaps(eye.around));
     }
     for (const auto& [gum, tooth] : gums_) {
-      reading.gums.push_back((mesh.row(gum) - mesh.row(tooth)).norm() * mm_);
+      reading.gums.push_back((mesh.row(gum) - mesh.row(tooth)).norm() * kMm);
     }
     const PointGrid skin(mesh, skin_);
     const Positions normals = vertex_normals(topology_, mesh);
@@ -127,7 +127,7 @@ class Watch {
         // Where lips lie in folds the nearest skin may look away from the flesh: the turns tell.
         const bool inside =
             normal.dot(point - place.position) < 0 && turns_around(mesh, point) > 0.5;
-        depths.push_back((inside ? -1 : 1) * place.distance * mm_);
+        depths.push_back((inside ? -1 : 1) * place.distance * kMm);
         walls.push_back(std::abs(normal.y()) < 0.7 * normal.norm());
       }
       reading.mouth.push_back(std::move(depths));
@@ -205,7 +205,7 @@ class Watch {
     return eye;
   }
 
-  static constexpr double mm_ = 10;  // in a unit
+  static constexpr double kMm = 10;  // in a unit
   const Topology& topology_;
   FacesAround around_;
   Positions mean_;
