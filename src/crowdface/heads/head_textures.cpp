@@ -39,13 +39,7 @@ TextureFile read_texture(const fs::path& path, int most_px) {
 }
 
 Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb, int most_px) {
-  static const std::vector<float> light = [] {
-    std::vector<float> table;
-    for (int i = 0; i < 256; ++i) {
-      table.push_back(from_srgb(Eigen::Array3f::Constant(static_cast<float>(i) / 255.0F))[0]);
-    }
-    return table;
-  }();
+  const std::array<float, 256>& light = light_of_srgb8();
   return shrunk_texture(width, height, most_px, [&](int y, std::span<Light> texels) {
     const std::uint8_t* at =
         srgb.data() + 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y);

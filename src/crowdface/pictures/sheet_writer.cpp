@@ -23,10 +23,7 @@ std::string to_png(const Rgb8Image& image) {
 
 /// In linear light, as that format wants it.
 std::string to_exr(const Rgb8Image& image) {
-  std::array<float, 256> linear{};
-  for (std::size_t value = 0; value < linear.size(); ++value) {
-    linear[value] = from_srgb(Eigen::Array3f::Constant(static_cast<float>(value) / 255))[0];
-  }
+  const std::array<float, 256>& linear = light_of_srgb8();
   std::vector<float> pixels(image.pixels.size());
   std::transform(image.pixels.begin(), image.pixels.end(), pixels.begin(),
                  [&](std::uint8_t value) { return linear[value]; });

@@ -157,10 +157,7 @@ Rgb8Image shrunk(const Rgb8Image& image, int width_px) {
           width_px);
   const int height_px =
       std::max(1, static_cast<int>(std::int64_t{image.height} * width_px / image.width));
-  std::array<float, 256> linear{};
-  for (std::size_t value = 0; value < linear.size(); ++value) {
-    linear[value] = from_srgb(Eigen::Array3f::Constant(static_cast<float>(value) / 255))[0];
-  }
+  const std::array<float, 256>& linear = light_of_srgb8();
   Rgb8Image small(width_px, height_px);
   const auto from = [](int at, int of, int whole) {
     return static_cast<int>(std::int64_t{at} * whole / of);

@@ -169,4 +169,15 @@ Light from_srgb(const Eigen::Array3f& srgb) {
   });
 }
 
+const std::array<float, 256>& light_of_srgb8() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> light{};
+    for (std::size_t value = 0; value < light.size(); ++value) {
+      light[value] = from_srgb(Eigen::Array3f::Constant(static_cast<float>(value) / 255))[0];
+    }
+    return light;
+  }();
+  return table;
+}
+
 }  // namespace crowdface

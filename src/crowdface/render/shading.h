@@ -48,5 +48,7 @@ std::array<std::uint8_t, 3> to_srgb8(const Light& light);
 Eigen::Array3f to_srgb(const Light& colour);
 /// The inverse, for colours chosen on a screen; each in [0, 1].
 Light from_srgb(const Eigen::Array3f& srgb);
+/// What from_srgb makes of each value of a channel of 8 bits.
+const std::array<float, 256>& light_of_srgb8();
 
 }  // namespace crowdface
