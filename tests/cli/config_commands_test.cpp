@@ -161,6 +161,16 @@ TEST(Plan, BuildsNoMeshesAndKeepsTheCache) {
   EXPECT_FALSE(fs::exists(folder / "dry"));
 }
 
+TEST(Plan, TellsAtOnceThatFarTooManyFacesAreAskedFor) {
+  SmallCrowd crowd;
+  crowd.count = 1'000'000;
+  crowd.more = "diversity: {min_distance: 0.06 mm, max_attempts: 100}\n";
+  const SmallCrowdFolder folder(crowd);
+  const Outcome outcome = crowdface(3, {"plan", folder.config().string()},
+                                    {"mm apart, not 1000000", "of 1000000 faces"});
+  EXPECT_LT(outcome.err.find("mm apart, not 1000000"), outcome.err.find("of 1000000 faces"));
+}
+
 TEST(Sheet, IsRemadeIdentical) {
   SmallCrowd crowd;
   crowd.contact_sheet = "{columns: 2, rows: 1, cell: 40}";

@@ -43,7 +43,7 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
         return;
       }
       crowd.add(std::move(found->face), std::move(found->point));
-      if (joined) joined(search.rejections().total());
+      if (joined) joined(search.rejections());
     }
   }
 }

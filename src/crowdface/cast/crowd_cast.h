@@ -35,7 +35,7 @@ struct CrowdCast {
 };
 
 /// Told after each sampled face; nothing if empty.
-/// \param thrown  candidates for it that were thrown away: many where the crowd is nearly full.
-using FaceJoined = std::function<void(std::uint64_t thrown)>;
+/// \param thrown  its candidates that were thrown away: many where the crowd is nearly full.
+using FaceJoined = std::function<void(const Rejections& thrown)>;
 
 }  // namespace crowdface

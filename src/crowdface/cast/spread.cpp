@@ -136,7 +136,7 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vect
     face.id = face_id(casting.name, index);
     face.index = index;
     crowd.add(std::move(face), pool.points[at]);
-    if (joined) joined(0);
+    if (joined) joined({});
   }
 }
 

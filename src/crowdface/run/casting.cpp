@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/capacity_forecast.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/sample_cells.h"
@@ -120,14 +121,47 @@ std::string asked_of(const Config& config, Reason reason) {
   return concat("believability.", name_of(reason));
 }
 
-/// Says early that a crowd may not get full: the last faces of one that will not take most of the time.
-/// \param thrown  candidates that were thrown away for the face that is number `cast`.
-bool tell_if_scarce(const Casting& casting, std::uint64_t cast, std::uint64_t thrown) {
-  if (thrown < static_cast<std::uint64_t>(casting.diversity.max_attempts) / 5) return false;
-  log_info(concat("faces are getting scarce: number ", cast, " of ", casting.count, " took ",
-                  thrown, " candidates; the crowd may need a smaller diversity.min_distance"));
-  return true;
-}
+/// Tells the user early, and once, that a crowd may not get full.
+class ScarcityWarning {
+ public:
+  explicit ScarcityWarning(const Casting& casting) : casting_(casting) {}
+
+  void face_joined(const Rejections& thrown) {
+    ++cast_;
+    if (foreseen_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
+    forecast_.add(thrown.count[static_cast<std::size_t>(Reason::kMinDistance)],
+                  static_cast<std::uint64_t>(casting_.diversity.candidates_for(cast_)));
+    const auto faces = forecast_.faces();
+    const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
+    if (faces && *faces < static_cast<double>(casting_.count)) {
+      foreseen_ = true;
+      log_warning(concat("roughly ", about(*faces),
+                         " faces, a third to three times as many, can be ",
+                         casting_.diversity.min_distance_mm, " mm apart, not ", casting_.count,
+                         ": a smaller diversity.min_distance fits more (crowdface plan --estimate "
+                         "tells which)"));
+    } else if (!scarce_ && thrown.total() >= attempts / 5) {
+      scarce_ = true;
+      log_info(concat("faces are getting scarce: number ", cast_, " of ", casting_.count, " took ",
+                      thrown.total(),
+                      " candidates; the crowd may need a smaller "
+                      "diversity.min_distance"));
+    }
+  }
+
+ private:
+  /// With one digit that counts: 3,480 is about 3,000.
+  static std::uint64_t about(double count) {
+    const double unit = std::pow(10, std::floor(std::log10(count)));
+    return static_cast<std::uint64_t>(std::round(count / unit) * unit);
+  }
+
+  const Casting& casting_;
+  CapacityForecast forecast_;
+  std::uint64_t cast_ = 0;
+  bool foreseen_ = false;
+  bool scarce_ = false;
+};
 
 /// What a user can change, most promising first.
 std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
@@ -273,12 +307,10 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   crowd.shortfall = hopeless_spread(casting, judge);
   if (!crowd.shortfall) {
     Progress progress("casting", casting.count);
-    std::uint64_t done = 0;
-    bool told = false;
-    crowd = cast_crowd(casting, judge, [&](std::uint64_t thrown) {
+    ScarcityWarning warning(casting);
+    crowd = cast_crowd(casting, judge, [&](const Rejections& thrown) {
       progress.step();
-      ++done;
-      told = told || tell_if_scarce(casting, done, thrown);
+      warning.face_joined(thrown);
     });
   }
   if (crowd.shortfall) {
