@@ -43,8 +43,9 @@ crowd 6
 heads 7
 pictures 8
 run 9
-cli 10
-crowdface 10'
+editor 10
+cli 11
+crowdface 11'
 
 # "file:line includer included" for every include of ours. The umbrella header, crowdface/crowdface.h, counts
 # as a module `crowdface`.

@@ -25,5 +25,6 @@ Run add_check(CLI::App& program);
 Run add_init(CLI::App& program);
 Run add_cache(CLI::App& program);
 Run add_wrap(CLI::App& program);
+Run add_edit(CLI::App& program);
 
 }  // namespace crowdface::cli

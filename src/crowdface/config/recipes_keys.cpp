@@ -5,6 +5,7 @@
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/hand_recipe.h"
 
 namespace crowdface {
 namespace {
@@ -133,17 +134,23 @@ const Keys<HandRecipe>& recipe_keys() {
   return keys;
 }
 
+std::optional<HandRecipe> read_recipe(const YamlNode& node, ConfigDraft& draft) {
+  HandRecipe recipe;
+  recipe.regions.resize(draft.config.region_names().size());
+  if (!read_keys(node, recipe_keys(), recipe, draft)) return std::nullopt;
+  return recipe;
+}
+
 }  // namespace
 
 void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node, "a list of recipes, [{id: …, target: …, regions: …}]");
   std::map<std::string, YamlPlace> places;
   for (const YamlNode& item : node.items) {
-    HandRecipe recipe;
-    recipe.regions.resize(config.region_names().size());
-    if (!read_keys(item, recipe_keys(), recipe, draft)) continue;
-    if (!recipe.id.empty()) check_id(item.find("id")->value, recipe.id, places, draft);
-    config.recipes.push_back(std::move(recipe));
+    std::optional<HandRecipe> recipe = read_recipe(item, draft);
+    if (!recipe) continue;
+    if (!recipe->id.empty()) check_id(item.find("id")->value, recipe->id, places, draft);
+    config.recipes.push_back(std::move(*recipe));
   }
 }
 
@@ -153,6 +160,22 @@ std::string write_recipes(const Config& config, const ConfigWriting& writing) {
     items.push_back(block_map(write_keys(recipe_keys(), recipe, writing)));
   }
   return block_list(items);
+}
+
+std::optional<HandRecipe> parse_hand_recipe(std::string_view text, const std::string& source,
+                                            const Config& config, Problems& problems) {
+  Complaints complaints;
+  ConfigDraft draft(complaints);
+  draft.config = config;
+  draft.heads_known = true;
+  std::optional<HandRecipe> recipe;
+  if (const auto node = parse_yaml(text, source, complaints)) recipe = read_recipe(*node, draft);
+  complaints.tell(problems);
+  return complaints.empty() ? std::move(recipe) : std::nullopt;
+}
+
+std::string format_hand_recipe(const HandRecipe& recipe, const Config& config) {
+  return block_map(write_keys(recipe_keys(), recipe, {config, {}}));
 }
 
 }  // namespace crowdface

@@ -118,19 +118,23 @@ void remove_others(const fs::path& folder, const std::set<std::string>& names) {
 
 }  // namespace
 
-std::optional<fs::path> find_gallery_page() {
-  std::error_code error;
-  fs::path folder;
+std::optional<fs::path> gallery_page_folder() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
   if (const char* chosen = std::getenv("CROWDFACE_GALLERY"); chosen != nullptr && *chosen != 0) {
-    folder = chosen;
-  } else {
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (error) return std::nullopt;
-    folder = program.parent_path().parent_path() / "share/crowdface/gallery";
+    return chosen;
   }
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return std::nullopt;
+  return program.parent_path().parent_path() / "share/crowdface/gallery";
+}
+
+std::optional<fs::path> find_gallery_page() {
+  const auto folder = gallery_page_folder();
+  if (!folder) return std::nullopt;
+  std::error_code error;
   for (const std::string_view file : kGalleryPageFiles) {
-    if (!fs::exists(folder / file, error)) return std::nullopt;
+    if (!fs::exists(*folder / file, error)) return std::nullopt;
   }
   return folder;
 }

@@ -14,8 +14,11 @@
 
 namespace crowdface {
 
-/// The folder of the gallery's page as it was built or installed (share/crowdface/gallery beside the
-/// program's bin; the environment's CROWDFACE_GALLERY, if set, instead), or nothing.
+/// Where pages lie once they are built or installed: share/crowdface/gallery beside the program's bin;
+/// the environment's CROWDFACE_GALLERY, if set, instead. Nothing if that cannot be told.
+std::optional<std::filesystem::path> gallery_page_folder();
+
+/// The same folder if it holds the gallery's page, or nothing.
 std::optional<std::filesystem::path> find_gallery_page();
 
 /// Whether a crowd of this config gets a gallery here.

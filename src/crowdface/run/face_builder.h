@@ -24,6 +24,9 @@ class FaceBuilder {
   /// \param results  one for each recipe, #V by 3 in file units; their memory is used again.
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
 
+  /// The masks that faces are blended with: zero at vertices that parts put elsewhere.
+  const RegionWeights& regions() const { return regions_; }
+
   /// How much farther lips, or other skin that nearly touches, are apart in a face than in any head.
   double wider_mm(const Positions& face) const;
 

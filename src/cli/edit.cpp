@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/edit.h"
+
+#include <cstdlib>
+#include <iostream>
+
+#include <spawn.h>
+#include <unistd.h>
+
+#include "crowdface/core/text.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace crowdface::cli {
+namespace {
+
+struct Options : CommonOptions {
+  ConfigOptions config;
+  std::string port = "0", preview_vertices = "50000";
+  bool no_browser = false;
+};
+
+void declare(CLI::App& command, Options& options) {
+  options.config.add_to(command);
+  add_option(command, "--port", options.port, "N",
+             "The port on 127.0.0.1 to serve at; 0: any that is free");
+  add_option(command, "--preview-vertices", options.preview_vertices, "N",
+             "About how many vertices the page shows at most");
+  command.add_flag("--no-browser", options.no_browser, "Open no browser, print the address only");
+}
+
+/// Opens the browser where there is a screen to show it on; whether that worked the user sees.
+void open_browser(const std::string& address) {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  std::string program = "xdg-open", argument = address;
+  char* const arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ);
+}
+
+void edit(const Options& options) {
+  constexpr std::uint64_t kLargestPort = 65535, kMostVertices = 10'000'000;
+  EditOptions edited;
+  edited.cache = options.config.cache_path();
+  edited.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
+  edited.preview_vertices =
+      whole_number("--preview-vertices", options.preview_vertices, 100, kMostVertices);
+  crowdface::edit(options.config.config, options.config.overrides, edited,
+                  [&](const std::string& address) {
+                    print(concat(address, '\n'));
+                    std::cout.flush();
+                    if (!options.no_browser) open_browser(address);
+                  });
+}
+
+}  // namespace
+
+Run add_edit(CLI::App& program) {
+  return add_command(program, "edit", "Direct faces by hand, in a page of this machine's browser",
+                     declare, edit);
+}
+
+}  // namespace crowdface::cli

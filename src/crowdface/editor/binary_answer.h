@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <nlohmann/json.hpp>
+
+namespace crowdface {
+
+/// What the page gets as arrays: a uint32 length of a JSON head, the head (padded with blanks, so that
+/// data begins at a multiple of four bytes), then the arrays that its `arrays` lists, each padded to
+/// four bytes. All numbers are little-endian.
+class BinaryAnswer {
+ public:
+  nlohmann::ordered_json head = nlohmann::ordered_json::object();
+
+  template <class T>
+  void add(std::string_view name, std::span<const T> values) {
+    static_assert(std::endian::native == std::endian::little);
+    add(name, type_of<T>(), values.size(),
+        {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  }
+  std::string bytes() const;
+
+ private:
+  template <class T>
+  static constexpr std::string_view type_of() {
+    if constexpr (std::is_same_v<T, float>) return "f32";
+    if constexpr (std::is_same_v<T, std::uint32_t>) return "u32";
+    if constexpr (std::is_same_v<T, std::int16_t>) return "i16";
+    if constexpr (std::is_same_v<T, std::uint8_t>) return "u8";
+  }
+  void add(std::string_view name, std::string_view type, std::size_t count, std::string_view bytes);
+
+  nlohmann::ordered_json arrays_ = nlohmann::ordered_json::array();
+  std::string data_;
+};
+
+}  // namespace crowdface

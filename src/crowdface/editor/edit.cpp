@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/edit.h"
+
+#include <system_error>
+
+#include "crowdface/core/interrupt.h"
+#include "crowdface/editor/edit_api.h"
+
+namespace crowdface {
+namespace {
+
+/// A crowd's folder stands for the config in it, whose faces go there.
+Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
+                    const std::filesystem::path& cache) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(given, ignored)) return load_job(given, overrides, cache);
+  if (!overrides.out) overrides.out = given.string();
+  return load_job(CrowdDirectory{given}.config(), overrides, cache);
+}
+
+}  // namespace
+
+void edit(const std::filesystem::path& job, const ConfigOverrides& overrides,
+          const EditOptions& options, const std::function<void(const std::string&)>& started) {
+  EditSession session(load_edited_job(job, overrides, options.cache), options.cache,
+                      options.preview_vertices);
+  EditApi api(session);
+  LocalServer server([&](const HttpRequest& request) { return api.answer(request); }, options.port);
+  started(server.address());
+  server.run(interrupted);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "crowdface/config/config_reader.h"
+
+namespace crowdface {
+
+struct EditOptions {
+  std::filesystem::path cache;  ///< folder of prepared heads
+  int port = 0;                 ///< 0: any that is free
+  std::size_t preview_vertices = 50'000;
+};
+
+/// Serves the editor of a crowd until a signal asks to end.
+/// \param job      a config, or the folder of a crowd
+/// \param started  is given the address once the page can be opened
+/// \throws Error
+void edit(const std::filesystem::path& job, const ConfigOverrides& overrides,
+          const EditOptions& options, const std::function<void(const std::string&)>& started);
+
+}  // namespace crowdface

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/recipe_json.h"
+
+#include <algorithm>
+
+#include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/config/hand_recipe.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Whether the weights are just what a position gives.
+bool comes_from_position(const RegionRecipe& region, Index target, const Casting& casting) {
+  return region.position &&
+         weights_at(casting.anchors, target, casting.sampling.sources, *region.position,
+                    casting.normalization, casting.sampling.max_sources) == region.weights;
+}
+
+Json region_to_json(const RegionRecipe& region, Index target, const Casting& casting,
+                    const std::vector<std::string>& heads) {
+  Json json;
+  // Weights of nothing, as a printed normalisation may have, cannot be spelled out.
+  if (comes_from_position(region, target, casting) || region.weights.empty()) {
+    const PlanePoint at = region.position.value_or(PlanePoint::Zero());
+    json["position"] = {at.x(), at.y()};
+  } else {
+    for (const SourceWeight& source : region.weights) {
+      json["weights"][heads[static_cast<std::size_t>(source.head)]] = source.weight;
+    }
+  }
+  if (iterations_of(region.smoothness, casting.scale) == region.iterations) {
+    json["smoothness"] = region.smoothness;
+  } else {
+    json["iterations"] = region.iterations;
+  }
+  json["extrapolation"] = region.extrapolation;
+  return json;
+}
+
+/// \throws UsageError if it is no mixture of heads.
+std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
+  const std::vector<std::string>& names = config.faces.names;
+  std::vector<SourceWeight> shares;
+  double sum = 0;
+  for (const auto& [name, share] : json.items()) {
+    const auto head = std::find(names.begin(), names.end(), name);
+    if (head == names.end()) {
+      throw UsageError(concat("mixture: no head is called ", quoted(name)));
+    }
+    const double value = share.is_number() ? share.get<double>() : -1;
+    if (!(value >= 0 && value <= kLargestWeight)) {
+      throw UsageError(concat("mixture.", name, ": expected a number from 0"));
+    }
+    shares.push_back({static_cast<Index>(head - names.begin()), value});
+    sum += value;
+  }
+  if (!(sum > 0)) throw UsageError("mixture: expected shares of heads, one above 0");
+  // Shares that sum to one stay as they are, to the bit.
+  constexpr double kRounding = 1e-12;
+  if (std::abs(sum - 1) > kRounding) return normalized_weights(std::move(shares));
+  std::erase_if(shares, [](const SourceWeight& share) { return share.weight == 0; });
+  std::sort(shares.begin(), shares.end(),
+            [](const auto& a, const auto& b) { return a.head < b.head; });
+  return shares;
+}
+
+}  // namespace
+
+Json recipe_to_json(const CastFace& face, const Casting& casting, const Config& config) {
+  const std::vector<std::string>& heads = config.faces.names;
+  Json json;
+  json["id"] = face.id;
+  json["target"] = heads[static_cast<std::size_t>(face.recipe.target)];
+  for (const SourceWeight& part : face.recipe.mixture) {
+    json["mixture"][heads[static_cast<std::size_t>(part.head)]] = part.weight;
+  }
+  json["regions"] = Json::object();
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    json["regions"][casting.region_names[k]] =
+        region_to_json(face.recipe.regions[k], face.recipe.target, casting, heads);
+  }
+  return json;
+}
+
+HandRecipe hand_recipe_of_json(const Json& recipe, const Config& config) {
+  if (!recipe.is_object()) throw UsageError("recipe: expected a mapping");
+  Problems problems;
+  auto hand = parse_hand_recipe(recipe.dump(), "recipe", config, problems);
+  problems.throw_if_any();
+  return std::move(*hand);
+}
+
+CastFace face_of_json(const Json& recipe, const Casting& casting, const Config& config) {
+  Json entry = recipe;
+  std::vector<SourceWeight> mixture;
+  if (entry.is_object() && entry.contains("mixture")) {
+    mixture = read_mixture(entry["mixture"], config);
+    entry.erase("mixture");
+  }
+  HandRecipe hand = hand_recipe_of_json(entry, config);
+  if (!hand.age) hand.age = Range{0, 0};
+  CastFace face = draw_hand_recipe(casting, hand);
+  if (!mixture.empty()) set_target(face.recipe, std::move(mixture));
+  return face;
+}
+
+}  // namespace crowdface
