@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the gallery: node build.mjs FOLDER writes index.html, gallery.css and gallery.js there.
+// Bundles the pages: node build.mjs FOLDER writes the gallery (index.html, gallery.js, gallery.css) and
+// the editor (editor.html, editor.js, editor.css) there.
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -10,15 +11,26 @@ const folder = process.argv[2];
 if (!folder) throw new Error('usage: node build.mjs FOLDER');
 mkdirSync(folder, { recursive: true });
 await build({
-  entryPoints: [join(here, 'src/main.js')],
-  outfile: join(folder, 'gallery.js'),
+  entryPoints: {
+    gallery: join(here, 'src/main.js'),
+    editor: join(here, 'src/editor/main.js'),
+  },
+  outdir: folder,
   bundle: true,
   minify: true,
   format: 'iife', // classic: pages opened from disk load no modules
   target: 'es2020',
-  legalComments: 'none', // three.LICENSE.txt stands beside the bundle
+  legalComments: 'none', // three.LICENSE.txt stands beside the bundles
   logLevel: 'warning',
 });
-copyFileSync(join(here, 'index.html'), join(folder, 'index.html'));
-copyFileSync(join(here, 'src/gallery.css'), join(folder, 'gallery.css'));
+await build({
+  entryPoints: {
+    gallery: join(here, 'src/gallery.css'),
+    editor: join(here, 'src/editor/editor.css'),
+  },
+  outdir: folder,
+  bundle: true,
+  logLevel: 'warning',
+});
+for (const page of ['index.html', 'editor.html']) copyFileSync(join(here, page), join(folder, page));
 copyFileSync(join(here, 'node_modules/three/LICENSE'), join(folder, 'three.LICENSE.txt'));

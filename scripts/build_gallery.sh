@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Fetches the packages of gallery/package.json, among them those that tests need, and bundles the gallery's
-# page (gallery/, with three.js) for the program of a preset. Silent when nothing has changed since the
-# last time; needs node and npm.
+# Fetches the packages of gallery/package.json, among them those that tests need, and bundles the pages of
+# gallery and editor (gallery/, with three.js) for the program of a preset. Silent when nothing has changed
+# since the last time; needs node and npm.
 #
 #   scripts/build_gallery.sh PRESET      into build/PRESET/share/crowdface/gallery
 set -euo pipefail
@@ -14,8 +14,8 @@ place=build/$preset/share/crowdface/gallery
 fetched() {
   cmp -s gallery/package-lock.json "$work/package-lock.json" && [ -d "$work/node_modules/three" ]
 }
-state=$(cat gallery/package-lock.json gallery/build.mjs gallery/index.html gallery/src/* | cksum)
-fetched && [ -f "$place/gallery.js" ] && [ "$(cat "$place/.state" 2>/dev/null)" = "$state" ] && exit 0
+state=$(cat gallery/package-lock.json gallery/build.mjs gallery/*.html gallery/src/*.* gallery/src/editor/* | cksum)
+fetched && [ -f "$place/editor.js" ] && [ "$(cat "$place/.state" 2>/dev/null)" = "$state" ] && exit 0
 command -v node >/dev/null && command -v npm >/dev/null || {
   echo "node and npm are needed for the gallery: apt-get install nodejs npm" >&2
   exit 69
@@ -33,7 +33,7 @@ if ! fetched; then
   }
 fi
 rm -rf "$work/src"
-cp -r gallery/build.mjs gallery/index.html gallery/src "$work/"
+cp -r gallery/build.mjs gallery/*.html gallery/src "$work/"
 node "$work/build.mjs" "$place"
 echo "$state" >"$place/.state"
-echo "gallery's page in $place"
+echo "pages of gallery and editor in $place"

@@ -6,7 +6,38 @@ import { picture } from './grid.js';
 const colours = ['#56b4e9', '#e69f00', '#3fbf96', '#d98cb8', '#f0e442', '#5a8fd6', '#e07b4f',
   '#a8c686', '#b79be0', '#8fd3d1', '#d6c3a5', '#c7667f'];
 const markColours = { keep: '#86bd92', reject: '#d17a6e' };
-const side = 460;
+export const side = 460;
+
+/// How a square of `side` shows the part of the plane that holds these points with some room around
+/// them, and the way back.
+export function planeFrame(points, room = 1.16) {
+  const xs = points.map((p) => p[0]);
+  const ys = points.map((p) => p[1]);
+  const low = [Math.min(...xs), Math.min(...ys)];
+  const high = [Math.max(...xs), Math.max(...ys)];
+  const half = Math.max(high[0] - low[0], high[1] - low[1], 1e-9) / 2 * room;
+  const centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
+  const middle = side / 2;
+  return {
+    at: (p) => [middle + ((p[0] - centre[0]) / half) * middle, middle - ((p[1] - centre[1]) / half) * middle],
+    back: ([x, y]) => [centre[0] + ((x - middle) / middle) * half, centre[1] - ((y - middle) / middle) * half],
+  };
+}
+
+/// A head's picture in a ring, drawn around the origin.
+export function anchorMark(head, radius = 17) {
+  const id = `clip ${head.name} ${Math.random()}`.replace(/[^\w]/g, '_');
+  const size = 2 * radius + 4;
+  const children = head.picture
+    ? [el('clipPath', { id }, el('circle', { r: radius })),
+      el('image', {
+        href: head.picture, x: -size / 2, y: -size / 2, width: size, height: size,
+        preserveAspectRatio: 'xMinYMid slice', 'clip-path': `url(#${id})`,
+      })]
+    : [];
+  return el('g', { class: 'anchor' }, ...children, el('circle', { r: radius }),
+    el('text', { y: radius + 11 }, head.name));
+}
 
 /// Where every face lies on the weight plane, one picture a region.
 export class Plane {
@@ -20,22 +51,10 @@ export class Plane {
     this.build();
   }
 
-  frame() {
-    const points = this.crowd.heads.map((head) => head.anchor).concat(
-      this.crowd.faces.flatMap((face) => Object.values(face.regions).map((region) => region.position)
-        .filter(Boolean)));
-    const xs = points.map((p) => p[0]);
-    const ys = points.map((p) => p[1]);
-    const low = [Math.min(...xs), Math.min(...ys)];
-    const high = [Math.max(...xs), Math.max(...ys)];
-    const half = Math.max(high[0] - low[0], high[1] - low[1], 1e-9) / 2 * 1.16;
-    const centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
-    return (p) => [side / 2 + ((p[0] - centre[0]) / half) * (side / 2),
-      side / 2 - ((p[1] - centre[1]) / half) * (side / 2)];
-  }
-
   build() {
-    const at = this.frame();
+    const { at } = planeFrame(this.crowd.heads.map((head) => head.anchor).concat(
+      this.crowd.faces.flatMap((face) => Object.values(face.regions).map((region) => region.position)
+        .filter(Boolean))));
     const choose = el('select', { onchange: () => this.recolour(choose.value) },
       el('option', { value: 'target' }, 'target'), el('option', { value: 'family' }, 'family'),
       el('option', { value: 'mark' }, 'mark'));
@@ -66,23 +85,11 @@ export class Plane {
       this.dots.get(face.id).push(dot);
       dots.append(dot);
     }
-    const heads = el('g', {}, this.crowd.heads.map((head) => this.anchor(head, at(head.anchor))));
+    const heads = el('g', {}, this.crowd.heads.map((head) =>
+      el('g', { transform: `translate(${at(head.anchor)})` }, anchorMark(head))));
     return el('figure', {}, el('figcaption', {}, name,
       missing > 0 ? el('small', {}, ` · ${missing} ${missing === 1 ? 'has' : 'have'} no place on the plane`) : null),
     el('svg', { viewBox: `0 0 ${side} ${side}` }, heads, dots));
-  }
-
-  anchor(head, [x, y]) {
-    const id = `clip ${head.name} ${Math.random()}`.replace(/[^\w]/g, '_');
-    const children = head.picture
-      ? [el('clipPath', { id }, el('circle', { cx: x, cy: y, r: 17 })),
-        el('image', {
-          href: head.picture, x: x - 19, y: y - 19, width: 38, height: 38,
-          preserveAspectRatio: 'xMinYMid slice', 'clip-path': `url(#${id})`,
-        })]
-      : [];
-    return el('g', { class: 'anchor' }, ...children, el('circle', { cx: x, cy: y, r: 17 }),
-      el('text', { x, y: y + 28 }, head.name));
   }
 
   recolour(by) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys, what goes back into the crowd, and the run of the whole crowd.
+import { el } from '../dom.js';
+import { getJson, post } from './api.js';
+
+export function openDialog(title, ...children) {
+  const dialog = el('dialog', { 'aria-label': title, onclose: () => dialog.remove() },
+    el('header', {}, el('h2', {}, title), el('span', { class: 'grow' }),
+      el('button', { class: 'plain', onclick: () => dialog.close(), 'aria-label': 'Close' }, '✕')), children);
+  document.body.append(dialog);
+  dialog.showModal();
+  return dialog;
+}
+
+export function showKeys(keys) {
+  openDialog('Keys', el('dl', { class: 'keys' }, keys.map(([key, does]) =>
+    [el('dt', {}, el('kbd', {}, key)), el('dd', {}, does)])));
+}
+
+/// Puts the face back: into the config, or as what is said about a face of the crowd.
+export function showPutBack(editor) {
+  const { face } = editor.document;
+  const note = el('textarea', { rows: 2, placeholder: 'Note', 'aria-label': 'Note' });
+  const locked = editor.lockedNames();
+  const review = (verdict, lock) => editor.attempt(async () => {
+    await post('review', { face, verdict, lock, note: note.value });
+    dialog.close();
+    editor.say(`The review says of ${face}: ${verdict ?? `keep ${lock.join(', ')}`}.`);
+  });
+  const dialog = openDialog('Put back',
+    el('section', {}, el('h3', {}, 'Into the config'),
+      el('p', { class: 'muted' }, `As ${editor.document.recipe.id} under recipes, comments and order kept.`),
+      el('button', {
+        class: 'export', onclick: () => editor.attempt(async () => {
+          await post('recipes', { recipe: editor.wire() });
+          dialog.close();
+          editor.say(`${editor.document.recipe.id} stands under recipes in the config.`);
+        }),
+      }, 'Put it under recipes')),
+    editor.job.crowd ? el('section', {}, el('h3', {}, 'As a review'),
+      face ? [el('p', { class: 'muted' }, `What the next run does with ${face}.`), note,
+        el('div', { class: 'choices' },
+          el('button', { onclick: () => review('keep', []) }, 'Keep'),
+          el('button', { onclick: () => review('reject', []) }, 'Reject'),
+          el('button', {
+            disabled: locked.length === 0, title: 'Lock the regions that are good first',
+            onclick: () => review(null, locked),
+          }, locked.length > 0 ? `Draw anew but for ${locked.join(', ')}` : 'Draw anew but for locked regions'))]
+        : el('p', { class: 'muted' }, 'Open a face of the crowd first.')) : null);
+}
+
+function duration(seconds) {
+  if (!Number.isFinite(seconds)) return '';
+  if (seconds < 90) return `${Math.round(seconds)} s`;
+  return `${Math.round(seconds / 60)} min`;
+}
+
+/// Sends the crowd to generate, and tells how far it is for as long as the dialog stands open.
+export function showGenerate(editor) {
+  const bar = el('progress', { max: 1, value: 0, 'aria-label': 'Progress' });
+  const text = el('p', { role: 'status' }, '');
+  const begin = el('button', {
+    class: 'export', onclick: () => editor.attempt(async () => {
+      await post('generate', {});
+      await look();
+    }),
+  }, 'Generate the crowd');
+  const stop = el('button', { onclick: () => editor.attempt(() => post('generate/stop', {})) }, 'Stop');
+  let timer = null;
+  async function look() {
+    const run = await getJson('generate');
+    const running = run.state === 'running';
+    bar.max = run.total || 1;
+    bar.value = run.done || 0;
+    text.textContent = running
+      ? `${run.done} of ${run.total}${Number.isFinite(run.eta_s) ? `, ${duration(run.eta_s)} left` : ''} ${run.message ?? ''}`
+      : run.message || (run.state === 'idle' ? '' : run.state);
+    begin.disabled = running;
+    stop.disabled = !running;
+    clearTimeout(timer);
+    if (running) timer = setTimeout(() => editor.attempt(look), 700);
+  }
+  const dialog = openDialog('The whole crowd',
+    el('p', { class: 'muted' }, 'Runs crowdface generate with the config as it stands on disk.'),
+    bar, text, el('div', { class: 'choices' }, begin, stop));
+  dialog.addEventListener('close', () => clearTimeout(timer));
+  editor.attempt(look);
+}

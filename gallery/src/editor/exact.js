@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program's own face, asked for when the mouse rests.
+import { postForBinary } from './api.js';
+
+const rest = 60; // ms
+
+export class Exact {
+  /// \param show  is called with (face, document) for the newest document alone; \param fail  with an error.
+  constructor({ show, fail, waiting }) {
+    Object.assign(this, { show, fail, waiting, turn: 0, page: crypto.randomUUID() });
+  }
+
+  /// \param document  what stands on the page; \param recipe  the same as the program reads it.
+  ask(document, recipe) {
+    clearTimeout(this.timer);
+    this.running?.abort();
+    this.running = null;
+    this.waiting(true);
+    this.timer = setTimeout(() => this.send(document, recipe), rest);
+  }
+
+  async send(document, recipe) {
+    this.turn += 1;
+    const { turn } = this;
+    const running = new AbortController();
+    this.running = running;
+    const began = performance.now();
+    try {
+      const face = await postForBinary('face', {
+        recipe, measure: true, page: this.page, turn,
+      }, running.signal);
+      if (turn !== this.turn || this.running !== running) return;
+      this.running = null;
+      this.show({ ...face, round_trip_ms: performance.now() - began }, document);
+      this.waiting(false);
+    } catch (error) {
+      if (error.name === 'AbortError' || this.running !== running) return;
+      this.running = null;
+      this.fail(error);
+    }
+  }
+}

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+// The face in 3D: blended on the card or on the processor, whichever a measurement finds faster,
+// shown with its surfaces' colours, a texture, its distance to the target, or its regions.
+import {
+  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Sphere,
+  SRGBColorSpace, TextureLoader, Vector3, Vector4,
+} from 'three';
+import { linearColours, paintEyes, skinMaterial, Stage } from '../stage.js';
+import { CardBlend, fitsOnCard } from './card_blend.js';
+import { draftMaterial } from './draft_material.js';
+import { ProcessorBlend } from './processor_blend.js';
+import { fetchVertex } from './surface.js';
+
+const shows = ['surface', 'texture', 'distance', 'regions'];
+
+/// Viridis, by Smith and van der Walt, at six steps: dark is near, light is far.
+export const distanceColours = ['#440154', '#414487', '#2a788e', '#22a884', '#7ad151', '#fde725'];
+
+/// Whether the browser draws without a graphics card.
+function drawsInSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+/// Points and normals come from the blend's textures in place of attributes.
+function fetchFace(material, uniforms) {
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', `#include <common>
+        uniform highp sampler2D facePoints, faceNormals;
+        attribute vec3 regionColour;
+        varying float vMoved;
+        varying vec3 vRegion;
+        ${fetchVertex}`)
+      .replace('#include <beginnormal_vertex>', `
+        vec3 objectNormal = texelFetch(faceNormals, texelOf(gl_VertexID, faceNormals), 0).xyz;`)
+      .replace('#include <begin_vertex>', `
+        vec4 facePoint = texelFetch(facePoints, texelOf(gl_VertexID, facePoints), 0);
+        vec3 transformed = facePoint.xyz;
+        vMoved = facePoint.w;
+        vRegion = regionColour;`);
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', `#include <common>
+        uniform int faceShow;
+        uniform float farthest;
+        uniform vec3 distanceColours[${distanceColours.length}];
+        varying float vMoved;
+        varying vec3 vRegion;`)
+      .replace('#include <color_fragment>', `#include <color_fragment>
+        if (faceShow == 2) {
+          float x = clamp(vMoved / farthest, 0.0, 1.0) * ${distanceColours.length - 1}.0;
+          int low = min(int(x), ${distanceColours.length - 2});
+          diffuseColor.rgb = mix(distanceColours[low], distanceColours[low + 1], x - float(low));
+        } else if (faceShow == 3) {
+          diffuseColor.rgb = mix(diffuseColor.rgb, vRegion, 0.72);
+        }`);
+  };
+}
+
+export class HeadView extends Stage {
+  /// \param job  of the server; \param mesh  api/mesh.
+  constructor(job, mesh) {
+    const software = drawsInSoftware();
+    super({ pan: true, antialias: !software });
+    Object.assign(this, { job, mesh, software, show: 'surface', showMm: 6, textures: new Map(), loaded: [] });
+    this.uniforms = {
+      facePoints: { value: null },
+      faceNormals: { value: null },
+      faceShow: { value: 0 },
+      farthest: { value: this.showMm / job.mm_per_unit },
+      distanceColours: { value: distanceColours.map((hex) => new Color(hex)) },
+    };
+    this.blender = new ProcessorBlend(mesh, job.regions.length);
+    this.geometry = this.makeGeometry();
+    this.material = skinMaterial();
+    fetchFace(this.material, this.uniforms);
+    if (mesh.eyes) paintEyes(this.material, this.geometry, mesh.eyes, mesh);
+    this.draft = software ? draftMaterial(this.uniforms, mesh.eyes ? mesh : null) : null;
+    this.object = new Mesh(this.geometry, this.material);
+    this.object.frustumCulled = false;
+    const lines = new MeshBasicMaterial({
+      color: 0x101214, wireframe: true, transparent: true, opacity: 0.55, side: DoubleSide, toneMapped: false,
+    });
+    fetchFace(lines, this.uniforms);
+    this.material.polygonOffset = true;
+    this.material.polygonOffsetFactor = 1;
+    this.material.polygonOffsetUnits = 1;
+    this.lines = new Mesh(this.geometry, lines);
+    this.lines.frustumCulled = false;
+    this.lines.visible = false;
+    this.group.add(this.object, this.lines);
+    this.stand({ up: job.up, front: job.front, box: [mesh.low, mesh.high] });
+    this.take(this.blender);
+    this.fullRatio = Math.min(devicePixelRatio, 2);
+    this.ratio = this.fullRatio;
+    this.draftRatio = this.fullRatio;
+    this.controls.addEventListener('start', () => this.setMoving(true));
+    this.controls.addEventListener('end', () => this.setMoving(false));
+    this.view('front');
+  }
+
+  makeGeometry() {
+    const { mesh } = this;
+    const geometry = new BufferGeometry();
+    geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
+    geometry.setAttribute('color', new BufferAttribute(linearColours(mesh.colours), 3));
+    if (mesh.uv) geometry.setAttribute('uv', new BufferAttribute(mesh.uv, 2));
+    // Wireframes and bounds are made from positions; what is drawn comes from the textures.
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * mesh.vertices), 3));
+    geometry.boundingSphere = new Sphere(new Vector3(), 1e6);
+    this.colourRegions(geometry);
+    return geometry;
+  }
+
+  colourRegions(geometry = this.geometry) {
+    const { mesh, job } = this;
+    const count = job.regions.length;
+    const colours = job.regions.map((region) => new Color(region.colour));
+    const mixed = new Float32Array(3 * mesh.vertices);
+    for (let v = 0; v < mesh.vertices; v += 1) {
+      for (let k = 0; k < count; k += 1) {
+        const alpha = mesh.alpha[v * count + k];
+        mixed[3 * v] += alpha * colours[k].r;
+        mixed[3 * v + 1] += alpha * colours[k].g;
+        mixed[3 * v + 2] += alpha * colours[k].b;
+      }
+    }
+    geometry.setAttribute('regionColour', new BufferAttribute(mixed, 3));
+  }
+
+  take(blender) {
+    this.blender = blender;
+    this.uniforms.facePoints.value = blender.pointTexture;
+    this.uniforms.faceNormals.value = blender.normalTexture;
+  }
+
+  setHead(h, head) {
+    this.loaded[h] = head;
+    this.blender.setHead?.(h, head);
+  }
+
+  /// Once all heads are there: measures a change of the first region on both, and takes the faster.
+  /// \param change  (strength) => [lists, shares]: coefficients that differ from call to call.
+  chooseBlend(change) {
+    if (!fitsOnCard(this.renderer, this.job.regions.length, this.loaded)) return;
+    const processor = this.blender;
+    let card;
+    try {
+      card = new CardBlend(this.renderer, this.mesh, this.job.regions.length, this.loaded);
+    } catch {
+      return; // the card holds less than it says: the processor goes on
+    }
+    const time = (blender) => {
+      const pixel = new Uint8Array(4);
+      const gl = this.renderer.getContext();
+      const times = [];
+      for (let i = 0; i < 5; i += 1) {
+        const [lists, shares] = change(1 + 0.001 * i);
+        const began = performance.now();
+        this.take(blender);
+        blender.blend(lists, shares);
+        this.draw();
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits for the card
+        times.push(performance.now() - began);
+      }
+      return times.slice(1).sort((a, b) => a - b)[1];
+    };
+    this.setMoving(true);
+    this.measured = { processor: time(processor), card: time(card) };
+    this.setMoving(false);
+    if (this.measured.card < this.measured.processor) {
+      this.take(card);
+    } else {
+      this.take(processor);
+      card.dispose();
+    }
+  }
+
+  /// \param exact  the program's own face of it, or nothing: then what its last one had is kept.
+  blend(lists, shares, exact = null) {
+    this.blender.blend(lists, shares);
+    if (exact) this.blender.settle(exact.positions, exact.normals);
+    this.draw();
+  }
+
+  /// While something moves, what draws without a card leaves gloss away, and pixels where that is
+  /// not enough.
+  setMoving(on) {
+    if (!this.software || this.moving === on) return;
+    this.moving = on;
+    this.last = null;
+    this.object.material = on ? this.draft : this.material;
+    this.setRatio(on ? this.draftRatio : this.fullRatio);
+    this.draw();
+  }
+
+  setRatio(ratio) {
+    this.ratio = ratio;
+    this.renderer.setPixelRatio(ratio);
+  }
+
+  draw() {
+    if (!this.object) return;
+    super.draw();
+    if (!this.moving) return;
+    const now = performance.now();
+    const elapsed = now - (this.last ?? now);
+    this.last = now;
+    if (elapsed > 40 && elapsed < 400 && this.draftRatio > 0.4 * this.fullRatio) {
+      this.draftRatio *= 0.85;
+      this.setRatio(this.draftRatio);
+    }
+  }
+
+  setShow(show, mm = this.showMm) {
+    this.show = show;
+    this.showMm = mm;
+    this.uniforms.faceShow.value = shows.indexOf(show);
+    this.uniforms.farthest.value = mm / this.job.mm_per_unit;
+    this.material.vertexColors = show !== 'texture' && show !== 'distance';
+    if (show !== 'texture') this.material.map = null;
+    this.material.needsUpdate = true;
+    this.draw();
+  }
+
+  setWireframe(on) {
+    this.lines.visible = on;
+    this.draw();
+  }
+
+  /// Shows the texture of a head, loading it once.
+  async setTexture(h) {
+    this.setShow('texture');
+    this.wanted = h;
+    if (!this.textures.has(h)) {
+      this.textures.set(h, new TextureLoader().loadAsync(`api/heads/${h}/texture`).then((texture) => {
+        texture.colorSpace = SRGBColorSpace;
+        texture.anisotropy = 4;
+        return texture;
+      }));
+    }
+    const texture = await this.textures.get(h);
+    if (this.show !== 'texture' || this.wanted !== h) return;
+    this.material.map = texture;
+    if (this.draft) this.draft.uniforms.map.value = texture;
+    this.material.needsUpdate = true;
+    this.draw();
+  }
+
+  /// A small picture of what stands there, from the front.
+  picture(size = 160) {
+    const { camera, controls, renderer } = this;
+    const kept = {
+      position: camera.position.clone(), target: controls.target.clone(), size: renderer.getSize(new Vector3()),
+      ratio: renderer.getPixelRatio(), lines: this.lines.visible, viewport: renderer.getViewport(new Vector4()),
+    };
+    this.lines.visible = false;
+    renderer.setPixelRatio(1);
+    renderer.setSize(size, size, false);
+    camera.aspect = 1;
+    camera.updateProjectionMatrix();
+    controls.target.set(0, 0, 0);
+    camera.position.set(0, 0, 6.4);
+    controls.update();
+    super.draw();
+    const url = renderer.domElement.toDataURL('image/jpeg', 0.85);
+    this.lines.visible = kept.lines;
+    renderer.setPixelRatio(kept.ratio);
+    controls.target.copy(kept.target);
+    camera.position.copy(kept.position);
+    controls.update();
+    this.fit();
+    return url;
+  }
+
+  nearer(factor) {
+    const { camera, controls } = this;
+    const away = camera.position.clone().sub(controls.target);
+    away.setLength(Math.min(Math.max(away.length() * factor, controls.minDistance), controls.maxDistance));
+    camera.position.copy(controls.target).add(away);
+    controls.update();
+    this.draw();
+  }
+
+  /// Keys in place of the mouse: turns, or moves across.
+  arrow(key, across) {
+    const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key];
+    const { camera, controls } = this;
+    if (across) {
+      const right = new Vector3().setFromMatrixColumn(camera.matrix, 0).multiplyScalar(-0.06 * x);
+      const move = right.add(new Vector3().setFromMatrixColumn(camera.matrix, 1).multiplyScalar(-0.06 * y));
+      camera.position.add(move);
+      controls.target.add(move);
+      controls.update();
+    } else if (x !== 0) {
+      this.turn(-10 * x);
+    } else {
+      const away = camera.position.clone().sub(controls.target);
+      const axis = new Vector3(0, 1, 0).cross(away).normalize();
+      const steep = (Math.asin(away.y / away.length()) * 180) / Math.PI;
+      if (Math.abs(steep + 8 * y) < 85) away.applyAxisAngle(axis, (-8 * y * Math.PI) / 180);
+      camera.position.copy(controls.target).add(away);
+      controls.update();
+    }
+    this.draw();
+  }
+
+  /// Where the camera stands, to be kept.
+  place() {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+
+  restore(place) {
+    if (!Array.isArray(place) || place.length !== 6) return;
+    this.camera.position.fromArray(place);
+    this.controls.target.fromArray(place, 3);
+    this.controls.update();
+    this.draw();
+  }
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every step of an editor: undo, redo, states that are kept to compare with.
+
+const most = 400; // steps; some hundred bytes each
+
+export class History {
+  /// \param document  {recipe, anchors}: replaced by each step, never changed.
+  /// \param kept      what toJson() gave, or nothing.
+  constructor(document, kept) {
+    this.now = kept?.now ?? document;
+    this.label = kept?.label ?? '';
+    this.past = kept?.past ?? [];
+    this.future = kept?.future ?? [];
+    this.listeners = [];
+  }
+
+  toJson() {
+    const { now, label, past, future } = this;
+    return { now, label, past, future };
+  }
+
+  /// A step done. Steps of one kind that follow each other within a moment are one: keys that are
+  /// held down, a wheel that is turned.
+  commit(document, label, { joins = false, time = Date.now() } = {}) {
+    if (JSON.stringify(document) === JSON.stringify(this.now)) return;
+    const joined = joins && this.label === label && time - this.time < 800;
+    if (!joined) this.past.push({ document: this.now, label: this.label });
+    if (this.past.length > most) this.past.shift();
+    Object.assign(this, { now: document, label, time, future: [] });
+    this.tell();
+  }
+
+  undo() {
+    return this.step(this.past, this.future);
+  }
+
+  redo() {
+    return this.step(this.future, this.past);
+  }
+
+  step(from, to) {
+    if (from.length === 0) return false;
+    to.push({ document: this.now, label: this.label });
+    const { document, label } = from.pop();
+    Object.assign(this, { now: document, label, time: 0 });
+    this.tell();
+    return true;
+  }
+
+  tell() {
+    for (const listener of this.listeners) listener();
+  }
+}

@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of `crowdface edit`: one face, directed by hand.
+import { el, short } from '../dom.js';
+import { getBinary, getJson, post, postForBlob, put } from './api.js';
+import { showGenerate, showKeys, showPutBack } from './dialogs.js';
+import { Exact } from './exact.js';
+import { HeadView } from './head_view.js';
+import { History } from './history.js';
+import { PlaneBoard } from './plane_board.js';
+import { coefficients, headAlone, headIndex, targetShares, weightsOf, wire } from './recipe.js';
+import { RegionPanel } from './region_panel.js';
+import { Shelf } from './shelf.js';
+import { toolbar, viewBar } from './toolbar.js';
+
+const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
+
+class Editor {
+  constructor(job, mesh, state) {
+    this.job = job;
+    this.history = new History(this.fromWire(job.start), this.fits(state) ? state.history : null);
+    this.kept = this.fits(state) ? state.kept ?? [] : [];
+    this.linked = new Set(state?.linked ?? []);
+    this.locked = new Set(state?.locked ?? []);
+    this.look = { show: 'surface', wireframe: false, ...state?.look };
+    this.passing = null; // a document that is shown while something is dragged
+    this.comparing = null; // which kept state is shown
+    this.comparedWith = this.kept.length - 1;
+    this.heads = [];
+    this.exactOf = null;
+    this.view = new HeadView(job, mesh);
+    this.exact = new Exact({
+      show: (face, document) => this.showExact(face, document),
+      fail: (error) => this.say(error.message, true),
+      waiting: (waits) => this.status?.classList.toggle('waits', waits),
+    });
+    this.build();
+    this.history.listeners.push(() => this.stepped());
+    this.view.controls.addEventListener('end', () => this.remember());
+    addEventListener('keydown', (event) => this.key(event));
+    addEventListener('pagehide', () => this.keepNow(true));
+    new ResizeObserver(() => this.view.fit()).observe(this.stage);
+  }
+
+  /// Whether what was kept speaks of the heads and regions that there are.
+  fits(state) {
+    const known = (document) => headIndex(this.job, document?.recipe?.target) >= 0 &&
+      this.job.regions.every(({ name }) => document.recipe.regions[name]) &&
+      Object.keys(document.anchors ?? {}).every((name) => headIndex(this.job, name) >= 0) &&
+      Object.values(document.recipe.regions).every((region) =>
+        Object.keys(region.weights ?? {}).every((name) => headIndex(this.job, name) >= 0));
+    const documents = [state?.history?.now, ...(state?.history?.past ?? []).map((step) => step.document),
+      ...(state?.history?.future ?? []).map((step) => step.document), ...(state?.kept ?? []).map((entry) => entry.document)];
+    return Boolean(state?.history) && documents.every(known);
+  }
+
+  build() {
+    this.stage = el('div', { class: 'stage' }, this.view.node);
+    this.view.node.tabIndex = 0;
+    this.view.node.setAttribute('role', 'img');
+    this.view.node.setAttribute('aria-label', 'The face. Arrows turn it, Shift and arrows move it, + and − come near and go far.');
+    this.board = new PlaneBoard(this);
+    this.panel = new RegionPanel(this);
+    this.shelf = new Shelf(this);
+    this.tools = toolbar(this);
+    this.viewTools = viewBar(this);
+    this.status = el('div', { class: 'measures', role: 'status', 'aria-live': 'polite' });
+    this.message = el('div', { class: 'message', role: 'alert', hidden: true });
+    this.node = el('div', { class: 'editor' }, this.tools.node,
+      el('main', {},
+        el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.viewTools.node, this.status),
+        el('section', { class: 'middle', 'aria-label': 'The plane' }, this.board.node, this.shelf.node),
+        el('aside', { 'aria-label': 'Regions' }, this.panel.node)),
+      this.message);
+  }
+
+  // -- what is shown, and steps --
+
+  /// What the page speaks of: {recipe, anchors, face}, never changed in place.
+  get document() {
+    if (this.comparing !== null) return this.kept[this.comparing].document;
+    return this.passing ?? this.history.now;
+  }
+
+  /// Shows a document without making a step; nothing: what was there before.
+  preview(document) {
+    this.comparing = null;
+    this.passing = document;
+    this.refresh();
+  }
+
+  commit(document, label, options) {
+    this.comparing = null;
+    this.passing = null;
+    this.history.commit(document, label, options);
+    this.refresh();
+  }
+
+  undo() {
+    this.comparing = null;
+    this.passing = null;
+    if (!this.history.undo()) this.say('Nothing to undo.');
+  }
+
+  redo() {
+    this.comparing = null;
+    this.passing = null;
+    if (!this.history.redo()) this.say('Nothing to do again.');
+  }
+
+  stepped() {
+    this.refresh();
+    this.remember();
+  }
+
+  /// At most once a frame, whatever moves.
+  refresh() {
+    if (this.pending) return;
+    this.pending = requestAnimationFrame(() => {
+      this.pending = null;
+      this.blendNow();
+      this.board.show();
+      this.panel.show();
+      this.tools.show();
+      this.viewTools.show();
+      if (this.shelfShows !== this.comparing) {
+        this.shelfShows = this.comparing;
+        this.shelf.show();
+      }
+    });
+  }
+
+  blendNow() {
+    const { document } = this;
+    const shares = targetShares(this.job, document.recipe);
+    const key = shares.join();
+    if (key !== this.shares) {
+      if (shares.some((share, h) => share !== 0 && !this.heads[h])) return; // it comes with the head
+      this.shares = key;
+      this.view.blender.unsettle();
+      this.showTexture();
+    }
+    this.view.setMoving(this.passing !== null);
+    this.view.blend(...this.coefficientsOf(document));
+    if (this.exactOf !== document) {
+      this.exactOf = null;
+      this.exact.ask(document, wire(this.job, document));
+    }
+  }
+
+  /// What a blend takes of a document: coefficients by regions, and the target's shares.
+  coefficientsOf(document) {
+    return [coefficients(this.job, document, this.heads), targetShares(this.job, document.recipe)];
+  }
+
+  showExact(face, document) {
+    if (document !== this.document) return;
+    this.exactOf = document;
+    const shares = targetShares(this.job, document.recipe);
+    if (shares.some((share, h) => share !== 0 && !this.heads[h])) return;
+    this.view.blend(...this.coefficientsOf(document), face);
+    this.exactFace = face;
+    this.tell(face);
+  }
+
+  tell(face) {
+    const limits = this.job.limits ?? {};
+    const distance = (title, near, name, limit) => (near ? el('span', { class: near.mm < limit ? 'bad' : null },
+      `${title} `, el('b', {}, `${short(near.mm)} mm`), ` ${name}`) : null);
+    this.status.replaceChildren(...[
+      distance('nearest head', face.nearest_head, face.nearest_head?.name, limits.head_mm),
+      distance('nearest face', face.nearest_face, face.nearest_face?.id, limits.face_mm),
+      el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
+      ...(face.warnings ?? []).map((text) => el('p', { class: 'warning' }, text)),
+    ].filter(Boolean));
+  }
+
+  // -- regions --
+
+  /// The document with these regions changed: the named one, and those linked with it.
+  withRegions(name, change) {
+    const { document } = this;
+    const names = this.linked.has(name) ? [...this.linked] : [name];
+    const regions = { ...document.recipe.regions };
+    const changed = change(regions[name]);
+    for (const other of names) regions[other] = other === name ? changed : this.alike(changed, regions[other]);
+    return { ...document, recipe: { ...document.recipe, regions } };
+  }
+
+  /// Linked regions take the same values.
+  alike(region) {
+    return JSON.parse(JSON.stringify(region));
+  }
+
+  toggleIn(set, name) {
+    if (set.has(name)) set.delete(name);
+    else set.add(name);
+    this.refresh();
+    this.remember();
+  }
+
+  isLinked(name) { return this.linked.has(name); }
+  isLocked(name) { return this.locked.has(name); }
+  toggleLink(name) { this.toggleIn(this.linked, name); }
+  toggleLock(name) { this.toggleIn(this.locked, name); }
+  lockedNames() { return this.job.regions.map(({ name }) => name).filter((name) => this.locked.has(name)); }
+  focusRegion(name) { this.panel.focus(name); }
+
+  /// The heads that lend most, in percent.
+  weightText(name) {
+    return weightsOf(this.job, this.document, name)
+      .map((weight, h) => [this.job.heads[h].name, Math.round(100 * weight)])
+      .filter(([, percent]) => percent > 0).sort((a, b) => b[1] - a[1]).slice(0, 3)
+      .map(([head, percent]) => `${head} ${percent} %`).join(', ');
+  }
+
+  setTarget(name) {
+    const { document } = this;
+    if (document.recipe.target === name && !document.recipe.mixture) return;
+    const { mixture, ...recipe } = document.recipe;
+    this.commit({ ...document, recipe: { ...recipe, target: name } }, `target ${name}`);
+  }
+
+  /// All controllers that are not locked go to a head.
+  gather(name) {
+    let { document } = this;
+    const anchor = document.anchors?.[name] ?? this.job.heads[headIndex(this.job, name)].anchor;
+    const regions = { ...document.recipe.regions };
+    for (const region of this.job.regions) {
+      if (this.locked.has(region.name)) continue;
+      const { weights, ...rest } = regions[region.name];
+      regions[region.name] = { ...rest, position: [...anchor] };
+    }
+    document = { ...document, recipe: { ...document.recipe, regions } };
+    this.commit(document, `all on ${name}`);
+  }
+
+  // -- documents --
+
+  wire() {
+    return wire(this.job, this.document);
+  }
+
+  /// A recipe that the program told, as a document.
+  fromWire(told, face = null) {
+    const { id, target, mixture } = told;
+    const regions = Object.fromEntries(this.job.regions.map(({ name }) =>
+      [name, { smoothness: 0.5, extrapolation: 1, ...told.regions[name] }]));
+    for (const region of Object.values(regions)) if (region.iterations !== undefined) delete region.smoothness;
+    return { recipe: { id, target, ...(mixture ? { mixture } : {}), regions }, anchors: {}, ...(face ? { face } : {}) };
+  }
+
+  open(what) {
+    const [kind, name] = [what.slice(0, 4), what.slice(5)];
+    if (kind === 'face') {
+      const face = this.job.crowd.faces.find((entry) => entry.id === name);
+      this.commit(this.fromWire({ ...face, id: `${name}_edited` }, name), `${name} opened`);
+    } else if (kind === 'head') {
+      this.commit(headAlone(this.job, name, this.document.recipe.id), `${name} opened`);
+    }
+  }
+
+  /// The face before or after the one that is open.
+  walk(by) {
+    const faces = this.job.crowd?.faces ?? [];
+    if (faces.length === 0) return;
+    const at = faces.findIndex((face) => face.id === this.document.face);
+    this.open(`face ${faces[(at + by + faces.length) % faces.length].id}`);
+  }
+
+  rename(id) {
+    if (!namePattern.test(id)) {
+      this.say('A name has 1 to 64 letters, digits, _, - and ., and begins with no point.', true);
+      this.tools.show();
+      return;
+    }
+    const { document } = this;
+    this.commit({ ...document, recipe: { ...document.recipe, id } }, 'name');
+  }
+
+  pictureOf(document) {
+    const [lists, shares] = this.coefficientsOf(document);
+    const other = shares.join() !== this.shares;
+    if (other) this.view.blender.unsettle();
+    this.view.blender.blend(lists, shares);
+    const picture = this.view.picture();
+    if (other) this.shares = null;
+    this.exactOf = null;
+    this.refresh();
+    return picture;
+  }
+
+  /// Shows a kept state, or the face again.
+  compare(index = this.comparing === null ? this.comparedWith : null) {
+    if (index !== null && !this.kept[index]) {
+      this.say('Keep a face first (K).');
+      return;
+    }
+    this.passing = null;
+    this.comparing = index === this.comparing ? null : index;
+    if (this.comparing !== null) this.comparedWith = this.comparing;
+    this.refresh();
+  }
+
+  // -- the view --
+
+  setShow(show) {
+    this.look.show = show;
+    this.showTexture();
+    this.viewTools.show();
+    this.remember();
+  }
+
+  showTexture() {
+    const { show } = this.look;
+    if (!show.startsWith('texture')) {
+      this.view.setShow(show);
+      return;
+    }
+    const wanted = show === 'texture' ? headIndex(this.job, this.document.recipe.target) : Number(show.slice(8));
+    if (this.job.heads[wanted]?.texture) this.attempt(() => this.view.setTexture(wanted));
+    else this.view.setShow('surface');
+  }
+
+  cycleShow() {
+    const { values } = this.viewTools;
+    this.setShow(values[(values.indexOf(this.look.show) + 1) % values.length]);
+  }
+
+  setWireframe(on) {
+    this.look.wireframe = on;
+    this.view.setWireframe(on);
+    this.viewTools.show();
+    this.remember();
+  }
+
+  // -- the program --
+
+  /// Does something that may fail, and says why it did.
+  async attempt(act) {
+    try {
+      return await act();
+    } catch (error) {
+      this.say(error.message, true);
+      return null;
+    }
+  }
+
+  say(text, bad = false) {
+    clearTimeout(this.timer);
+    this.message.hidden = !text;
+    this.message.classList.toggle('bad', bad);
+    this.message.textContent = text ?? '';
+    if (text) this.timer = setTimeout(() => { this.message.hidden = true; }, bad ? 9000 : 5000);
+  }
+
+  async saveMesh(format) {
+    this.say('Saving …');
+    const { file } = await post('save', { recipe: this.wire(), format });
+    this.say(`Saved: ${file}`);
+  }
+
+  async savePicture() {
+    const angle = this.view.angle();
+    const nearest = [['front', 0], ['three_quarter', 35], ['profile', 90]]
+      .sort((a, b) => Math.abs(Math.abs(angle) - a[1]) - Math.abs(Math.abs(angle) - b[1]))[0][0];
+    const blob = await postForBlob('picture', { recipe: this.wire(), view: nearest, size: 1024 });
+    const link = el('a', { download: `${this.document.recipe.id}_${nearest}.png`, href: URL.createObjectURL(blob) });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    this.say(`A picture of the ${nearest.replace('_', '-')} view is saved beside the mesh.`);
+  }
+
+  putBack() { showPutBack(this); }
+  generate() { showGenerate(this); }
+
+  /// Keeps history, kept states and the view with the program, soon.
+  remember() {
+    clearTimeout(this.keeping);
+    this.keeping = setTimeout(() => this.keepNow(false), 250);
+  }
+
+  keepNow(leaving) {
+    clearTimeout(this.keeping);
+    const { kept, look } = this;
+    const state = {
+      history: this.history.toJson(), kept, look: { ...look, place: this.view.place() },
+      linked: [...this.linked], locked: [...this.locked],
+    };
+    put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
+  }
+
+  // -- heads --
+
+  /// The target's first, then the others; what is shown gets better with each.
+  async load() {
+    const shares = targetShares(this.job, this.document.recipe);
+    const order = this.job.heads.map((_, h) => h).sort((a, b) => shares[b] - shares[a]);
+    for (const h of order) {
+      const head = await getBinary(`heads/${h}`);
+      this.heads[h] = head;
+      this.view.setHead(h, head);
+      this.refresh();
+    }
+    const [{ name }] = this.job.regions;
+    this.view.chooseBlend((strength) => this.coefficientsOf(
+      this.withRegions(name, (region) => ({ ...region, extrapolation: strength }))));
+    this.shares = null;
+    this.exactOf = null;
+    this.ready = true;
+    this.refresh();
+  }
+
+  // -- keys --
+
+  help() {
+    showKeys([['Tab', 'from control to control'], ['arrows', 'move the controller, head or slider that has the focus; with Shift finer; on the face: turn it'],
+      ['Enter', 'on a head: make it the target'], ['1 2 3 …', 'the controller of that region'],
+      ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['K, B', 'keep, compare with what was kept'],
+      ['R, L, N', 'draw a face; six like this one; between two'], ['[ ]', 'faces of the crowd'],
+      ['F, Q, P', 'front, three-quarter, profile'], [', . + −', 'turn, come near, go far'],
+      ['W, C', 'wireframe; what the face shows'], ['Ctrl+S', 'save the mesh'], ['Esc', 'leave a field, close a list']]);
+  }
+
+  key(event) {
+    if (document.querySelector('dialog')) return;
+    const letter = event.key.toLowerCase();
+    if (event.ctrlKey || event.metaKey) {
+      const held = {
+        z: () => (event.shiftKey ? this.redo() : this.undo()), y: () => this.redo(),
+        s: () => this.attempt(() => this.saveMesh(this.tools.format.value)),
+      }[letter];
+      if (held && !event.target.matches('input[type=text], textarea')) {
+        held();
+        event.preventDefault();
+      }
+      return;
+    }
+    if (event.altKey) return;
+    if (event.target.matches('input:not([type=range]), textarea, select')) {
+      if (event.key === 'Escape') event.target.blur();
+      return;
+    }
+    const region = this.job.regions[Number(event.key) - 1];
+    const act = region ? () => this.board.focusHandle(region.name) : this.actOf(event, letter);
+    if (!act) return;
+    this.attempt(act);
+    event.preventDefault();
+  }
+
+  actOf(event, letter) {
+    const { view } = this;
+    if (event.target === view.node && event.key.startsWith('Arrow')) return () => view.arrow(event.key, event.shiftKey);
+    return {
+      k: () => this.shelf.keep(), b: () => this.compare(), r: () => this.shelf.draw(), l: () => this.shelf.offer(),
+      n: () => this.shelf.startTravel(), '[': () => this.walk(-1), ']': () => this.walk(1),
+      f: () => view.view('front'), q: () => view.view('three_quarter'), p: () => view.view('profile'),
+      ',': () => view.turn(-10), '.': () => view.turn(10), '+': () => view.nearer(0.85), '=': () => view.nearer(0.85),
+      '-': () => view.nearer(1 / 0.85), w: () => this.setWireframe(!this.look.wireframe), c: () => this.cycleShow(),
+      '?': () => this.help(), escape: () => this.closeAll(),
+    }[letter];
+  }
+
+  closeAll() {
+    this.shelf.closePicks();
+    if (!this.shelf.path.hidden) this.shelf.endTravel(false);
+    if (this.comparing !== null) this.compare(null);
+  }
+}
+
+async function start() {
+  const place = document.getElementById('page');
+  try {
+    const [job, mesh, state] = await Promise.all([getJson('job'), getBinary('mesh'), getJson('state').catch(() => null)]);
+    document.title = `${job.name} · crowdface edit`;
+    const editor = new Editor(job, mesh, state);
+    window.crowdface = { editor };
+    place.replaceWith(editor.node);
+    editor.view.fit();
+    editor.view.restore(editor.look.place);
+    editor.view.setWireframe(editor.look.wireframe);
+    editor.showTexture();
+    editor.refresh();
+    await editor.attempt(() => editor.load());
+  } catch (error) {
+    place.replaceChildren(el('p', { class: 'waiting' }, error.message));
+  }
+}
+
+start();

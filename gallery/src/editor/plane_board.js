@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane of Fig. 8: heads at their anchors, one controller a region, all to be dragged.
+import { el, short } from '../dom.js';
+import { anchorMark, planeFrame, side } from '../plane.js';
+import { anchorsOf, weightsOf } from './recipe.js';
+
+const ring = 20; // how far controllers at one place stand from it, so that each can be taken
+const still = 4; // pixels: below, a press is a click
+
+export class PlaneBoard {
+  /// \param editor  job, document, preview(document), commit(document, label, options), linked(name),
+  ///                setTarget(name), gather(head).
+  constructor(editor) {
+    this.editor = editor;
+    this.picked = null;
+    this.heads = el('g', {});
+    this.leads = el('g', {});
+    this.handles = el('g', {});
+    this.svg = el('svg', {
+      viewBox: `0 0 ${side} ${side}`, class: 'board', role: 'group', 'aria-label': 'Plane of heads and controllers',
+    }, this.heads, this.leads, this.handles);
+    this.node = el('div', { class: 'boardbox' }, this.svg);
+    this.headNodes = editor.job.heads.map((head, h) => this.headNode(head, h));
+    this.handleNodes = new Map(editor.job.regions.map((region) => [region.name, this.handleNode(region)]));
+    this.heads.append(...this.headNodes);
+    this.handles.append(...this.handleNodes.values());
+    this.frameAnew();
+    this.show();
+  }
+
+  /// The part of the plane that is seen; it stays while something is dragged.
+  frameAnew() {
+    const { job, document } = this.editor;
+    const points = [...anchorsOf(job, document.anchors),
+      ...job.regions.map(({ name }) => document.recipe.regions[name].position).filter(Boolean)];
+    this.frame = planeFrame(points, 1.28);
+  }
+
+  headNode(head, h) {
+    const mark = anchorMark({ name: head.name, picture: `api/heads/${h}/thumbnail` }, 30);
+    mark.append(el('circle', { r: 36, class: 'targetring' }));
+    const node = el('g', { class: 'head', tabindex: '0', role: 'button' }, mark);
+    this.makeDraggable(node, {
+      from: () => anchorsOf(this.editor.job, this.editor.document.anchors)[h],
+      to: (point) => this.withAnchor(head.name, point),
+      label: `${head.name} moved`,
+      click: () => this.editor.setTarget(head.name),
+    });
+    node.addEventListener('dblclick', () => this.editor.gather(head.name));
+    return node;
+  }
+
+  handleNode(region) {
+    const knob = el('circle', { r: 11 });
+    knob.style.fill = region.colour;
+    const node = el('g', { class: 'handle', tabindex: '0', role: 'slider', 'data-region': region.name },
+      el('circle', { r: 18, class: 'grab' }), knob, el('text', { y: 4.5 }, region.name[0].toUpperCase()));
+    this.makeDraggable(node, {
+      from: () => this.placeOf(region.name),
+      to: (point) => this.withPosition(region.name, point),
+      label: `${region.name} moved`,
+      click: () => this.editor.focusRegion(region.name),
+    });
+    return node;
+  }
+
+  /// Where a region's controller stands: of weights by hand, in the heads' middle by these weights.
+  placeOf(name) {
+    const { job, document } = this.editor;
+    const { position } = document.recipe.regions[name];
+    if (position) return position;
+    const anchors = anchorsOf(job, document.anchors);
+    const weights = weightsOf(job, document, name);
+    return [0, 1].map((axis) => weights.reduce((sum, weight, h) => sum + weight * anchors[h][axis], 0));
+  }
+
+  withAnchor(name, point) {
+    const { document } = this.editor;
+    return { ...document, anchors: { ...document.anchors, [name]: point } };
+  }
+
+  withPosition(name, point) {
+    return this.editor.withRegions(name, ({ weights, ...region }) => ({ ...region, position: point }));
+  }
+
+  // -- dragging, and arrows --
+
+  makeDraggable(node, { from, to, label, click }) {
+    node.addEventListener('pointerdown', (event) => {
+      if (event.button !== 0) return;
+      event.preventDefault();
+      node.focus();
+      node.setPointerCapture(event.pointerId);
+      this.drag = {
+        node, x: event.clientX, y: event.clientY, start: this.frame.at(from()), moved: false,
+      };
+    });
+    node.addEventListener('pointermove', (event) => {
+      const { drag } = this;
+      if (drag?.node !== node) return;
+      const dx = event.clientX - drag.x;
+      const dy = event.clientY - drag.y;
+      if (!drag.moved && Math.hypot(dx, dy) < still) return;
+      drag.moved = true;
+      node.classList.add('dragged');
+      const scale = side / this.svg.getBoundingClientRect().width;
+      const inside = (value) => Math.min(Math.max(value, 4), side - 4);
+      const point = this.frame.back([inside(drag.start[0] + scale * dx), inside(drag.start[1] + scale * dy)]);
+      this.editor.preview(to(point.map((value) => Number(value.toFixed(4)))));
+    });
+    const end = (event) => {
+      const { drag } = this;
+      if (drag?.node !== node) return;
+      this.drag = null;
+      node.classList.remove('dragged');
+      if (drag.moved) this.editor.commit(this.editor.document, label);
+      else if (event.type === 'pointerup') click();
+    };
+    node.addEventListener('pointerup', end);
+    node.addEventListener('pointercancel', end);
+    node.addEventListener('keydown', (event) => {
+      const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+      const way = arrows[event.key];
+      if (way && !event.ctrlKey && !event.altKey) {
+        const step = this.step() * (event.shiftKey ? 0.1 : 1);
+        const point = from().map((value, axis) => Number((value + step * way[axis]).toFixed(4)));
+        this.editor.commit(to(point), label, { joins: true });
+      } else if (event.key === 'Enter' || event.key === ' ') {
+        click();
+      } else {
+        return;
+      }
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+
+  /// One arrow: a fortieth of what is seen.
+  step() {
+    const [a, b] = [this.frame.back([0, 0]), this.frame.back([side, 0])];
+    return (b[0] - a[0]) / 40;
+  }
+
+  // -- what stands there --
+
+  show() {
+    if (!this.drag) this.frameAnew();
+    const { job, document } = this.editor;
+    anchorsOf(job, document.anchors).forEach((anchor, h) => {
+      const node = this.headNodes[h];
+      const { name } = job.heads[h];
+      const target = document.recipe.target === name;
+      node.setAttribute('transform', `translate(${this.frame.at(anchor)})`);
+      node.classList.toggle('target', target);
+      node.classList.toggle('away', Boolean(document.anchors?.[name]));
+      node.setAttribute('aria-pressed', String(target));
+      node.setAttribute('aria-label', target ? `${name}, the target` : `${name}: make it the target`);
+    });
+    this.showHandles();
+  }
+
+  showHandles() {
+    const { job, document } = this.editor;
+    const places = job.regions.map(({ name }) => ({ name, at: this.frame.at(this.placeOf(name)) }));
+    const shares = (a, b) => Math.hypot(a.at[0] - b.at[0], a.at[1] - b.at[1]) < 20;
+    this.leads.replaceChildren();
+    places.forEach((place) => {
+      const node = this.handleNodes.get(place.name);
+      const here = places.filter((other) => shares(place, other));
+      let [x, y] = place.at;
+      if (here.length > 1 && this.drag?.node !== node) {
+        const angle = (2 * Math.PI * here.indexOf(place)) / here.length - Math.PI / 2;
+        x += ring * Math.cos(angle);
+        y += ring * Math.sin(angle);
+        const line = el('line', { x1: place.at[0], y1: place.at[1], x2: x, y2: y, class: 'lead' });
+        this.leads.append(line);
+      }
+      node.setAttribute('transform', `translate(${x} ${y})`);
+      const region = document.recipe.regions[place.name];
+      node.classList.toggle('byhand', !region.position);
+      const [px, py] = this.placeOf(place.name);
+      node.setAttribute('aria-label', `Controller of ${place.name}`);
+      node.setAttribute('aria-valuenow', short(px));
+      node.setAttribute('aria-valuetext', `${short(px)}, ${short(py)}: ${this.editor.weightText(place.name)}`);
+    });
+  }
+
+  focusHandle(name) {
+    this.handleNodes.get(name)?.focus();
+  }
+}

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eq. 7 on the processor, in typed arrays: where shaders run on the processor anyway, this is
+// faster, because only what a region's change touches is computed again.
+import { normalsOf } from './corners.js';
+import { floatTexture, layoutOf, padded, targetPositions } from './surface.js';
+
+const block = 512; // vertices whose sums stay in the nearest cache while the fields pass over them
+
+export class ProcessorBlend {
+  /// \param mesh  vertices, triangles, twin, alpha (vertices by regions).
+  constructor(mesh, regions) {
+    Object.assign(this, { mesh, regions, name: 'processor', heads: [] });
+    this.layout = layoutOf(mesh.vertices);
+    this.points = new Float32Array(4 * this.layout.width * this.layout.height);
+    this.normals = new Float32Array(this.points.length);
+    this.moved = new Float32Array(3 * mesh.vertices);
+    this.turned = new Float32Array(3 * mesh.vertices);
+    this.pointTexture = floatTexture(this.layout, this.points);
+    this.normalTexture = floatTexture(this.layout, this.normals);
+    this.setMasks(mesh.alpha);
+  }
+
+  setMasks(alpha) {
+    this.mesh.alpha = alpha;
+    this.parts = Array.from({ length: this.regions }, (_, k) => {
+      const vertices = [];
+      for (let v = 0; v < this.mesh.vertices; v += 1) {
+        if (alpha[v * this.regions + k] !== 0) vertices.push(v);
+      }
+      return {
+        vertices: Uint32Array.from(vertices),
+        alpha: Float32Array.from(vertices, (v) => alpha[v * this.regions + k]),
+        sums: new Float32Array(3 * vertices.length),
+        key: '',
+      };
+    });
+  }
+
+  setHead(h, head) {
+    this.heads[h] = head;
+  }
+
+  /// \param lists   per region {head, field, value}; \param shares  τ_h, one a head.
+  blend(lists, shares) {
+    const { mesh, points } = this;
+    const base = targetPositions(this.heads, shares);
+    if (!base) return;
+    this.base = base;
+    lists.forEach((list, k) => this.sum(this.parts[k], list));
+    for (let v = 0; v < mesh.vertices; v += 1) {
+      for (let c = 0; c < 3; c += 1) points[4 * v + c] = base[3 * v + c];
+    }
+    for (const { vertices, alpha, sums } of this.parts) {
+      for (let i = 0; i < vertices.length; i += 1) {
+        const to = 4 * vertices[i];
+        points[to] += alpha[i] * sums[3 * i];
+        points[to + 1] += alpha[i] * sums[3 * i + 1];
+        points[to + 2] += alpha[i] * sums[3 * i + 2];
+      }
+    }
+    this.finish();
+  }
+
+  /// Σ c_f · field_f over a region's vertices, unless it stands there already.
+  sum(part, list) {
+    const key = list.map(({ head, field, value }) => `${head} ${field} ${value}`).join(';');
+    if (key === part.key) return;
+    part.key = key;
+    const { vertices, sums } = part;
+    sums.fill(0);
+    const { vertices: count } = this.mesh;
+    for (let begin = 0; begin < vertices.length; begin += block) {
+      const end = Math.min(begin + block, vertices.length);
+      for (const { head, field, value } of list) {
+        const { fields, scale } = this.heads[head];
+        const factor = value * scale[field];
+        const offset = 3 * field * count;
+        for (let i = begin; i < end; i += 1) {
+          const from = offset + 3 * vertices[i];
+          sums[3 * i] += factor * fields[from];
+          sums[3 * i + 1] += factor * fields[from + 1];
+          sums[3 * i + 2] += factor * fields[from + 2];
+        }
+      }
+    }
+  }
+
+  /// Adds what the program's last face had beyond ours, measures, and shades.
+  finish() {
+    const { mesh, points, normals, base, moved, turned } = this;
+    for (let v = 0; v < mesh.vertices; v += 1) {
+      let square = 0;
+      for (let c = 0; c < 3; c += 1) {
+        points[4 * v + c] += moved[3 * v + c];
+        square += (points[4 * v + c] - base[3 * v + c]) ** 2;
+      }
+      points[4 * v + 3] = Math.sqrt(square);
+    }
+    normalsOf(points, mesh.triangles, mesh.twin, normals);
+    for (let v = 0; v < mesh.vertices; v += 1) {
+      for (let c = 0; c < 3; c += 1) normals[4 * v + c] += turned[3 * v + c];
+    }
+    this.pointTexture.needsUpdate = true;
+    this.normalTexture.needsUpdate = true;
+  }
+
+  /// Takes the program's own face for the one blended last: that is what is shown from now on, and
+  /// what it has beyond ours is kept until the next.
+  settle(positions, given) {
+    const { mesh, points, normals, moved, turned } = this;
+    const exact = padded(positions, this.layout);
+    for (let v = 0; v < mesh.vertices; v += 1) {
+      for (let c = 0; c < 3; c += 1) {
+        moved[3 * v + c] += positions[3 * v + c] - points[4 * v + c];
+        points[4 * v + c] = positions[3 * v + c] - moved[3 * v + c];
+      }
+    }
+    normalsOf(exact, mesh.triangles, mesh.twin, normals);
+    for (let v = 0; v < mesh.vertices; v += 1) {
+      for (let c = 0; c < 3; c += 1) turned[3 * v + c] = given[3 * v + c] - normals[4 * v + c];
+    }
+    this.finish();
+  }
+
+  /// Forgets what the program's last face had: the target is another.
+  unsettle() {
+    this.moved.fill(0);
+    this.turned.fill(0);
+  }
+
+  /// The points on the screen, three numbers a vertex.
+  read() {
+    const result = new Float32Array(3 * this.mesh.vertices);
+    for (let i = 0; i < result.length; i += 1) result[i] = this.points[4 * Math.floor(i / 3) + (i % 3)];
+    return result;
+  }
+}

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recipes as the config spells them, and what they mean: weights (Eqs. 3 and 4), shares, levels.
+
+const last = 256; // of the 257 levels that the server tells, evenly spaced in the root of smoothness
+
+/// Where `value` lies between the steps of an ascending table, as a part 0 … 1 of its length.
+function placeIn(table, value) {
+  if (value <= table[0]) return 0;
+  let low = 0;
+  let high = table.length - 1;
+  if (value >= table[high]) return 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (table[middle] <= value) low = middle;
+    else high = middle;
+  }
+  const step = table[high] - table[low];
+  return (low + (step > 0 ? (value - table[low]) / step : 0)) / (table.length - 1);
+}
+
+function valueIn(table, place) {
+  const x = Math.min(Math.max(place, 0), 1) * (table.length - 1);
+  const low = Math.min(Math.floor(x), table.length - 2);
+  return table[low] + (x - low) * (table[low + 1] - table[low]);
+}
+
+/// In which of '%', 'iterations' and 'mm' a region's smoothness is written.
+export function unitOf(region) {
+  if (region.iterations !== undefined) return 'iterations';
+  return typeof region.smoothness === 'string' ? 'mm' : '%';
+}
+
+/// The number in that unit.
+export function amountOf(region) {
+  if (region.iterations !== undefined) return region.iterations;
+  return typeof region.smoothness === 'string' ? parseFloat(region.smoothness) : 100 * region.smoothness;
+}
+
+/// The same region with another smoothness.
+export function withAmount(region, unit, amount) {
+  const { smoothness, iterations, ...rest } = region;
+  if (unit === 'iterations') return { ...rest, iterations: Math.max(0, Math.round(amount)) };
+  if (unit === 'mm') return { ...rest, smoothness: `${Number(amount.toFixed(3))} mm` };
+  return { ...rest, smoothness: Math.min(Math.max(amount / 100, 0), 1) };
+}
+
+/// √(L/L_max) of a region, which is what sliders and tables are even in.
+export function levelOf(region, levels) {
+  const unit = unitOf(region);
+  if (unit === '%') return Math.sqrt(region.smoothness);
+  return placeIn(unit === 'mm' ? levels.size_mm : levels.iterations, amountOf(region));
+}
+
+/// What a level is called in a unit.
+export function amountAt(level, unit, levels) {
+  if (unit === '%') return 100 * level * level;
+  return valueIn(unit === 'mm' ? levels.size_mm : levels.iterations, level);
+}
+
+/// The anchor of each head: those that were moved by hand, and the config's.
+export function anchorsOf(job, moved) {
+  return job.heads.map((head) => moved?.[head.name] ?? head.anchor);
+}
+
+/// The weights ω̂ of a position (Eqs. 3 and 4), one a head; see blend/recipe.h, weights_at.
+export function weightsAt(job, anchors, target, sources, position) {
+  const heads = [...new Set([...sources, target])].sort((a, b) => a - b);
+  const squares = heads.map((h) =>
+    (position[0] - anchors[h][0]) ** 2 + (position[1] - anchors[h][1]) ** 2);
+  const nearest = Math.min(...squares);
+  const omega = squares.map((square) => (nearest > 0 ? nearest / square : Number(square === 0)));
+  let others = heads.map((head, i) => ({ head, weight: omega[i] }));
+  const own = others.find((entry) => entry.head === target);
+  others = others.filter((entry) => entry !== own);
+  if (job.max_sources && others.length > job.max_sources) {
+    others = [...others].sort((a, b) => b.weight - a.weight).slice(0, job.max_sources);
+  }
+  const partition = job.normalization !== 'printed';
+  const sum = others.reduce((total, entry) => total + entry.weight, own.weight);
+  const weights = new Array(job.heads.length).fill(0);
+  for (const { head, weight } of others) weights[head] = weight / sum;
+  if (partition) weights[target] = own.weight / sum;
+  return weights;
+}
+
+function sourcesOf(job, index) {
+  const { sources } = job;
+  if (!sources) return job.heads.map((_, h) => h);
+  return Array.isArray(sources[0]) ? sources[index] : sources;
+}
+
+export function headIndex(job, name) {
+  return job.heads.findIndex((head) => head.name === name);
+}
+
+/// How much each head lends to a region, one a head.
+export function weightsOf(job, document, name) {
+  const { recipe } = document;
+  const region = recipe.regions[name];
+  if (region.position) {
+    return weightsAt(job, anchorsOf(job, document.anchors), headIndex(job, recipe.target),
+      sourcesOf(job, job.regions.findIndex((r) => r.name === name)), region.position);
+  }
+  const weights = job.heads.map((head) => region.weights?.[head.name] ?? 0);
+  const sum = weights.reduce((total, weight) => total + weight, 0);
+  return weights.map((weight) => (sum > 0 ? weight / sum : 0));
+}
+
+/// Weights by the heads' names, those above zero.
+function named(job, weights) {
+  return Object.fromEntries(weights.map((weight, h) => [job.heads[h].name, weight])
+    .filter(([, weight]) => weight > 0));
+}
+
+/// τ_h of the target, one a head: of a child of two heads those of both.
+export function targetShares(job, recipe) {
+  return job.heads.map((head) => (recipe.mixture
+    ? recipe.mixture[head.name] ?? 0 : Number(head.name === recipe.target)));
+}
+
+/// What is multiplied with which field: of each region the numbers that are not zero,
+/// s_kh φ_hp(L_k) with s_kh = τ_h − e_k ω̂_kh (blend/crowd_blender.h).
+/// \param heads  per head {rank, functions: 257 rows of rank}; those not loaded yet are undefined.
+/// \return       per region a list of {head, field, value}.
+export function coefficients(job, document, heads) {
+  const shares = targetShares(job, document.recipe);
+  return job.regions.map(({ name }) => {
+    const region = document.recipe.regions[name];
+    const weights = weightsOf(job, document, name);
+    const x = Math.min(levelOf(region, job.levels), 1) * last;
+    const low = Math.min(Math.floor(x), last - 1);
+    const list = [];
+    heads.forEach((head, h) => {
+      const share = shares[h] - (region.extrapolation ?? 1) * weights[h];
+      if (!head || share === 0) return;
+      for (let p = 0; p < head.rank; p += 1) {
+        const before = head.functions[low * head.rank + p];
+        const after = head.functions[(low + 1) * head.rank + p];
+        const value = share * (before + (x - low) * (after - before));
+        if (value !== 0) list.push({ head: h, field: p, value });
+      }
+    });
+    return list;
+  });
+}
+
+/// The recipe as the program reads it. Where heads were moved on the page's plane a position would
+/// mean something else to the program, so that the weights themselves are told.
+export function wire(job, document) {
+  const { recipe, anchors } = document;
+  const moved = Object.keys(anchors ?? {}).length > 0;
+  const regions = {};
+  for (const { name } of job.regions) {
+    const { position, weights, ...rest } = recipe.regions[name];
+    if (!position) regions[name] = { weights, ...rest };
+    else if (!moved) regions[name] = { position, ...rest };
+    else regions[name] = { weights: named(job, weightsOf(job, document, name)), ...rest };
+  }
+  const { id, target, mixture } = recipe;
+  return { id, target, ...(mixture ? { mixture } : {}), regions };
+}
+
+/// A part `t` of the way from one recipe to another. Positions stay positions where both have one;
+/// the target is that of the nearer one, as a face stands on one head.
+export function between(job, from, to, t) {
+  const near = t < 0.5 ? from : to;
+  const mix = (a, b) => a + t * (b - a);
+  const regions = {};
+  for (const { name } of job.regions) {
+    const a = from.recipe.regions[name];
+    const b = to.recipe.regions[name];
+    const unit = unitOf(near.recipe.regions[name]);
+    const level = mix(levelOf(a, job.levels), levelOf(b, job.levels));
+    let region = { extrapolation: mix(a.extrapolation ?? 1, b.extrapolation ?? 1) };
+    if (a.position && b.position) {
+      region.position = [mix(a.position[0], b.position[0]), mix(a.position[1], b.position[1])];
+    } else {
+      const [u, v] = [weightsOf(job, from, name), weightsOf(job, to, name)];
+      region.weights = named(job, u.map((weight, h) => mix(weight, v[h])));
+    }
+    region = withAmount(region, unit, amountAt(level, unit, job.levels));
+    regions[name] = region;
+  }
+  const { mixture } = near.recipe;
+  return {
+    recipe: { id: from.recipe.id, target: near.recipe.target, ...(mixture ? { mixture } : {}), regions },
+    anchors: near.anchors ?? {},
+  };
+}
+
+/// A head unblended: every controller on it.
+export function headAlone(job, name, id) {
+  const head = job.heads[headIndex(job, name)];
+  return {
+    recipe: {
+      id, target: name,
+      regions: Object.fromEntries(job.regions.map((region) =>
+        [region.name, { position: [...head.anchor], smoothness: 0.5, extrapolation: 1 }])),
+    },
+    anchors: {},
+  };
+}

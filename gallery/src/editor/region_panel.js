@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers of each region: sliders, and the same values typed.
+import { el, short } from '../dom.js';
+import { amountAt, amountOf, levelOf, unitOf, withAmount } from './recipe.js';
+
+const digits = { '%': 1, mm: 2, iterations: 0 };
+
+export class RegionPanel {
+  /// \param editor  job, document, withRegions(name, change), preview, commit, toggleLink(name),
+  ///                toggleLock(name), isLinked(name), isLocked(name), weightText(name).
+  constructor(editor) {
+    this.editor = editor;
+    this.cards = new Map(editor.job.regions.map((region) => [region.name, this.card(region)]));
+    this.node = el('div', { class: 'regions' }, [...this.cards.values()].map((card) => card.node));
+    this.show();
+  }
+
+  /// A slider that previews while it is moved and is a step when it is let go.
+  slider(label, options, change) {
+    const node = el('input', {
+      type: 'range', 'aria-label': label, ...options,
+      oninput: () => this.editor.preview(change(Number(node.value))),
+      onchange: () => this.editor.commit(change(Number(node.value)), label, { joins: true }),
+    });
+    return node;
+  }
+
+  /// A number to type. What cannot be read is put back.
+  number(label, change, options = {}) {
+    const node = el('input', {
+      type: 'number', step: 'any', 'aria-label': label, ...options,
+      onchange: () => {
+        const value = parseFloat(node.value);
+        if (Number.isFinite(value)) this.editor.commit(change(value), label, { joins: true });
+        this.show();
+      },
+    });
+    return node;
+  }
+
+  card(region) {
+    const { name } = region;
+    const { editor } = this;
+    const { levels } = editor.job;
+    const every = (change) => editor.withRegions(name, change);
+    const unit = () => unitOf(editor.document.recipe.regions[name]);
+    const setLevel = (level) => every((value) =>
+      withAmount(value, unit(), Number(amountAt(level, unit(), levels).toFixed(digits[unit()] + 2))));
+    const setPlace = (axis) => (value) => every((old) => {
+      const { weights, ...rest } = old;
+      const position = [...editor.board.placeOf(name)];
+      position[axis] = value;
+      return { ...rest, position };
+    });
+    const setStrength = (value) => every((old) => ({ ...old, extrapolation: Math.min(Math.max(value, -4), 4) }));
+    const strength = region.extrapolation ?? { min: 1, max: 1 };
+    const card = {
+      smooth: this.slider(`Smoothness of ${name}`, { min: 0, max: 1, step: 0.002 }, setLevel),
+      amount: this.number(`Smoothness of ${name}, typed`, (value) =>
+        every((old) => withAmount(old, unit(), Math.max(0, value))), { min: 0 }),
+      unit: el('select', {
+        'aria-label': `Unit of ${name}'s smoothness`,
+        onchange: () => editor.commit(every((old) => withAmount(old, card.unit.value,
+          Number(amountAt(levelOf(old, levels), card.unit.value, levels).toFixed(digits[card.unit.value])))),
+        `${name} in ${card.unit.value}`),
+      }, Object.keys(digits).map((text) => el('option', { value: text }, text === 'iterations' ? 'iter.' : text))),
+      strength: this.slider(`Strength of ${name}`, {
+        min: Math.min(0, strength.min), max: Math.max(2, strength.max), step: 0.01,
+      }, setStrength),
+      factor: this.number(`Strength of ${name}, typed`, setStrength, { min: -4, max: 4 }),
+      x: this.number(`${name}, to the right`, setPlace(0)),
+      y: this.number(`${name}, up`, setPlace(1)),
+      lends: el('p', { class: 'lends' }),
+      link: el('button', { class: 'toggle', onclick: () => editor.toggleLink(name) }, 'link'),
+      lock: el('button', { class: 'toggle lock', onclick: () => editor.toggleLock(name) }, 'lock'),
+    };
+    const dot = el('i', { class: 'regiondot' });
+    dot.style.background = region.colour;
+    card.node = el('section', { class: 'regioncard', 'data-region': name, 'aria-label': name },
+      el('header', {}, dot, el('h3', {}, name), el('span', { class: 'grow' }), card.link, card.lock),
+      el('div', { class: 'control' }, el('span', {}, 'Smoothness'), card.smooth, card.amount, card.unit),
+      el('div', { class: 'control' }, el('span', {}, 'Strength'), card.strength, card.factor),
+      el('div', { class: 'control place' }, el('span', {}, 'Place'), card.x, card.y), card.lends);
+    return card;
+  }
+
+  show() {
+    const { editor } = this;
+    for (const [name, card] of this.cards) {
+      const region = editor.document.recipe.regions[name];
+      const unit = unitOf(region);
+      const put = (input, value) => {
+        if (document.activeElement !== input || input.type === 'range') input.value = value;
+      };
+      put(card.smooth, levelOf(region, editor.job.levels));
+      put(card.amount, short(amountOf(region), digits[unit]));
+      card.smooth.setAttribute('aria-valuetext', `${short(amountOf(region), digits[unit])} ${unit}`);
+      card.unit.value = unit;
+      put(card.strength, region.extrapolation ?? 1);
+      put(card.factor, short(region.extrapolation ?? 1));
+      const [x, y] = editor.board.placeOf(name);
+      put(card.x, short(x, 3));
+      put(card.y, short(y, 3));
+      card.lends.textContent = editor.weightText(name);
+      const set = (button, on, title) => {
+        button.classList.toggle('on', on);
+        button.setAttribute('aria-pressed', String(on));
+        button.title = title;
+      };
+      set(card.link, editor.isLinked(name), 'Linked regions take the same values');
+      set(card.lock, editor.isLocked(name), 'Locked regions stay when a face is drawn');
+    }
+  }
+
+  focus(name) {
+    this.cards.get(name)?.node.scrollIntoView({ block: 'nearest' });
+  }
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// States that are kept to compare with, faces to pick from, and the way between two of them.
+import { el } from '../dom.js';
+import { post } from './api.js';
+import { between, headAlone } from './recipe.js';
+
+const mostKept = 12;
+
+export class Shelf {
+  /// \param editor  job, document, preview, commit(document, label), pictureOf(document), say(text),
+  ///                compare(index), kept: [{name, document, picture}], locked(), like().
+  constructor(editor) {
+    this.editor = editor;
+    this.keptNode = el('div', { class: 'cards', role: 'list' });
+    this.pickNode = el('div', { class: 'cards', role: 'list' });
+    this.amount = el('input', {
+      type: 'range', min: 0.05, max: 1, step: 0.05, value: 0.3, 'aria-label': 'How far from this face',
+    });
+    this.picks = el('section', { class: 'picks', hidden: true },
+      el('header', {}, el('h2', {}, 'Pick one'), el('label', {}, 'unlike ', this.amount),
+        el('button', { onclick: () => this.offer() }, 'Six more'),
+        el('button', { onclick: () => this.closePicks(), 'aria-label': 'Close the faces to pick from' }, '✕')),
+      this.pickNode);
+    this.path = this.betweenNode();
+    this.node = el('div', { class: 'shelf' }, this.picks, this.path,
+      el('section', {}, el('header', {}, el('h2', {}, 'Kept'), el('span', { class: 'grow' }),
+        el('button', { onclick: () => this.keep(), title: 'Keep this face to compare with (K)' }, 'Keep this')),
+      this.keptNode));
+    this.show();
+  }
+
+  // -- kept states --
+
+  keep() {
+    const { editor } = this;
+    const used = new Set(editor.kept.map((entry) => entry.name));
+    let number = editor.kept.length + 1;
+    while (used.has(`kept ${number}`)) number += 1;
+    editor.kept.push({
+      name: `kept ${number}`, document: editor.document, picture: editor.pictureOf(editor.document),
+    });
+    if (editor.kept.length > mostKept) editor.kept.shift();
+    editor.comparedWith = editor.kept.length - 1;
+    this.show();
+    editor.remember();
+  }
+
+  show() {
+    const { editor } = this;
+    this.keptNode.replaceChildren(...editor.kept.map((entry, index) => {
+      const shown = editor.comparing === index;
+      return el('div', { class: 'card', role: 'listitem' },
+        el('button', {
+          class: `portrait ${shown ? 'on' : ''}`, 'aria-pressed': String(shown),
+          title: 'Compare: show this one, and again to go back (B)', onclick: () => editor.compare(index),
+        }, entry.picture ? el('img', { src: entry.picture, alt: '' }) : null, el('span', {}, entry.name)),
+        el('div', { class: 'cardfoot' },
+          el('button', {
+            class: 'plain', 'aria-label': `Go on from ${entry.name}`, title: 'Go on from this one',
+            onclick: () => editor.commit(entry.document, `back to ${entry.name}`),
+          }, 'use'),
+          el('button', {
+            class: 'plain', 'aria-label': `Forget ${entry.name}`, title: 'Forget it',
+            onclick: () => {
+              editor.compare(null);
+              editor.kept.splice(index, 1);
+              this.show();
+              editor.remember();
+            },
+          }, '✕')));
+    }));
+    if (editor.kept.length === 0) {
+      this.keptNode.append(el('p', { class: 'muted' }, 'Keep a face, change it, and compare the two with B.'));
+    }
+  }
+
+  // -- faces drawn --
+
+  /// One face within the config's limits; locked regions stay.
+  async draw() {
+    const { editor } = this;
+    const { recipes } = await post('draw', {
+      recipe: editor.wire(), locked: editor.lockedNames(), count: 1, like: null, amount: 1,
+    });
+    editor.commit(editor.fromWire(recipes[0]), 'a face drawn');
+  }
+
+  /// Six like this one, to pick from.
+  async offer() {
+    const { editor } = this;
+    this.picks.hidden = false;
+    this.pickNode.replaceChildren(el('p', { class: 'muted' }, 'Drawing …'));
+    const recipe = editor.wire();
+    const { recipes } = await post('draw', {
+      recipe, locked: editor.lockedNames(), count: 6, like: recipe, amount: Number(this.amount.value),
+    });
+    this.pickNode.replaceChildren();
+    const start = editor.document;
+    for (const [index, told] of recipes.entries()) {
+      const document = editor.fromWire(told);
+      await new Promise(requestAnimationFrame);
+      this.pickNode.append(el('div', { class: 'card', role: 'listitem' }, el('button', {
+        class: 'portrait', 'aria-label': `Face ${index + 1} of those to pick from`,
+        onclick: () => editor.commit({ ...document, recipe: { ...document.recipe, id: start.recipe.id } }, 'one like it'),
+      }, el('img', { src: editor.pictureOf(document), alt: '' }))));
+    }
+    this.pickNode.querySelector('button')?.focus();
+  }
+
+  closePicks() {
+    this.picks.hidden = true;
+  }
+
+  // -- between two --
+
+  betweenNode() {
+    this.from = el('select', { 'aria-label': 'Between this', onchange: () => this.travel() });
+    this.to = el('select', { 'aria-label': 'and that', onchange: () => this.travel() });
+    this.way = el('input', {
+      type: 'range', min: 0, max: 1, step: 0.01, value: 0.5, 'aria-label': 'How far on the way', oninput: () => this.travel(),
+    });
+    return el('section', { class: 'path', hidden: true },
+      el('header', {}, el('h2', {}, 'Between two'), el('span', { class: 'grow' }),
+        el('button', { class: 'on', onclick: () => this.endTravel(true) }, 'Take it'),
+        el('button', { onclick: () => this.endTravel(false), 'aria-label': 'Leave it as it was' }, '✕')),
+      el('div', { class: 'ends' }, this.from, this.way, this.to));
+  }
+
+  startTravel() {
+    const { editor } = this;
+    this.ends = new Map([['this face', editor.document],
+      ...editor.kept.map((entry) => [entry.name, entry.document]),
+      ...(editor.job.crowd?.faces ?? []).map((face) => [face.id, editor.fromWire(face)]),
+      ...editor.job.heads.map((head) => [head.name, headAlone(editor.job, head.name, editor.document.recipe.id)])]);
+    for (const select of [this.from, this.to]) {
+      select.replaceChildren(...[...this.ends.keys()].map((name) => el('option', { value: name }, name)));
+    }
+    this.to.selectedIndex = this.ends.size > 1 ? 1 : 0;
+    this.path.hidden = false;
+    this.path.scrollIntoView({ block: 'nearest' });
+    this.way.focus();
+    this.travel();
+  }
+
+  travel() {
+    const { editor } = this;
+    const [from, to] = [this.ends.get(this.from.value), this.ends.get(this.to.value)];
+    const mixed = between(editor.job, from, to, Number(this.way.value));
+    const stay = this.ends.get('this face');
+    for (const name of editor.lockedNames()) mixed.recipe.regions[name] = stay.recipe.regions[name];
+    mixed.recipe.id = stay.recipe.id;
+    editor.preview(mixed);
+  }
+
+  endTravel(take) {
+    const { editor } = this;
+    this.path.hidden = true;
+    if (take) editor.commit(editor.document, `between ${this.from.value} and ${this.to.value}`);
+    else editor.preview(null);
+  }
+}

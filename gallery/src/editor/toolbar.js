@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The row of buttons at the top, and those over the 3D view.
+import { el } from '../dom.js';
+import { distanceColours } from './head_view.js';
+
+export function toolbar(editor) {
+  const { job } = editor;
+  const button = (text, title, act, properties = {}) =>
+    el('button', { title, onclick: () => editor.attempt(act), ...properties }, text);
+  const faces = job.crowd?.faces ?? [];
+  const open = el('select', {
+    'aria-label': 'Open a face', title: 'Open a face of the crowd, or a head ([ and ])',
+    onchange: () => { editor.open(open.value); },
+  }, el('option', { value: '' }, 'Open …'),
+  faces.length > 0 ? el('optgroup', { label: 'Faces of the crowd' },
+    faces.map((face) => el('option', { value: `face ${face.id}` }, face.id))) : null,
+  el('optgroup', { label: 'Heads unblended' },
+    job.heads.map((head) => el('option', { value: `head ${head.name}` }, head.name))));
+  const name = el('input', {
+    type: 'text', class: 'name', 'aria-label': 'Name of the face', title: 'Its name in files and in the config',
+    maxlength: 64, spellcheck: 'false', onchange: () => editor.rename(name.value),
+  });
+  const format = el('select', { 'aria-label': 'Format of the mesh' },
+    job.formats.map((word) => el('option', { value: word }, word.toUpperCase())));
+  const undo = button('Undo', 'Undo (Ctrl+Z)', () => editor.undo());
+  const redo = button('Redo', 'Redo (Ctrl+Shift+Z)', () => editor.redo());
+  const compare = button('A/B', 'Compare with what was kept last (B)', () => editor.compare());
+  const node = el('header', { class: 'toolbar', role: 'toolbar', 'aria-label': 'Commands' },
+    el('h1', { title: job.name }, job.name), open, name,
+    el('span', { class: 'group' }, undo, redo), el('span', { class: 'group' },
+      button('Keep', 'Keep this face to compare with (K)', () => editor.shelf.keep()), compare),
+    el('span', { class: 'group' },
+      button('Draw', 'A face within the config’s limits; locked regions stay (R)', () => editor.shelf.draw()),
+      button('Six like it', 'Six like this one, to pick from (L)', () => editor.shelf.offer()),
+      button('Between', 'A way between two faces (N)', () => editor.shelf.startTravel())),
+    el('span', { class: 'grow' }),
+    el('span', { class: 'group' }, format,
+      button('Save mesh', 'At full resolution (Ctrl+S)', () => editor.saveMesh(format.value), { class: 'export' })),
+    button('Picture', 'Save a picture of this view', () => editor.savePicture()),
+    button('Put back', 'Into the config or as a review', () => editor.putBack()),
+    job.can_generate ? button('Generate', 'Make the whole crowd', () => editor.generate()) : null,
+    button('?', 'All keys (?)', () => editor.help(), { class: 'plain', 'aria-label': 'All keys' }));
+  return {
+    node,
+    show() {
+      undo.disabled = editor.history.past.length === 0;
+      redo.disabled = editor.history.future.length === 0;
+      undo.title = undo.disabled ? 'Undo (Ctrl+Z)' : `Undo: ${editor.history.label} (Ctrl+Z)`;
+      compare.disabled = editor.kept.length === 0;
+      compare.classList.toggle('on', editor.comparing !== null);
+      compare.setAttribute('aria-pressed', String(editor.comparing !== null));
+      if (document.activeElement !== name) name.value = editor.document.recipe.id;
+      open.value = editor.document.face ? `face ${editor.document.face}` : '';
+    },
+    format,
+  };
+}
+
+const views = [['front', 'Front'], ['three_quarter', 'Three-quarter'], ['profile', 'Profile'], ['back', 'Back']];
+
+export function viewBar(editor) {
+  const { job, view } = editor;
+  const textures = job.heads.map((head, h) => [head, h]).filter(([head]) => head.texture);
+  const options = [['surface', 'Surfaces'], ['distance', 'Distance to target'], ['regions', 'Regions'],
+    ...(textures.length > 0 ? [['texture', 'Texture: target’s'],
+      ...textures.map(([head, h]) => [`texture ${h}`, `Texture: ${head.name}`])] : [])];
+  const show = el('select', {
+    'aria-label': 'What the face shows', onchange: () => editor.setShow(show.value),
+  }, options.map(([value, text]) => el('option', { value }, text)));
+  const wire = el('button', {
+    title: 'Edges of the preview (W)', onclick: () => editor.setWireframe(!editor.look.wireframe),
+  }, 'Wireframe');
+  const scale = el('div', { class: 'scale', hidden: true }, el('i', {}), el('span', {}, '0'),
+    el('span', {}, `${view.showMm} mm`));
+  scale.firstChild.style.background = `linear-gradient(90deg, ${distanceColours.join(', ')})`;
+  return {
+    node: el('div', { class: 'viewbar' },
+      el('div', { class: 'group', role: 'group', 'aria-label': 'Standard views' },
+        views.map(([name, text]) => el('button', { onclick: () => view.view(name) }, text))),
+      show, wire, scale),
+    show() {
+      show.value = editor.look.show;
+      wire.classList.toggle('on', editor.look.wireframe);
+      wire.setAttribute('aria-pressed', String(editor.look.wireframe));
+      scale.hidden = editor.look.show !== 'distance';
+    },
+    values: options.map(([value]) => value),
+  };
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the 3D views share: camera, lights, the way a head stands, skin and painted eyes.
+import {
+  AmbientLight, BufferAttribute, Color, DirectionalLight, DoubleSide, Group, HemisphereLight,
+  MeshPhysicalMaterial, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
+  ACESFilmicToneMapping, Matrix4,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+const degreesOf = {
+  front: 0, three_quarter: 35, profile: 90, back: 180, other_profile: -90, other_three_quarter: -35,
+};
+
+/// Lamps that go with the camera, each shining at a point six units before it: a key light from the
+/// upper left, a weak fill, two rims.
+export const lamps = [
+  { colour: 0xfff1de, strength: 2.6, at: [-4.2, 4.2, 0] },
+  { colour: 0xd9e6ff, strength: 0.45, at: [5, 0.4, 0] },
+  { colour: 0xe6edff, strength: 1.3, at: [4.5, 2, -9.5] },
+  { colour: 0xffffff, strength: 0.6, at: [-5, 1.5, -9.5] },
+];
+export const sky = { above: 0xe8edf4, below: 0x4c4640, strength: 0.75, ambient: 0.08 };
+
+/// Skin, with a little light that goes through it at the rim.
+export function skinMaterial() {
+  return new MeshPhysicalMaterial({
+    vertexColors: true, roughness: 0.56, side: DoubleSide, sheen: 0.25, sheenRoughness: 0.6,
+    sheenColor: new Color(0.9, 0.5, 0.4), specularIntensity: 0.7,
+  });
+}
+
+/// Colours of vertices, three bytes each as in images, as light.
+export function linearColours(bytes) {
+  const linear = new Float32Array(bytes.length);
+  const colour = new Color();
+  for (let i = 0; i < bytes.length; i += 3) {
+    colour.setRGB(bytes[i] / 255, bytes[i + 1] / 255, bytes[i + 2] / 255, SRGBColorSpace);
+    linear.set([colour.r, colour.g, colour.b], i);
+  }
+  return linear;
+}
+
+/// Eyeballs get a round iris, pixel by pixel: a reduced mesh has too few vertices for one.
+export const eyeShader = {
+  vertex: 'attribute vec3 eye;\nvarying vec3 vEye;',
+  fragment: `
+    varying vec3 vEye;
+    uniform vec3 eyeRadii, eyeWhite, eyeColour;
+    bool isEye() { return vEye.z > -1.5; }
+    float beyond(float edge, float x) {
+      return smoothstep(edge - eyeRadii.z, edge + eyeRadii.z, x);
+    }
+    vec3 eyeballColour() {
+      float across = length(vEye.xy);
+      float rim = clamp((across - eyeRadii.x) / (eyeRadii.y - eyeRadii.x), 0.0, 1.0);
+      vec3 iris = eyeColour * (1.6 - 1.25 * rim * rim);
+      vec3 inner = mix(vec3(0.008), iris, beyond(eyeRadii.x, across));
+      return vEye.z > 0.0 ? mix(inner, eyeWhite, beyond(eyeRadii.y, across)) : eyeWhite;
+    }`,
+};
+
+/// \param eyes  pupil, iris, softness, white, colour.
+export function eyeUniforms(eyes) {
+  return {
+    eyeRadii: { value: new Vector3(eyes.pupil, eyes.iris, eyes.softness) },
+    eyeWhite: { value: new Vector3(...eyes.white) },
+    eyeColour: { value: new Vector3(...eyes.colour) },
+  };
+}
+
+/// \param places  three a vertex, in radii of its eyeball; z below −1.5 is no eye.
+export function paintEyes(material, geometry, places, eyes) {
+  geometry.setAttribute('eye', new BufferAttribute(places, 3));
+  const before = material.onBeforeCompile;
+  material.onBeforeCompile = (shader, renderer) => {
+    before.call(material, shader, renderer);
+    Object.assign(shader.uniforms, eyeUniforms(eyes));
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', `#include <common>\n${eyeShader.vertex}`)
+      .replace('#include <project_vertex>', 'vEye = eye;\n#include <project_vertex>');
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', `#include <common>\n${eyeShader.fragment}`)
+      .replace('#include <color_fragment>', `#include <color_fragment>
+        if (isEye()) diffuseColor.rgb = eyeballColour();`)
+      .replace('#include <roughnessmap_fragment>', `#include <roughnessmap_fragment>
+        if (isEye()) roughnessFactor = 0.25;`);
+  };
+}
+
+/// A head to turn. Up is +Y, front +Z, and the frame of all heads a box of two units.
+export class Stage {
+  /// \throws if the browser has no WebGL.
+  constructor({ pan = false, antialias = true } = {}) {
+    this.renderer = new WebGLRenderer({ antialias, alpha: true });
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.renderer.toneMapping = ACESFilmicToneMapping;
+    this.renderer.toneMappingExposure = 1.05;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.node = this.renderer.domElement;
+    this.node.className = 'turntable';
+    this.scene = new Scene();
+    this.group = new Group();
+    this.scene.add(this.group);
+    this.camera = new PerspectiveCamera(20, 1, 0.1, 100);
+    this.lights();
+    this.controls = new OrbitControls(this.camera, this.node);
+    this.controls.enablePan = pan;
+    this.controls.enableDamping = false;
+    this.controls.minDistance = pan ? 0.8 : 2.2;
+    this.controls.maxDistance = 14;
+    this.controls.addEventListener('change', () => this.draw());
+    this.frames = 0;
+  }
+
+  lights() {
+    for (const { colour, strength, at } of lamps) {
+      const light = new DirectionalLight(colour, strength);
+      light.position.set(...at);
+      light.target.position.set(0, 0, -6);
+      this.camera.add(light, light.target);
+    }
+    this.scene.add(this.camera, new HemisphereLight(sky.above, sky.below, sky.strength),
+      new AmbientLight(0xffffff, sky.ambient));
+  }
+
+  stand({ up, front, box: [low, high] }) {
+    const u = new Vector3(...up);
+    const f = new Vector3(...front);
+    const turn = new Matrix4().makeBasis(u.clone().cross(f), u, f).transpose();
+    const centre = new Vector3(...low.map((value, axis) => (value + high[axis]) / 2));
+    const scale = 2 / Math.max(...high.map((value, axis) => value - low[axis]));
+    this.group.matrixAutoUpdate = false;
+    this.group.matrix.copy(new Matrix4().makeScale(scale, scale, scale)).multiply(turn)
+      .multiply(new Matrix4().makeTranslation(-centre.x, -centre.y, -centre.z));
+  }
+
+  view(name) {
+    const angle = ((degreesOf[name] ?? 0) * Math.PI) / 180;
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.set(6.4 * Math.sin(angle), 0, 6.4 * Math.cos(angle));
+    this.controls.update();
+    this.draw();
+  }
+
+  turn(degrees) {
+    this.camera.position.sub(this.controls.target)
+      .applyAxisAngle(new Vector3(0, 1, 0), (degrees * Math.PI) / 180).add(this.controls.target);
+    this.controls.update();
+    this.draw();
+  }
+
+  /// How far the camera stands turned from the front, in degrees.
+  angle() {
+    const { position } = this.camera;
+    const { target } = this.controls;
+    return (Math.atan2(position.x - target.x, position.z - target.z) * 180) / Math.PI;
+  }
+
+  fit() {
+    const box = this.node.parentElement?.getBoundingClientRect();
+    if (!box || box.width === 0) return;
+    this.renderer.setSize(box.width, box.height);
+    this.camera.aspect = box.width / box.height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  draw() {
+    this.renderer.render(this.scene, this.camera);
+    this.frames += 1;
+  }
+}

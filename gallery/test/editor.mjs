@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens the page of a running `crowdface edit` in a headless Chromium and uses it as people do.
+//   node editor.mjs ADDRESS RESULT_JSON [PICTURES_FOLDER]
+// Writes the saved recipe, its file and the points on the screen to RESULT_JSON; the last line says
+// "all right".
+import assert from 'node:assert/strict';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { chromium } from 'playwright-core';
+
+const [address, resultFile, pictures] = process.argv.slice(2);
+if (!resultFile) throw new Error('usage: node editor.mjs ADDRESS RESULT_JSON [PICTURES]');
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true });
+const page = await context.newPage();
+const problems = [];
+page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
+page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
+page.on('request', (request) => {
+  if (!request.url().startsWith(address) && !/^(blob|data):/.test(request.url())) problems.push(`network: ${request.url()}`);
+});
+page.on('requestfailed', (request) => {
+  const why = request.failure().errorText;
+  if (why !== 'net::ERR_ABORTED') problems.push(`${request.url()}: ${why}`); // overtaken ones are
+});
+
+async function take(name) {
+  if (!pictures) return;
+  mkdirSync(pictures, { recursive: true });
+  await page.screenshot({ path: join(pictures, `${name}.png`) });
+}
+const editor = (ask, argument) => page.evaluate(
+  ([text, value]) => new Function('editor', 'value', `return ${text}`)(window.crowdface.editor, value), [ask, argument]);
+const recipe = () => editor('editor.document.recipe');
+const points = () => page.evaluate(() => Array.from(window.crowdface.editor.view.blender.read()));
+const steps = () => editor('editor.history.past.length');
+const settled = () => page.waitForFunction(() => {
+  const { editor: it } = window.crowdface;
+  return it.ready && !it.pending && it.exactOf === it.document;
+}, null, { timeout: 60000 });
+const farthest = (a, b) => a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i])), 0);
+const frames = () => editor('editor.view.frames');
+
+async function drag(locator, dx, dy) {
+  const box = await locator.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + dx / 2, y + dy / 2, { steps: 4 });
+  await page.mouse.move(x + dx, y + dy, { steps: 4 });
+  await page.waitForTimeout(50);
+  const during = await points();
+  await page.mouse.up();
+  return during;
+}
+
+// Open.
+const began = Date.now();
+await page.goto(address);
+await page.waitForSelector('.board');
+await settled();
+console.log(`opened in ${Date.now() - began} ms, blends on the ${await editor('editor.view.blender.name')}`);
+const job = await editor('({regions: editor.job.regions.map((r) => r.name), heads: editor.job.heads.map((h) => h.name), mm: editor.job.mm_per_unit, faces: editor.job.crowd?.faces.length ?? 0, textures: editor.job.heads.some((h) => h.texture)})');
+const [region] = job.regions;
+assert.match(await page.locator('.measures').innerText(), /nearest head \d/);
+await take('opened');
+
+// The preview is the program's face, but for what only the program does to eyes and lips.
+async function previewError() {
+  return page.evaluate(() => {
+    const { editor: it } = window.crowdface;
+    const { blender, mesh } = it.view;
+    blender.unsettle();
+    blender.blend(...it.coefficientsOf(it.document));
+    const mine = blender.read();
+    const exact = it.exactFace.positions;
+    let most = 0;
+    for (let v = 0; v < mesh.vertices; v += 1) {
+      if (mesh.part?.[v]) continue;
+      for (let c = 0; c < 3; c += 1) most = Math.max(most, Math.abs(mine[3 * v + c] - exact[3 * v + c]));
+    }
+    it.exactOf = null;
+    it.refresh();
+    return most * it.job.mm_per_unit;
+  });
+}
+
+// Drag a controller: the face follows while the button is down.
+const first = await points();
+const before = await recipe();
+const during = await drag(page.locator(`.handle[data-region="${region}"]`), 70, 45);
+assert.ok(farthest(first, during) > 0.01 / job.mm, 'the face follows the mouse');
+assert.equal(await steps(), 1, 'one drag is one step');
+const dragged = await recipe();
+assert.notDeepEqual(dragged.regions[region].position, before.regions[region].position);
+await settled();
+assert.ok(farthest(during, await points()) < 3 / job.mm, 'the program’s face is near the preview');
+const error = await previewError();
+console.log(`preview within ${error.toFixed(4)} mm of the program's face`);
+assert.ok(error < 0.1, `the preview is ${error} mm off`);
+await settled();
+await take('dragged');
+
+// Sliders: by mouse, by keys, and a typed number.
+const slider = page.locator(`.regioncard[data-region="${region}"] input[type=range]`);
+await drag(slider.first(), -40, 0);
+await settled();
+const smoother = await recipe();
+assert.notEqual(smoother.regions[region].smoothness, dragged.regions[region].smoothness);
+await slider.nth(1).focus();
+for (let i = 0; i < 12; i += 1) await page.keyboard.press('ArrowRight');
+await settled();
+assert.ok((await recipe()).regions[region].extrapolation > smoother.regions[region].extrapolation + 0.1);
+const amount = page.locator(`.regioncard[data-region="${region}"] input[type=number]`).first();
+await amount.fill('35');
+await amount.press('Enter');
+await settled();
+assert.equal((await recipe()).regions[region].smoothness, 0.35);
+await page.locator(`.regioncard[data-region="${region}"] select`).selectOption('mm');
+assert.match((await recipe()).regions[region].smoothness, /^[\d.]+ mm$/);
+await settled();
+
+// Another target, with one click.
+const other = job.heads.findIndex((name) => name !== before.target);
+await page.locator('.head').nth(other).click();
+assert.equal((await recipe()).target, job.heads[other]);
+await settled();
+assert.equal(await page.locator('.head').nth(other).getAttribute('aria-pressed'), 'true');
+assert.ok((await previewError()) < 0.1);
+await settled();
+await take('target');
+
+// Undo everything and do it again.
+const made = await recipe();
+const count = await steps();
+await page.keyboard.press('Escape');
+for (let i = 0; i < count; i += 1) await page.keyboard.press('Control+z');
+assert.deepEqual(await recipe(), before);
+assert.equal(await steps(), 0);
+for (let i = 0; i < count; i += 1) await page.keyboard.press('Control+Shift+Z');
+assert.deepEqual(await recipe(), made);
+await settled();
+
+// Keep it, change it, compare.
+await page.keyboard.press('k');
+await page.waitForSelector('.cards .card img');
+await page.keyboard.press('1');
+for (let i = 0; i < 6; i += 1) await page.keyboard.press('ArrowLeft');
+const changed = await recipe();
+assert.notDeepEqual(changed, made);
+await page.keyboard.press('b');
+assert.deepEqual(await recipe(), made);
+await settled();
+await page.keyboard.press('b');
+assert.deepEqual(await recipe(), changed);
+await settled();
+
+// Linked regions take the same values.
+if (job.regions.length > 1) {
+  for (const name of job.regions.slice(0, 2)) await page.locator(`.regioncard[data-region="${name}"] button`, { hasText: 'link' }).click();
+  await page.keyboard.press('2');
+  await page.keyboard.press('ArrowUp');
+  const linked = await recipe();
+  assert.deepEqual(linked.regions[job.regions[0]].position, linked.regions[job.regions[1]].position);
+  for (const name of job.regions.slice(0, 2)) await page.locator(`.regioncard[data-region="${name}"] button`, { hasText: 'link' }).click();
+  await settled();
+}
+
+// Draw with a region locked; six like it.
+await page.locator(`.regioncard[data-region="${region}"] button.lock`).click();
+const held = (await recipe()).regions[region];
+const sofar = await steps();
+await page.getByRole('button', { name: 'Draw', exact: true }).click();
+await page.waitForFunction((n) => window.crowdface.editor.history.past.length > n, sofar);
+const drawn = await recipe();
+await settled();
+if (!process.env.MOCK) {
+  const same = (a, b) => a.smoothness === b.smoothness && a.extrapolation === b.extrapolation;
+  assert.ok(same(drawn.regions[region], held), 'a locked region stays');
+}
+await page.keyboard.press('l');
+await page.waitForFunction(() => document.querySelectorAll('.picks .card img').length === 6, null, { timeout: 60000 });
+await settled();
+await take('six');
+await page.locator('.picks .card button').nth(2).click();
+await page.waitForFunction((n) => window.crowdface.editor.history.past.length > n, sofar + 1);
+await page.keyboard.press('Escape');
+await page.locator(`.regioncard[data-region="${region}"] button.lock`).click();
+
+// Between two.
+await page.keyboard.press('n');
+await page.locator('.ends select').nth(1).selectOption(job.heads[0]);
+await page.locator('.ends input').focus();
+await page.keyboard.press('ArrowRight');
+await page.getByRole('button', { name: 'Take it' }).click();
+await settled();
+
+// Turn, wheel, wireframe, distances, textures.
+const canvas = page.locator('canvas.turntable');
+await drag(canvas, -120, 10);
+assert.ok(Math.abs(await editor('editor.view.angle()')) > 10);
+await page.mouse.wheel(0, -300);
+await page.keyboard.press('w');
+await page.locator('.viewbar select').selectOption('distance');
+const drawnFrames = await frames();
+await page.waitForTimeout(300);
+await take('distance');
+assert.ok((await frames()) >= drawnFrames);
+await page.keyboard.press('w');
+await page.locator('.viewbar select').selectOption('regions');
+await page.waitForTimeout(200);
+await take('regions');
+if (job.textures) {
+  await page.locator('.viewbar select').selectOption('texture');
+  await page.waitForFunction(() => window.crowdface.editor.view.material.map !== null);
+  await page.waitForTimeout(300);
+  await take('texture');
+}
+await page.keyboard.press('Escape');
+await page.keyboard.press('f');
+
+// By keyboard alone: from the top to the first head, the heads, the controllers and the cards.
+await page.locator('.toolbar select').first().focus();
+const reached = new Set();
+for (let i = 0; i < 120; i += 1) {
+  await page.keyboard.press('Tab');
+  reached.add(await page.evaluate(() => {
+    const at = document.activeElement;
+    return at.closest('.head') ? 'head' : at.closest('.handle') ? 'handle' : at.matches('canvas') ? 'face'
+      : at.closest('.regioncard') ? 'card' : at.closest('.toolbar') ? 'toolbar' : at.closest('.shelf') ? 'shelf' : 'other';
+  }));
+}
+for (const place of ['toolbar', 'face', 'head', 'handle', 'shelf', 'card']) assert.ok(reached.has(place), `Tab reaches ${place}`);
+const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, [tabindex="0"]')]
+  .filter((node) => !node.getAttribute('aria-label') && !node.textContent.trim() && !node.labels?.length).map((node) => node.outerHTML));
+assert.deepEqual(nameless, [], 'all that takes the focus has a name');
+await page.keyboard.press('Escape');
+await page.keyboard.press('?');
+await page.waitForSelector('dialog[open]');
+await take('keys');
+await page.keyboard.press('Escape');
+
+// Reload: everything is still there, and undo goes on.
+await page.locator('.toolbar .name').fill('made_by_hand');
+await page.locator('.toolbar .name').press('Enter');
+const last = await recipe();
+const kept = await steps();
+await page.waitForTimeout(600);
+await page.reload();
+await page.waitForSelector('.board');
+await settled();
+assert.deepEqual(await recipe(), last);
+assert.equal(await steps(), kept);
+assert.equal(await page.locator('.shelf .card img').count(), 1);
+await page.keyboard.press('Control+z');
+assert.notDeepEqual(await recipe(), last);
+await page.keyboard.press('Control+Shift+Z');
+assert.deepEqual(await recipe(), last);
+await settled();
+
+// Save the mesh.
+await page.getByLabel('Format of the mesh').selectOption('obj');
+await page.keyboard.press('Escape');
+await page.keyboard.press('Control+s');
+await page.waitForFunction(() => /^Saved: /.test(document.querySelector('.message').textContent), null, { timeout: 60000 });
+const file = (await page.locator('.message').innerText()).replace('Saved: ', '');
+const saved = await editor('editor.wire()');
+await take('saved');
+const download = page.waitForEvent('download');
+await page.getByRole('button', { name: 'Picture', exact: true }).click();
+assert.match((await download).suggestedFilename(), /^made_by_hand_.*\.png$/);
+
+// Large screens.
+await page.setViewportSize({ width: 3840, height: 2160 });
+await page.waitForTimeout(1500);
+await take('large');
+const cut = await page.evaluate(() => [...document.querySelectorAll('.toolbar, .regioncard header, .control')]
+  .filter((node) => node.scrollWidth > node.clientWidth + 1).map((node) => node.className));
+assert.deepEqual(cut, [], 'nothing is cut off');
+
+writeFileSync(resultFile, JSON.stringify({ recipe: saved, file, points: await points() }));
+assert.deepEqual(problems, []);
+await browser.close();
+console.log('all right');
