@@ -14,7 +14,7 @@ place=build/$preset/share/crowdface/gallery
 fetched() {
   cmp -s gallery/package-lock.json "$work/package-lock.json" && [ -d "$work/node_modules/three" ]
 }
-state=$(cat gallery/package-lock.json gallery/build.mjs gallery/*.html gallery/src/*.* gallery/src/editor/* | cksum)
+state=$(cat gallery/package*.json gallery/build.mjs gallery/*.html gallery/src/*.* gallery/src/editor/* | cksum)
 fetched && [ -f "$place/editor.js" ] && [ "$(cat "$place/.state" 2>/dev/null)" = "$state" ] && exit 0
 command -v node >/dev/null && command -v npm >/dev/null || {
   echo "node and npm are needed for the gallery: apt-get install nodejs npm" >&2
@@ -33,7 +33,7 @@ if ! fetched; then
   }
 fi
 rm -rf "$work/src"
-cp -r gallery/build.mjs gallery/*.html gallery/src "$work/"
+cp -r gallery/package.json gallery/build.mjs gallery/*.html gallery/src "$work/"
 node "$work/build.mjs" "$place"
 echo "$state" >"$place/.state"
 echo "pages of gallery and editor in $place"

@@ -3,7 +3,7 @@
 // shown with its surfaces' colours, a texture, its distance to the target, or its regions.
 import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Sphere,
-  SRGBColorSpace, TextureLoader, Vector3, Vector4,
+  SRGBColorSpace, TextureLoader, Vector3,
 } from 'three';
 import { linearColours, paintEyes, skinMaterial, Stage } from '../stage.js';
 import { CardBlend, fitsOnCard } from './card_blend.js';
@@ -85,7 +85,7 @@ export class HeadView extends Stage {
     const lines = new MeshBasicMaterial({
       color: 0x101214, wireframe: true, transparent: true, opacity: 0.55, side: DoubleSide, toneMapped: false,
     });
-    fetchFace(lines, this.uniforms);
+    fetchFace(lines, { ...this.uniforms, faceShow: { value: 0 } });
     this.material.polygonOffset = true;
     this.material.polygonOffsetFactor = 1;
     this.material.polygonOffsetUnits = 1;
@@ -204,7 +204,7 @@ export class HeadView extends Stage {
   }
 
   draw() {
-    if (!this.object) return;
+    if (!this.object || this.silent) return;
     super.draw();
     if (!this.moving) return;
     const now = performance.now();
@@ -254,25 +254,24 @@ export class HeadView extends Stage {
   /// A small picture of what stands there, from the front.
   picture(size = 160) {
     const { camera, controls, renderer } = this;
-    const kept = {
-      position: camera.position.clone(), target: controls.target.clone(), size: renderer.getSize(new Vector3()),
-      ratio: renderer.getPixelRatio(), lines: this.lines.visible, viewport: renderer.getViewport(new Vector4()),
-    };
+    const kept = { place: this.place(), lines: this.lines.visible };
+    this.silent = true;
     this.lines.visible = false;
+    this.scene.background = new Color('#64666a');
     renderer.setPixelRatio(1);
     renderer.setSize(size, size, false);
     camera.aspect = 1;
     camera.updateProjectionMatrix();
-    controls.target.set(0, 0, 0);
-    camera.position.set(0, 0, 6.4);
+    controls.target.set(0, 0.12, 0);
+    camera.position.set(0, 0.12, 4.9);
     controls.update();
     super.draw();
+    this.scene.background = null;
     const url = renderer.domElement.toDataURL('image/jpeg', 0.85);
     this.lines.visible = kept.lines;
-    renderer.setPixelRatio(kept.ratio);
-    controls.target.copy(kept.target);
-    camera.position.copy(kept.position);
-    controls.update();
+    renderer.setPixelRatio(this.ratio);
+    this.restore(kept.place);
+    this.silent = false;
     this.fit();
     return url;
   }
