@@ -23,6 +23,7 @@ Run add_synth(CLI::App& program);
 Run add_import(CLI::App& program);
 Run add_check(CLI::App& program);
 Run add_init(CLI::App& program);
+Run add_mask(CLI::App& program);
 Run add_cache(CLI::App& program);
 Run add_wrap(CLI::App& program);
 Run add_edit(CLI::App& program);

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <functional>
-#include <map>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/mesh/subdivision.h"
-#include "crowdface/morph/band_masks.h"
 #include "crowdface/morph/ict_heads.h"
 #include "crowdface/morph/makehuman_heads.h"
+#include "crowdface/paint/bands.h"
+#include "crowdface/region/mask_painting.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -59,26 +58,26 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
   files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, about)));
 }
 
-/// Pixels by tile.
-using Masks = std::map<int, std::vector<std::uint8_t>>;
-
 /// Made before anything is written: a model without eyes or teeth has none.
 template <class Model>
-Masks masks_of(const Model& model, const Options& options) {
+PaintedMasks masks_of(const Model& model, const Options& options) {
+  const Mesh& neutral = model.neutral();
+  const FaceHeights heights = model.heights();
   try {
-    return band_masks(model.neutral(), model.heights(), kMaskSize);
+    return paint_masks(neutral.topology, neutral.uvs,
+                       level_bands(neutral.positions.col(1), heights.eyes, heights.mouth), {},
+                       kMaskSize);
   } catch (const InvalidInput& error) {
     throw InvalidInput(
         concat(options.data, ": eyes, teeth or other marks of the face's height: ", error.what()));
   }
 }
 
-void add_masks(const Masks& tiles, const std::string& kind, const Wanted& wanted,
+void add_masks(const PaintedMasks& masks, const std::string& kind, const Wanted& wanted,
                std::vector<HeadFile>& files) {
-  for (const auto& [tile, pixels] : tiles) {
-    const std::string number = tiles.size() > 1 ? concat(".", tile) : std::string();
-    files.push_back(text_file(wanted.directory / concat(kind, "_bands", number, ".png"),
-                              encode_png(kMaskSize, kMaskSize, 3, pixels)));
+  const fs::path path = wanted.directory / concat(kind, "_bands.png");
+  for (auto& [file, bytes] : encode_masks(masks, path).files) {
+    files.push_back(text_file(file, std::move(bytes)));
   }
 }
 
@@ -92,7 +91,7 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
                                static_cast<Index>(whole_number("--vertices", options.vertices,
                                                                kFewestVertices, kMostVertices)));
   Index vertices = topology.vertex_count;
-  const Masks masks = masks_of(model, options);
+  const PaintedMasks masks = masks_of(model, options);
   const auto encode = [&](const Positions& positions) {
     Mesh mesh = model.neutral();
     mesh.positions = positions;
@@ -120,7 +119,7 @@ void import_ict(const Options& options, const Wanted& wanted) {
     throw UsageError("--vertices: ICT heads keep the model's own mesh; only makehuman is refined");
   }
   const IctHeads model(options.data);
-  const Masks masks = masks_of(model, options);
+  const PaintedMasks masks = masks_of(model, options);
   const ObjTemplate form(model.file(), model.neutral().topology);
   const auto encode = [&](const Positions& positions) {
     return form.encode(positions, "a head of the ICT model");

@@ -11,10 +11,13 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/output_file.h"
+#include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/load_inputs.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/tile_files.h"
+#include "crowdface/paint/proposed_masks.h"
 #include "crowdface/region/mask_source.h"
 
 #include "cli/commands.h"
@@ -82,6 +85,49 @@ void declare(CLI::App& command, Options& options) {
   command.add_flag("--force", options.force, "Replace an existing file");
 }
 
+constexpr std::size_t kHeadsLookedAt = 8;
+
+/// What the heads' shape tells: where they look, and regions.
+struct Seen {
+  Positions first;  ///< of the first head
+  std::optional<Bearing> bearing;
+  std::optional<PaintedMasks> masks;
+};
+
+/// Looks at some heads of the folder. What stands against regions is told, and no error: a config that
+/// names none is a beginning too.
+Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
+  Config::Faces faces;
+  for (std::size_t i = 0; i < std::min(files.size(), kHeadsLookedAt); ++i) {
+    faces.files.push_back(files[i * files.size() / std::min(files.size(), kHeadsLookedAt)]);
+    faces.names.push_back(faces.files.back().stem().string());
+  }
+  Problems problems;
+  const auto set = load_faces(faces, {}, problems);
+  if (!set) {
+    log_warning(concat("no regions: ", problems.messages().front()));
+    return {read_obj(files[0]).positions, {}, {}};
+  }
+  const HeadShape mean = shape_of_mean(*set);
+  Seen seen{set->heads[0].positions, find_bearing(set->topology, mean), {}};
+  if (!with_masks) return seen;
+  try {
+    const Bearing bearing = seen.bearing.value_or(Bearing{{1, 1}, {2, 1}});
+    seen.masks = propose_masks(*set, mean, bearing, parse_bands("brow,nose,mouth"),
+                               mask_size(set->topology.vertex_count));
+  } catch (const InvalidInput& error) {
+    log_warning(concat("no regions: ", error.what()));
+  }
+  return seen;
+}
+
+void refuse_existing(const fs::path& file, bool force) {
+  std::error_code ignored;
+  if (!force && fs::exists(file, ignored)) {
+    throw UsageError(concat(file.string(), ": exists already; --force replaces it"));
+  }
+}
+
 void init(const Options& options) {
   const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
@@ -90,35 +136,50 @@ void init(const Options& options) {
                               " OBJ files, found ", files.size()));
   }
   const fs::path file = output_file(out);
-  std::error_code ignored;
   refuse_to_write_over(files, file);
   const std::string mask = mask_beside(heads);
   std::vector<fs::path> beside = find_tiles(heads / mask);
   beside.push_back(heads / mask);
   beside.push_back(heads / "tags.yaml");
   refuse_to_write_over(beside, file);
-  if (fs::exists(file, ignored) && !options.force) {
-    throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
-  }
-  const Positions first = read_obj(files[0]).positions;
+  refuse_existing(file, options.force);
   StarterFacts facts;
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();
   facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
   refuse_path_no_config_can_hold(facts.heads);
+  const Seen seen = look_at(files, mask.empty());
+  if (seen.bearing) {
+    facts.up = seen.bearing->up;
+    facts.front = seen.bearing->front;
+  }
   for (const fs::path& head : files) facts.names.push_back(head.stem().string());
-  facts.head_height = first.col(facts.up.index).maxCoeff() - first.col(facts.up.index).minCoeff();
+  const auto up = seen.first.col(facts.up.index);
+  facts.head_height = up.maxCoeff() - up.minCoeff();
   constexpr double kTypicalHeightMm = 280;  // with or without neck and shoulders
   facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);
-  facts.vertices = first.rows();
+  facts.vertices = seen.first.rows();
   facts.crowd_name = "crowd";
   facts.tags = tags_beside(heads, facts.names);
   if (!mask.empty()) facts.mask = (facts.heads / mask).string();
+  MaskFiles proposed;
+  if (seen.masks) {
+    proposed = encode_masks(*seen.masks, here / concat(file.stem().string(), "_bands.png"));
+    for (const auto& [path, bytes] : proposed.files) refuse_existing(path, options.force);
+    facts.mask = proposed.masks[0].filename().string();
+    facts.regions = {"brow", "nose", "mouth"};
+  }
+  for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
   write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
                   name_of(facts.units), " because the first head is ",
-                  format_fixed(facts.head_height, 2),
-                  " units tall. Check that, then: crowdface check ", out.string()));
-  if (!mask.empty()) log_info(concat("regions top, middle and bottom: ", (heads / mask).string()));
+                  format_fixed(facts.head_height, 2), " units tall; they look along ",
+                  name_of(facts.front), " with ", name_of(facts.up),
+                  " up. Check that, then: crowdface check ", out.string()));
+  if (!facts.mask.empty()) {
+    log_info(concat("regions ", join(facts.regions), ": ",
+                    mask.empty() ? concat(proposed.masks[0].string(), ", from the heads' shape")
+                                 : (heads / mask).string()));
+  }
 }
 
 }  // namespace

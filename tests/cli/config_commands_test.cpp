@@ -143,6 +143,37 @@ TEST(Init, TakesTheMaskAndTheTagsBesideTheHeads) {
   }
 }
 
+TEST(Init, ProposesRegionsWhereHeadsBringNone) {
+  const TemporaryFolder folder;
+  const std::string heads = (folder / "heads").string(), config = (folder / "my.yaml").string();
+  crowdface(0, {"synth", "-o", heads, "--count", "2", "--vertices", "5000"});
+  fs::remove(folder / "heads/regions.png");
+  crowdface(0, {"init", heads, "-o", config}, {"my_bands.png", "from the heads' shape"});
+  crowdface(0, {"check", config}, {"is fine", "brow, nose, mouth"});
+  fs::remove(config);
+  crowdface(64, {"init", heads, "-o", config}, {"my_bands.png", "--force"});
+  EXPECT_FALSE(fs::exists(config));
+}
+
+TEST(Mask, GoesFromAFolderOrAConfigIntoOne) {
+  const TemporaryFolder folder;
+  const std::string heads = (folder / "heads").string(), mask = (folder / "bands.png").string();
+  crowdface(0, {"synth", "-o", heads, "--count", "2", "--vertices", "5000"});
+  const Outcome first = crowdface(
+      0, {"mask", heads, "-o", mask, "--bands", "brow,nose,mouth,ears,neck", "--size", "512"});
+  EXPECT_THAT(first.out, ::testing::HasSubstr("names: [brow, nose, mouth, ears, neck]"));
+  folder.write("crowd.yaml", "schema: 1\ncrowd: {name: x, count: 2, seed: 1}\nfaces: {directory: " +
+                                 heads + ", units: cm}\noutput: {directory: out}\n" + first.out);
+  const std::string config = (folder / "crowd.yaml").string();
+  crowdface(0, {"check", config}, {"is fine", "brow, nose, mouth, ears, neck"});
+  crowdface(64, {"mask", config, "-o", mask}, {"holds something else"});
+  crowdface(0, {"mask", config, "-o", mask, "--force"}, {"[brow, nose, mouth]"});
+  crowdface(64, {"mask", heads, "-o", mask, "--up", "+Z", "--front", "-Z"}, {"--up"});
+  crowdface(65, {"mask", heads, "-o", mask, "--up", "+Z", "--front", "+X"}, {"along +Z with +Y"});
+  crowdface(64, {"mask", heads, "-o", (folder / "mask.jpg").string()}, {"PNG"});
+  crowdface(66, {"mask", (folder / "none").string(), "-o", mask}, {"none"});
+}
+
 TEST(Plan, BuildsNoMeshesAndKeepsTheCache) {
   const SmallCrowdFolder folder(SmallCrowd{});
   const std::string cache = folder.cache().string();

@@ -29,6 +29,7 @@ TEST(Usage, VersionAndHelpAreNoErrors) {
            {"synth", {"--vertices", "--seed", "--count"}},
            {"check", {"--masks"}},
            {"init", {"HEADS_DIR"}},
+           {"mask", {"HEADS_DIR|CONFIG", "--bands"}},
            {"cache", {"--clear", "--cache"}}}) {
     const Outcome help = crowdface(0, {command, "--help"}, phrases);
     EXPECT_THAT(help.out, ::testing::AllOf(

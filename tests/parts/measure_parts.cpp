@@ -20,15 +20,15 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/morph/band_masks.h"
+#include "crowdface/paint/bands.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/surface_point.h"
+#include "crowdface/region/mask_painting.h"
 
 namespace crowdface {
 namespace {
@@ -413,9 +413,11 @@ void paint_bands(const std::filesystem::path& folder, const std::string& prefix)
     }
     return sum / count;
   };
-  const Mesh first = {faces.topology, faces.heads[0].positions, faces.uvs};
-  for (const auto& [tile, pixels] : band_masks(first, {height_of(true), height_of(false)}, kSize)) {
-    write_file(concat(prefix, '.', tile, ".png"), encode_png(kSize, kSize, 3, pixels));
+  const auto bands =
+      level_bands(faces.heads[0].positions.col(1), height_of(true), height_of(false));
+  const PaintedMasks masks = paint_masks(faces.topology, faces.uvs, bands, {}, kSize);
+  for (const auto& [file, bytes] : encode_masks(masks, prefix + ".png").files) {
+    write_file(file, bytes);
   }
 }
 

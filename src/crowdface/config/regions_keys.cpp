@@ -92,13 +92,16 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
     return StarterLines{
         "none", "",
         "Parts of the face that are blended on their own need an image that tells them apart: one\n"
-        "colour channel a region, read at the meshes' UVs. Until then the head is one piece.\n"
-        "regions: {names: [top, middle, bottom], mask: bands.png}"};
+        "colour channel a region, read at the meshes' UVs (crowdface mask proposes one). Until "
+        "then\n"
+        "the head is one piece.\nregions: {names: [top, middle, bottom], mask: bands.png}"};
   }
   return StarterLines{
-      block_map({"names: [top, middle, bottom]", entry("mask", write_scalar(facts.mask))}), "",
-      "Parts of the face that are blended on their own: the image beside the heads tells them "
-      "apart,\none colour channel a region. \"regions: none\" makes the head one piece."};
+      block_map(
+          {concat("names: [", join(facts.regions), ']'), entry("mask", write_scalar(facts.mask))}),
+      "",
+      "Parts of the face that are blended on their own: the image tells them apart, one colour\n"
+      "channel a region. \"regions: none\" makes the head one piece."};
 }
 
 std::string write_regions(const Config& config, const ConfigWriting& writing) {

@@ -22,7 +22,9 @@ struct StarterFacts {
   Axis up = {1, 1};
   Axis front = {2, 1};
   std::string crowd_name = "crowd";
-  std::string mask;  ///< of three bands, top, middle, bottom, from the config's folder; empty: none
+  std::string mask;  ///< of three bands, from the config's folder; empty: none
+  std::vector<std::string> regions = {"top", "middle",
+                                      "bottom"};  ///< what the mask's bands are called
   std::vector<std::pair<std::string, std::vector<std::string>>> tags = {};  ///< heads and theirs
 };
 

@@ -203,6 +203,21 @@ void check_inputs(const ConfigReading& reading, const std::filesystem::path& cac
   }
 }
 
+std::optional<FaceSet> load_faces(const Config::Faces& faces, const std::filesystem::path& cache,
+                                  Problems& problems) {
+  const std::size_t before = problems.size();
+  std::vector<HeadFile> heads = read_heads(faces.files, cache, problems);
+  compare_with_first(heads, problems);
+  if (problems.size() > before) return std::nullopt;
+  FaceSet set;
+  set.topology = heads[0].mesh->topology;
+  set.uvs = heads[0].mesh->uvs;
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    set.heads.push_back({faces.names[h], std::move(heads[h].file.positions)});
+  }
+  return set;
+}
+
 std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::path& cache,
                                   Problems& problems) {
   std::vector<HeadFile> heads = read_heads(config.faces.files, cache, problems);

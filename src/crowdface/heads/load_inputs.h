@@ -17,6 +17,11 @@ namespace crowdface {
 std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::path& cache,
                                   Problems& problems);
 
+/// Heads alone, compared with each other but not aligned. Every problem is added.
+/// \return nothing if there is any problem.
+std::optional<FaceSet> load_faces(const Config::Faces& faces, const std::filesystem::path& cache,
+                                  Problems& problems);
+
 /// Only adds the problems of the heads and masks that a config names, as far as it is known: what a
 /// user should hear together with what is wrong in the config.
 void check_inputs(const ConfigReading& reading, const std::filesystem::path& cache,

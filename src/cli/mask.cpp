@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <system_error>
+
+#include "crowdface/config/config_reader.h"
+#include "crowdface/config/input_files.h"
+#include "crowdface/config/yaml.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/load_inputs.h"
+#include "crowdface/paint/proposed_masks.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "cli/head_files.h"
+
+namespace crowdface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kLeastSize = 64, kMostSize = 8192;
+
+struct Options : CommonOptions {
+  std::string heads, out, bands = "brow,nose,mouth", size, up, front;
+  CacheOption cache;
+  bool force = false;
+};
+
+/// Which heads, and which way a config says that they look.
+struct Wanted {
+  Config::Faces faces;
+  std::optional<Bearing> bearing;
+};
+
+Wanted heads_of_folder(const fs::path& folder) {
+  Wanted wanted;
+  wanted.faces.files = list_heads(folder);
+  if (wanted.faces.files.empty()) {
+    throw MissingInput(concat(folder.string(), ": expected OBJ files, found none"));
+  }
+  for (const fs::path& file : wanted.faces.files) {
+    wanted.faces.names.push_back(file.stem().string());
+  }
+  return wanted;
+}
+
+/// Of a config no more need be right than its heads: the mask that it names may not be there yet.
+Wanted heads_of_config(const fs::path& file) {
+  Problems problems;
+  const ConfigReading reading = read_config_parts(file, {}, problems);
+  if (!reading.heads_known) problems.throw_if_any();
+  const Config::Faces& faces = reading.config.faces;
+  return {faces, Bearing{faces.up, faces.front}};
+}
+
+void read_axis(const std::string& option, const std::string& text, Axis& axis) {
+  if (text.empty()) return;
+  const auto read = parse_axis(text);
+  if (!read)
+    throw UsageError(concat(option, ": expected an axis such as +Z, found ", quoted(text)));
+  axis = *read;
+}
+
+Bearing bearing_of(const Options& options, const Wanted& wanted, const Topology& topology,
+                   const HeadShape& mean) {
+  Bearing bearing = wanted.bearing.value_or(Bearing{{1, 1}, {2, 1}});
+  if (options.up.empty() && options.front.empty() && !wanted.bearing) {
+    return find_bearing(topology, mean).value_or(bearing);
+  }
+  read_axis("--up", options.up, bearing.up);
+  read_axis("--front", options.front, bearing.front);
+  if (bearing.up.index == bearing.front.index) {
+    throw UsageError("--up, --front: expected two different axes");
+  }
+  return bearing;
+}
+
+void mask(const Options& options) {
+  const std::vector<Band> bands = parse_bands(options.bands);
+  const fs::path out = options.out;
+  if (out.extension() != ".png") {
+    throw UsageError(concat("-o: expected a PNG file, found ", quoted(options.out)));
+  }
+  std::error_code ignored;
+  const Wanted wanted = fs::is_directory(options.heads, ignored) ? heads_of_folder(options.heads)
+                                                                 : heads_of_config(options.heads);
+  Problems problems;
+  const auto faces = load_faces(wanted.faces, options.cache.cache_path(), problems);
+  problems.throw_if_any();
+  const HeadShape mean = shape_of_mean(*faces);
+  const Bearing bearing = bearing_of(options, wanted, faces->topology, mean);
+  const int size =
+      options.size.empty()
+          ? mask_size(faces->topology.vertex_count)
+          : static_cast<int>(whole_number("--size", options.size, kLeastSize, kMostSize));
+  MaskFiles masks = encode_masks(propose_masks(*faces, mean, bearing, bands, size), out);
+  std::vector<HeadFile> files;
+  for (auto& [file, bytes] : masks.files) files.push_back(text_file(file, std::move(bytes)));
+  write_head_files("masks", files, options.force);
+  std::vector<std::string> paths;
+  for (const fs::path& path : masks.masks) paths.push_back(write_scalar(path.string()));
+  const std::string list = join(paths);
+  print(concat("regions: {names: [", join(names_of(bands)),
+               "], mask: ", paths.size() > 1 ? concat('[', list, ']') : list, "}\n"));
+  log_info(concat("heads that look along ", name_of(bearing.front), " with ", name_of(bearing.up),
+                  " up; crowdface check CONFIG --masks DIR draws their regions"));
+}
+
+void declare(CLI::App& command, Options& options) {
+  add_option(command, "heads", options.heads, "HEADS_DIR|CONFIG", "A folder of heads, or a config")
+      ->required();
+  add_option(command, "-o,--output", options.out, "FILE.png",
+             "Where the mask goes; the tiles of a UDIM layout bear their numbers before the ending")
+      ->required();
+  add_option(command, "--bands", options.bands, "LIST",
+             "The regions, in this order: brow,nose,mouth and, if wanted, ears and neck");
+  add_option(command, "--size", options.size, "N",
+             "Texels of a side, 64 to 8192 (default: 1024, for large meshes 2048)");
+  add_option(command, "--up", options.up, "AXIS", "Of a folder: which way is up, such as +Z");
+  add_option(command, "--front", options.front, "AXIS",
+             "Of a folder: where the heads look (default: told from their shape)");
+  options.cache.add_to(command);
+  command.add_flag("--force", options.force, "Replace images that hold something else");
+}
+
+}  // namespace
+
+Run add_mask(CLI::App& program) {
+  return add_command(program, "mask",
+                     "Propose a region mask from the heads' own shape: brow, nose, mouth", declare,
+                     mask);
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/paint/proposed_masks.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::string_view kForm =
+    "brow,nose,mouth and, if wanted, ears and neck, with commas between";
+
+Band band_of(std::string_view name) {
+  for (const auto& [known, band] : kBandNames) {
+    if (known == name) return band;
+  }
+  throw UsageError(concat("--bands: expected ", kForm, ", found ", quoted(name)));
+}
+
+}  // namespace
+
+std::vector<Band> parse_bands(std::string_view text) {
+  std::vector<Band> bands;
+  while (true) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const Band band = band_of(text.substr(0, comma));
+    if (std::find(bands.begin(), bands.end(), band) != bands.end()) {
+      throw UsageError(concat("--bands: ", text.substr(0, comma), " stands there twice"));
+    }
+    bands.push_back(band);
+    if (comma == text.size()) break;
+    text.remove_prefix(comma + 1);
+  }
+  for (const Band band : {Band::kBrow, Band::kNose, Band::kMouth}) {
+    if (std::find(bands.begin(), bands.end(), band) != bands.end()) continue;
+    throw UsageError(concat("--bands: expected ", kForm, ", found ", join(names_of(bands))));
+  }
+  return bands;
+}
+
+std::vector<std::string> names_of(const std::vector<Band>& bands) {
+  std::vector<std::string> names;
+  for (const Band band : bands) {
+    names.emplace_back(kBandNames[static_cast<std::size_t>(band)].first);
+  }
+  return names;
+}
+
+int mask_size(Index vertices) {
+  constexpr Index kMany = 100'000;
+  return vertices > kMany ? 2048 : 1024;
+}
+
+PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Bearing& bearing,
+                           const std::vector<Band>& bands, int size) {
+  if (faces.topology.corner_uvs.empty()) {
+    throw InvalidInput(
+        "the heads have no texture coordinates (vt lines), and a mask is an image in their layout: "
+        "unwrap one head, with all others of the same mesh, or blend without regions");
+  }
+  const auto marks = find_face_marks(faces.topology, mean, axes_of(bearing));
+  if (!marks) {
+    const auto other = find_bearing(faces.topology, mean);
+    throw InvalidInput(concat("no face is found that looks along ", name_of(bearing.front),
+                              " with ", name_of(bearing.up), " up: ",
+                              other
+                                  ? concat("the heads look along ", name_of(other->front), " with ",
+                                           name_of(other->up), " up")
+                                  : "no nose stands out of the mean head; paint the mask by hand"));
+  }
+  const auto alpha = propose_bands(faces.topology, mean, axes_of(bearing), *marks, bands);
+  return paint_masks(faces.topology, faces.uvs, alpha, mean.skin, size);
+}
+
+}  // namespace crowdface

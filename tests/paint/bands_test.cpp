@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/paint/bands.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/io/image.h"
+#include "crowdface/paint/proposed_masks.h"
+
+#include "paint/synth_heads.h"
+#include "support/expect_error.h"
+
+namespace crowdface::testing {
+namespace {
+
+const std::vector<Band> kThree = {Band::kBrow, Band::kNose, Band::kMouth};
+const std::vector<Band> kFive = {Band::kBrow, Band::kNose, Band::kMouth, Band::kEars, Band::kNeck};
+
+TEST(Bands, RunSoftlyIntoOneAnotherAndSumToOne) {
+  const Eigen::VectorXd heights = Eigen::VectorXd::LinSpaced(401, -10, 10);
+  const auto alpha = level_bands(heights, 3, -3);
+  EXPECT_LT((alpha.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
+  EXPECT_GE(alpha.minCoeff(), 0);
+  EXPECT_EQ(alpha(0, 2), 1);
+  EXPECT_EQ(alpha(200, 1), 1);
+  EXPECT_EQ(alpha(400, 0), 1);
+  EXPECT_LT((alpha.bottomRows(400) - alpha.topRows(400)).cwiseAbs().maxCoeff(), 0.06);
+  expect_error(ExitCode::kBadData, {"eyes above the mouth"}, [&] { level_bands(heights, 3, 3); });
+}
+
+TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {
+  const FaceSet faces = synth_heads(5000);
+  const HeadShape head = shape_of_mean(faces);
+  const auto marks = find_face_marks(faces.topology, head, {});
+  ASSERT_TRUE(marks);
+  const auto alpha = propose_bands(faces.topology, head, {}, *marks, kThree);
+  Image image{512, 512, 3, -1, synthetic_region_mask(512)};
+  const auto theirs =
+      region_weights(faces.topology, faces.uvs, {MaskSource("mask", image)}, 3).alpha;
+  EXPECT_LT((alpha - theirs).cwiseAbs().mean(), 0.045);
+}
+
+TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
+  const FaceSet faces = synth_heads(20000);
+  const HeadShape head = shape_of_mean(faces);
+  const auto marks = find_face_marks(faces.topology, head, {});
+  ASSERT_TRUE(marks);
+  const auto alpha = propose_bands(faces.topology, head, {}, *marks, kFive);
+  EXPECT_LT((alpha.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
+  EXPECT_GE(alpha.minCoeff(), 0);
+  for (Index v = 0; v < alpha.rows(); ++v) {
+    const double x = head.positions(v, 0), y = head.positions(v, 1);
+    if (std::abs(x) < 4) {
+      EXPECT_LT(alpha(v, 3), 0.02) << "no ear so near the middle";
+    }
+    if (y > marks->tip) {
+      EXPECT_LT(alpha(v, 4), 0.02) << "no neck beside the nose";
+    }
+    if (y < marks->chin - 2) {
+      EXPECT_EQ(alpha(v, 4), 1);
+    }
+  }
+  Index left = 0, right = 0;
+  for (Index v = 0; v < alpha.rows(); ++v) {
+    if (alpha(v, 3) > 0.9) ++(head.positions(v, 0) < 0 ? left : right);
+  }
+  EXPECT_GT(left, 100);
+  EXPECT_GT(right, 100);
+}
+
+TEST(Bands, AHeadWithoutEarsOrNeckHasNoSuchBands) {
+  const FaceSet faces = synth_heads(5000);
+  HeadShape head = shape_of_mean(faces);
+  const auto marks = find_face_marks(faces.topology, head, {});
+  ASSERT_TRUE(marks);
+  for (Index v = 0; v < head.positions.rows(); ++v) {
+    head.positions(v, 0) = std::clamp(head.positions(v, 0), -5.0, 5.0);
+    head.positions(v, 1) = std::max(head.positions(v, 1), marks->chin);
+  }
+  for (const auto& [band, phrase] : {std::pair{Band::kEars, "ears"}, {Band::kNeck, "neck"}}) {
+    const std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth, band};
+    expect_error(ExitCode::kBadData, {phrase},
+                 [&] { propose_bands(faces.topology, head, {}, *marks, bands); });
+  }
+}
+
+TEST(Bands, NamesAreReadInTheirOrder) {
+  EXPECT_EQ(parse_bands("mouth,brow,nose,neck"),
+            (std::vector<Band>{Band::kMouth, Band::kBrow, Band::kNose, Band::kNeck}));
+  EXPECT_EQ(names_of(kFive), (std::vector<std::string>{"brow", "nose", "mouth", "ears", "neck"}));
+  for (const char* wrong :
+       {"brow", "", "brow,nose,mouth,", "brow,nose,mouth,chin", "brow,nose,nose,mouth"}) {
+    expect_error(ExitCode::kUsage, {"--bands"}, [&] { parse_bands(wrong); });
+  }
+}
+
+TEST(Bands, HeadsThatCannotBePaintedAreRefusedWithTheWayOut) {
+  FaceSet faces = synth_heads(5000);
+  const HeadShape head = shape_of_mean(faces);
+  expect_error(ExitCode::kBadData, {"along +X", "look along +Z with +Y up"}, [&] {
+    propose_masks(faces, head, {{1, 1}, {0, 1}}, kThree, 64);
+  });
+  faces.topology.corner_uvs.clear();
+  expect_error(ExitCode::kBadData, {"no texture coordinates", "without regions"}, [&] {
+    propose_masks(faces, head, {{1, 1}, {2, 1}}, kThree, 64);
+  });
+}
+
+}  // namespace
+}  // namespace crowdface::testing

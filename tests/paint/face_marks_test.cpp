@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/paint/face_marks.h"
+
+#include <gtest/gtest.h>
+
+#include "paint/synth_heads.h"
+#include "support/meshes.h"
+
+namespace crowdface::testing {
+namespace {
+
+/// Of synthetic heads the eyes' middle is the origin, and the lips meet some 7 cm below.
+TEST(FaceMarks, LieWhereASyntheticHeadHasThemAtAnyResolution) {
+  for (const Index vertices : {5000, 20000}) {
+    const FaceSet faces = synth_heads(vertices);
+    HeadShape head = shape_of_mean(faces);
+    EXPECT_EQ(head.eyeballs.size(), 2U);
+    const auto marks = find_face_marks(faces.topology, head, {});
+    ASSERT_TRUE(marks);
+    EXPECT_NEAR(marks->middle, 0, 0.2);
+    EXPECT_NEAR(marks->eyes, 0, 0.3);
+    EXPECT_NEAR(marks->mouth, -7, 0.4);
+    EXPECT_GT(marks->bridge, marks->tip + 2);
+    EXPECT_GT(marks->tip, marks->mouth + 2);
+    EXPECT_NEAR(marks->chin, -11.3, 1);
+    head.eyeballs.clear();
+    EXPECT_NEAR(find_face_marks(faces.topology, head, {})->eyes, 0, 0.6) << "told by the nose";
+  }
+}
+
+TEST(FaceMarks, AHeadIsFoundHoweverItIsTurned) {
+  FaceSet faces = synth_heads(5000);
+  HeadShape head = shape_of_mean(faces);
+  const Positions upright = head.positions;
+  for (int up = 0; up < 3; ++up) {
+    for (int front = 0; front < 3; ++front) {
+      if (front == up) continue;
+      for (const int sign : {1, -1}) {
+        const Bearing bearing{{up, sign}, {front, -sign}};
+        const HeadAxes axes = axes_of(bearing);
+        for (Index v = 0; v < upright.rows(); ++v) {
+          head.positions.row(v) =
+              (upright(v, 0) * axes.side() + upright(v, 1) * axes.up + upright(v, 2) * axes.front)
+                  .transpose();
+        }
+        EXPECT_EQ(find_bearing(faces.topology, head), bearing);
+        const HeadAxes wrong{axes.up, axes.front};
+        EXPECT_FALSE(find_face_marks(faces.topology, head, wrong));
+      }
+    }
+  }
+}
+
+TEST(FaceMarks, WhatIsNoHeadHasNoFace) {
+  HeadShape cube{cube_positions(), std::vector<bool>(8, true), {}};
+  EXPECT_FALSE(find_face_marks(cube_topology(), cube, {}));
+  EXPECT_FALSE(find_bearing(cube_topology(), cube));
+  cube.skin.assign(8, false);
+  EXPECT_FALSE(find_bearing(cube_topology(), cube));
+  cube.skin.assign(8, true);
+  cube.positions.setZero();
+  EXPECT_FALSE(find_bearing(cube_topology(), cube));
+}
+
+}  // namespace
+}  // namespace crowdface::testing

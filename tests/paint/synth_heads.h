@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/synth/synthetic_head.h"
+
+namespace crowdface::testing {
+
+inline FaceSet synth_heads(Index vertices, std::uint64_t count = 3) {
+  const SyntheticHeads heads(vertices, SyntheticHeads::Parts::kEyesAndTeeth);
+  FaceSet set{heads.topology(), heads.uvs(), {}};
+  for (std::uint64_t i = 1; i <= count; ++i) set.heads.push_back({"", heads.positions(1, i)});
+  return set;
+}
+
+}  // namespace crowdface::testing
