@@ -19,6 +19,7 @@ export const lamps = [
   { colour: 0xe6edff, strength: 1.3, at: [4.5, 2, -9.5] },
   { colour: 0xffffff, strength: 0.6, at: [-5, 1.5, -9.5] },
 ];
+export const exposure = 1.05;
 export const sky = { above: 0xe8edf4, below: 0x4c4640, strength: 0.75, ambient: 0.08 };
 
 /// Skin, with a little light that goes through it at the rim.
@@ -94,7 +95,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ antialias, alpha: true });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = ACESFilmicToneMapping;
-    this.renderer.toneMappingExposure = 1.05;
+    this.renderer.toneMappingExposure = exposure;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.node = this.renderer.domElement;
     this.node.className = 'turntable';

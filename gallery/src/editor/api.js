@@ -6,7 +6,7 @@ const kinds = {
 };
 
 /// A binary answer: the length of a JSON head, the head, then the arrays that it lists, each padded
-/// to four bytes.
+/// to four bytes. Of a name that both have the array counts; `head` is the whole head.
 export function unpack(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
@@ -18,7 +18,7 @@ export function unpack(buffer) {
     arrays[name] = new Kind(buffer, at, count);
     at += 4 * Math.ceil((count * Kind.BYTES_PER_ELEMENT) / 4);
   }
-  return { ...head, ...arrays };
+  return { ...head, ...arrays, head };
 }
 
 async function answer(path, options) {

@@ -7,7 +7,7 @@ import {
 } from 'three';
 import { FullScreenQuad } from 'three/examples/jsm/postprocessing/Pass.js';
 import { cornersAround } from './corners.js';
-import { fetchVertex, floatTexture, layoutOf, padded, targetPositions } from './surface.js';
+import { floatTexture, layoutOf, padded, targetPositions, texelOf } from './surface.js';
 
 const start = `
   precision highp float;
@@ -15,8 +15,7 @@ const start = `
   precision highp isampler2DArray;
   precision highp sampler2DArray;
   precision highp usampler2D;
-  out vec4 result;
-  ${fetchVertex}`;
+  out vec4 result;`;
 
 const pointShader = `${start}
   uniform isampler2DArray fields;
@@ -41,18 +40,20 @@ const pointShader = `${start}
     result = vec4(texelFetch(base, at, 0).xyz + added, length(added));
   }`;
 
-const normalShader = `${start}
+const cornerRow = 2048;
+
+const normalShader = (layout) => `${start}
+  ${texelOf(layout)}
   uniform sampler2D points, turned;
   uniform usampler2D ends, corners;
-  vec3 pointOf(uint vertex) { return texelFetch(points, texelOf(int(vertex), points), 0).xyz; }
+  vec3 pointOf(uint vertex) { return texelFetch(points, texelOf(int(vertex)), 0).xyz; }
   void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     uvec4 own = texelFetch(ends, at, 0);
     vec3 here = texelFetch(points, at, 0).xyz;
     vec3 sum = vec3(0.0);
-    int width = textureSize(corners, 0).x;
     for (uint i = own.x; i < own.y; ++i) {
-      uvec4 corner = texelFetch(corners, ivec2(int(i) % width, int(i) / width), 0);
+      uvec4 corner = texelFetch(corners, ivec2(int(i) & ${cornerRow - 1}, int(i) >> ${Math.log2(cornerRow)}), 0);
       sum += cross(pointOf(corner.x) - here, pointOf(corner.y) - here);
     }
     float size = length(sum);
@@ -110,7 +111,7 @@ export class CardBlend {
     this.turned = target();
     this.nothing = floatTexture({ width, height });
     this.point = material(pointShader, ['fields', 'masks', 'factors', 'base', 'moved', 'count', 'groups']);
-    this.normal = material(normalShader, ['points', 'turned', 'ends', 'corners']);
+    this.normal = material(normalShader(this.layout), ['points', 'turned', 'ends', 'corners']);
     this.difference = material(differenceShader, ['plus', 'minus', 'more']);
     this.putFields();
     this.putCorners();
@@ -160,7 +161,7 @@ export class CardBlend {
     const corners = new Uint32Array(2 * next.length);
     for (let i = 0; i < next.length; i += 1) corners.set([next[i], after[i]], 2 * i);
     this.normal.uniforms.ends.value = pairs(ends, this.layout.width);
-    this.normal.uniforms.corners.value = pairs(corners, 2048);
+    this.normal.uniforms.corners.value = pairs(corners, cornerRow);
   }
 
   setMasks(alpha) {

@@ -4,8 +4,14 @@ import { el, short } from '../dom.js';
 import { anchorMark, planeFrame, side } from '../plane.js';
 import { anchorsOf, weightsOf } from './recipe.js';
 
+const headRadius = 30;
 const ring = 20; // how far controllers at one place stand from it, so that each can be taken
 const still = 4; // pixels: below, a press is a click
+
+function isDark(hex) {
+  const [r, g, b] = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
+  return 0.2126 * r ** 2.2 + 0.7152 * g ** 2.2 + 0.0722 * b ** 2.2 < 0.25;
+}
 
 export class PlaneBoard {
   /// \param editor  job, document, preview(document), commit(document, label, options), linked(name),
@@ -37,8 +43,8 @@ export class PlaneBoard {
   }
 
   headNode(head, h) {
-    const mark = anchorMark({ name: head.name, picture: `api/heads/${h}/thumbnail` }, 30);
-    mark.append(el('circle', { r: 36, class: 'targetring' }));
+    const mark = anchorMark({ name: head.name, picture: `api/heads/${h}/thumbnail` }, headRadius);
+    mark.append(el('circle', { r: headRadius + 6, class: 'targetring' }));
     const node = el('g', { class: 'head', tabindex: '0', role: 'button' }, mark);
     this.makeDraggable(node, {
       from: () => anchorsOf(this.editor.job, this.editor.document.anchors)[h],
@@ -53,8 +59,10 @@ export class PlaneBoard {
   handleNode(region) {
     const knob = el('circle', { r: 11 });
     knob.style.fill = region.colour;
+    const letter = el('text', { y: 4.5 }, region.name[0].toUpperCase());
+    letter.style.fill = isDark(region.colour) ? '#fff' : '#17181a';
     const node = el('g', { class: 'handle', tabindex: '0', role: 'slider', 'data-region': region.name },
-      el('circle', { r: 18, class: 'grab' }), knob, el('text', { y: 4.5 }, region.name[0].toUpperCase()));
+      el('circle', { r: 18, class: 'grab' }), knob, letter);
     this.makeDraggable(node, {
       from: () => this.placeOf(region.name),
       to: (point) => this.withPosition(region.name, point),
@@ -162,16 +170,19 @@ export class PlaneBoard {
   showHandles() {
     const { job, document } = this.editor;
     const places = job.regions.map(({ name }) => ({ name, at: this.frame.at(this.placeOf(name)) }));
-    const shares = (a, b) => Math.hypot(a.at[0] - b.at[0], a.at[1] - b.at[1]) < 20;
+    const heads = anchorsOf(job, document.anchors).map((anchor) => ({ at: this.frame.at(anchor) }));
+    const shares = (a, b) => Math.hypot(a.at[0] - b.at[0], a.at[1] - b.at[1]) < ring;
     this.leads.replaceChildren();
     places.forEach((place) => {
       const node = this.handleNodes.get(place.name);
       const here = places.filter((other) => shares(place, other));
       let [x, y] = place.at;
-      if (here.length > 1 && this.drag?.node !== node) {
-        const angle = (2 * Math.PI * here.indexOf(place)) / here.length - Math.PI / 2;
-        x += ring * Math.cos(angle);
-        y += ring * Math.sin(angle);
+      const onHead = heads.some((head) => shares(head, place)); // whose picture is to be seen
+      if ((here.length > 1 || onHead) && this.drag?.node !== node) {
+        const angle = (2 * Math.PI * (here.indexOf(place) + 0.5)) / here.length - Math.PI / 2;
+        const away = onHead ? headRadius + 4 : ring;
+        x += away * Math.cos(angle);
+        y += away * Math.sin(angle);
         const line = el('line', { x1: place.at[0], y1: place.at[1], x2: x, y2: y, class: 'lead' });
         this.leads.append(line);
       }

@@ -134,4 +134,9 @@ export class ProcessorBlend {
     for (let i = 0; i < result.length; i += 1) result[i] = this.points[4 * Math.floor(i / 3) + (i % 3)];
     return result;
   }
+
+  dispose() {
+    this.pointTexture.dispose();
+    this.normalTexture.dispose();
+  }
 }

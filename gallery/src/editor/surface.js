@@ -4,7 +4,7 @@
 // reads them.
 import { DataTexture, FloatType, NearestFilter, RGBAFormat } from 'three';
 
-/// How vertices lie in a texture: row by row.
+/// How vertices lie in a texture: row by row, a power of two in each.
 export function layoutOf(vertices, largest = 4096) {
   const width = Math.min(largest, 1 << Math.ceil(Math.log2(Math.sqrt(Math.max(vertices, 1)))));
   return { width, height: Math.max(1, Math.ceil(vertices / width)) };
@@ -45,9 +45,9 @@ export function targetPositions(heads, shares) {
   return result;
 }
 
-/// Where the points and normals of a vertex are found, for every shader that reads them.
-export const fetchVertex = `
-  ivec2 texelOf(int vertex, sampler2D from) {
-    int width = textureSize(from, 0).x;
-    return ivec2(vertex % width, vertex / width);
-  }`;
+/// Where the texel of a vertex is found, in shaders. Widths are powers of two, because dividing whole
+/// numbers is slow where no graphics card draws.
+export function texelOf({ width }) {
+  return `
+  ivec2 texelOf(int vertex) { return ivec2(vertex & ${width - 1}, vertex >> ${Math.log2(width)}); }`;
+}

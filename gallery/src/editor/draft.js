@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Skin that moves where no graphics card draws. Shaders run on the processor there, and for a vertex
+// again and again as triangles come by; so colour and light are computed once a vertex in typed
+// arrays, and the shader does no more than to place it.
+import { BufferAttribute, Color, FrontSide, Matrix3, ShaderMaterial, Vector3 } from 'three';
+import { exposure, lamps, sky } from '../stage.js';
+
+/// The curve of ACES as three.js has it (Hill's fit), for light of one colour: what it does to hues
+/// is left away.
+function toneOf(light) {
+  const x = (light * exposure) / 0.6;
+  const a = x * (x + 0.0245786) - 0.000090537;
+  const b = x * (0.983729 * x + 0.432951) + 0.238081;
+  const y = Math.min(Math.max(a / b, 0), 1);
+  return y <= 0.0031308 ? 12.92 * y : 1.055 * y ** (1 / 2.4) - 0.055;
+}
+
+const steps = 4096;
+const brightest = 4;
+const tones = Uint8Array.from({ length: steps + 1 }, (_, i) => Math.round(255 * toneOf((i * brightest) / steps)));
+
+export class Draft {
+  /// \param geometry  with regionColour; \param colours  linear light, three a vertex;
+  /// \param palette   colours of distances, near to far.
+  constructor(geometry, blender, colours, palette) {
+    Object.assign(this, { geometry, blender, colours, palette });
+    this.count = colours.length / 3;
+    this.points = new BufferAttribute(blender.points, 4);
+    this.shades = new BufferAttribute(new Uint8Array(4 * this.count), 4, true);
+    geometry.setAttribute('facePoint', this.points);
+    geometry.setAttribute('shade', this.shades);
+    this.material = new ShaderMaterial({
+      side: FrontSide,
+      uniforms: { map: { value: null } },
+      vertexShader: `
+        attribute vec4 facePoint, shade;
+        varying vec3 vShade;
+        #ifdef TEXTURED
+          varying vec2 vPlace;
+        #endif
+        void main() {
+          vShade = shade.rgb;
+          #ifdef TEXTURED
+            vPlace = uv;
+          #endif
+          gl_Position = projectionMatrix * modelViewMatrix * vec4(facePoint.xyz, 1.0);
+        }`,
+      fragmentShader: `
+        varying vec3 vShade;
+        #ifdef TEXTURED
+          uniform sampler2D map;
+          varying vec2 vPlace;
+        #endif
+        void main() {
+          #ifdef TEXTURED
+            gl_FragColor = vec4(2.0 * vShade * texture2D(map, vPlace).rgb, 1.0);
+            #include <tonemapping_fragment>
+            #include <colorspace_fragment>
+          #else
+            gl_FragColor = vec4(vShade, 1.0);
+          #endif
+        }`,
+    });
+  }
+
+  setMap(map) {
+    const { material } = this;
+    material.uniforms.map.value = map;
+    material.defines = map ? { TEXTURED: 1 } : {};
+    material.needsUpdate = true;
+  }
+
+  /// Points have changed: they go to where they are drawn.
+  moved() {
+    this.points.needsUpdate = true;
+  }
+
+  /// \param show  as HeadView.setShow; \param farthest  distance of the palette's end.
+  shade(camera, group, show, farthest) {
+    // Lamps go with the camera: in the head's axes they stand elsewhere whenever it turns.
+    const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse.clone().multiply(group.matrixWorld)).transpose();
+    const local = (way) => way.applyMatrix3(turn).normalize().toArray();
+    const light = lamps.map(({ at, colour, strength }) => ({
+      way: local(new Vector3(...at).sub(new Vector3(0, 0, -6))),
+      colour: new Color(colour).multiplyScalar(strength / Math.PI).toArray(),
+    }));
+    const up = new Vector3(0, 1, 0).applyMatrix3(new Matrix3().setFromMatrix4(group.matrixWorld).transpose()).normalize().toArray();
+    const above = new Color(sky.above).multiplyScalar(sky.strength / Math.PI).toArray();
+    const below = new Color(sky.below).multiplyScalar(sky.strength / Math.PI).toArray();
+    const { points, normals } = this.blender;
+    const shades = this.shades.array;
+    const regions = this.geometry.getAttribute('regionColour').array;
+    const surface = [0, 0, 0];
+    const sum = [0, 0, 0];
+    for (let v = 0; v < this.count; v += 1) {
+      const [x, y, z] = [normals[4 * v], normals[4 * v + 1], normals[4 * v + 2]];
+      const high = 0.5 + 0.5 * (x * up[0] + y * up[1] + z * up[2]);
+      for (let c = 0; c < 3; c += 1) sum[c] = below[c] + high * (above[c] - below[c]) + sky.ambient / Math.PI;
+      for (const { way, colour } of light) {
+        const facing = x * way[0] + y * way[1] + z * way[2];
+        if (facing <= 0) continue;
+        for (let c = 0; c < 3; c += 1) sum[c] += facing * colour[c];
+      }
+      if (show === 'texture') {
+        for (let c = 0; c < 3; c += 1) shades[4 * v + c] = Math.min(127.5 * sum[c], 255);
+        continue;
+      }
+      this.surfaceAt(v, show, points[4 * v + 3] / farthest, regions, surface);
+      for (let c = 0; c < 3; c += 1) {
+        shades[4 * v + c] = tones[Math.min(steps, Math.round((sum[c] * surface[c] * steps) / brightest))];
+      }
+    }
+    this.shades.needsUpdate = true;
+  }
+
+  surfaceAt(v, show, distance, regions, surface) {
+    const { colours, palette } = this;
+    if (show === 'distance') {
+      const place = Math.min(distance, 1) * (palette.length - 1);
+      const low = Math.min(Math.floor(place), palette.length - 2);
+      const [a, b] = [palette[low], palette[low + 1]];
+      surface[0] = a.r + (place - low) * (b.r - a.r);
+      surface[1] = a.g + (place - low) * (b.g - a.g);
+      surface[2] = a.b + (place - low) * (b.b - a.b);
+      return;
+    }
+    const part = show === 'regions' ? 0.72 : 0;
+    for (let c = 0; c < 3; c += 1) {
+      const own = colours[3 * v + c];
+      surface[c] = own + part * (regions[3 * v + c] - own);
+    }
+  }
+}

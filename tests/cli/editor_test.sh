@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The page of `crowdface edit` works in a browser: drag, slide, type, undo, compare, draw, reload, save;
+# the mesh that it saves is the one that `crowdface blend` makes of the saved recipe, and the one on the
+# screen. Skipped (77) where there is no Chromium or the page was not built.
+#   editor_test.sh PROGRAM ROOT
+set -euo pipefail
+program=$1 root=$2
+skip() {
+  echo "SKIPPED: $1"
+  exit 77
+}
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+[ -n "$chromium" ] || skip "no Chromium: scripts/install_dependencies.sh --test installs it"
+command -v node >/dev/null || skip "no node"
+page=$(dirname "$(dirname "$program")")/share/crowdface/gallery
+[ -f "$page/editor.js" ] || skip "the editor's page was not built: scripts/build_gallery.sh"
+[ -d "$root/build/gallery/node_modules/playwright-core" ] || skip "playwright-core is not installed"
+
+folder=$(mktemp -d)
+server=
+stop() {
+  if [ -n "$server" ]; then
+    kill "$server" 2>/dev/null || true
+    wait "$server" 2>/dev/null || true
+  fi
+  rm -rf "$folder"
+}
+trap stop EXIT
+"$program" synth -o "$folder/heads" --count 5 --vertices 20000 --textures 256 --seed 2 --quiet
+cat >"$folder/config.yaml" <<YAML
+schema: 1
+crowd: {name: mob, count: 4}
+faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
+regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
+blending: {contacts: none} # as the preview, which is compared with the whole
+recipes: [{id: by_hand, target: synth_01, regions: {all: {position: [0.2, 0.3], smoothness: 0.5}}}] # a comment
+output: {directory: out, meshes: [points], contact_sheet: {cell: 96}}
+YAML
+"$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
+"$program" edit "$folder/config.yaml" --cache "$folder/cache" --no-browser >"$folder/edit.log" 2>&1 &
+server=$!
+for _ in $(seq 300); do
+  address=$(grep -o 'http://127.0.0.1:[0-9]*/[0-9a-f]*/' "$folder/edit.log" | head -n 1 || true)
+  [ -z "$address" ] || break
+  kill -0 "$server" 2>/dev/null || { cat "$folder/edit.log"; exit 1; }
+  sleep 0.1
+done
+[ -n "$address" ] || { cat "$folder/edit.log"; exit 1; }
+
+cp "$root/gallery/test/editor.mjs" "$root/gallery/test/compare_points.mjs" "$root/build/gallery/"
+CHROMIUM=$chromium node "$root/build/gallery/editor.mjs" "$address" "$folder/result.json" "${PICTURES-}" || {
+  tail -n 20 "$folder/edit.log"
+  exit 1
+}
+
+# The saved mesh is what the program makes of the saved recipe, and what was on the screen.
+saved=$folder/out/edited/made_by_hand.obj
+[ -f "$saved" ] || { echo "no mesh in $saved"; exit 1; }
+node "$root/build/gallery/compare_points.mjs" "$folder/result.json" "$saved" 0.01
+"$program" blend "$folder/config.yaml" --cache "$folder/cache" --plan "$folder/out/edited/edited.jsonl" \
+  --face made_by_hand -o "$folder/again.obj" --quiet
+cmp "$saved" "$folder/again.obj"
