@@ -282,7 +282,24 @@ const cut = await page.evaluate(() => [...document.querySelectorAll('.toolbar, .
   .filter((node) => node.scrollWidth > node.clientWidth + 1).map((node) => node.className));
 assert.deepEqual(cut, [], 'nothing is cut off');
 
-writeFileSync(resultFile, JSON.stringify({ recipe: saved, file, points: await points() }));
+const shown = await points();
+
+// The same on the card, which is a program here: the shaders compute what the processor does.
+await page.setViewportSize({ width: 800, height: 600 });
+await page.goto(`${address}?blend=card`);
+await page.waitForSelector('.board');
+await settled();
+assert.equal(await editor('editor.view.blender.name'), 'card');
+assert.ok(farthest(shown, await points()) < 0.01 / job.mm, 'the same face stands there');
+const onCard = await previewError();
+console.log(`on the card within ${onCard.toFixed(4)} mm of the program's face`);
+assert.ok(onCard < 0.1);
+await settled();
+await drag(page.locator(`.handle[data-region="${region}"]`), -40, 30);
+await settled();
+assert.ok((await previewError()) < 0.1);
+
+writeFileSync(resultFile, JSON.stringify({ recipe: saved, file, points: shown }));
 assert.deepEqual(problems, []);
 await browser.close();
 console.log('all right');

@@ -58,6 +58,6 @@ CHROMIUM=$chromium node "$root/build/gallery/editor.mjs" "$address" "$folder/res
 saved=$folder/out/edited/made_by_hand.obj
 [ -f "$saved" ] || { echo "no mesh in $saved"; exit 1; }
 node "$root/build/gallery/compare_points.mjs" "$folder/result.json" "$saved" 0.01
-"$program" blend "$folder/config.yaml" --cache "$folder/cache" --plan "$folder/out/edited/edited.jsonl" \
-  --face made_by_hand -o "$folder/again.obj" --quiet
+"$program" blend "$folder/config.yaml" --cache "$folder/cache" \
+  --recipe "$folder/out/edited/edited.jsonl#made_by_hand" -o "$folder/again.obj" --quiet
 cmp "$saved" "$folder/again.obj"

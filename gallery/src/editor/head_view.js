@@ -159,11 +159,13 @@ export class HeadView extends Stage {
     this.blender.setHead?.(h, head);
   }
 
-  /// Once all heads are there: measures a change of the first region on both, and takes the faster.
-  /// Without a graphics card its shaders would run on the processor, which is slower than typed arrays.
+  /// Once all heads are there: measures a change on both, and takes the faster. Without a graphics card
+  /// its shaders would run on the processor, which is slower than typed arrays.
   /// \param change  (strength) => [lists, shares]: coefficients that differ from call to call.
-  chooseBlend(change) {
-    if (this.software || !fitsOnCard(this.renderer, this.job.regions.length, this.loaded)) return;
+  /// \param wanted  'card' or 'processor': that one, whatever is faster.
+  chooseBlend(change, wanted) {
+    if (wanted === 'processor' || (this.software && wanted !== 'card')) return;
+    if (!fitsOnCard(this.renderer, this.job.regions.length, this.loaded)) return;
     const processor = this.blender;
     let card;
     try {
@@ -171,32 +173,34 @@ export class HeadView extends Stage {
     } catch {
       return; // the card holds less than it says: the processor goes on
     }
+    this.measured = this.measure([processor, card], change);
+    const slower = wanted !== 'card' && this.measured.processor < this.measured.card ? card : processor;
+    this.take(slower === card ? processor : card);
+    slower.dispose();
+    if (this.blender === card) this.draft = null; // it reads the processor's arrays
+  }
+
+  /// Milliseconds of a frame with each, few pixels, as both draw the same ones.
+  measure(blenders, change) {
     const gl = this.renderer.getContext();
     const pixel = new Uint8Array(4);
-    let strength = 1;
-    const time = (blender) => {
-      this.take(blender);
-      strength += 0.001;
-      const coefficients = change(strength);
-      const began = performance.now();
-      blender.blend(...coefficients);
-      this.draw();
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits for the card
-      return performance.now() - began;
-    };
-    const ratio = this.ratio;
-    this.setRatio(0.1 * ratio); // few pixels: both draw the same ones
-    this.measured = { processor: Infinity, card: Infinity };
+    const best = {};
+    const { ratio } = this;
+    this.setRatio(0.1 * ratio);
     for (let i = 0; i < 6; i += 1) { // by turns, as other programs may come between
-      for (const blender of [processor, card]) {
-        const ms = time(blender);
-        if (i > 0) this.measured[blender.name] = Math.min(this.measured[blender.name], ms);
+      for (const blender of blenders) {
+        this.take(blender);
+        const coefficients = change(1 + 0.001 * (i + 1));
+        const began = performance.now();
+        blender.blend(...coefficients);
+        this.draw();
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits for the card
+        const ms = performance.now() - began;
+        if (i > 0) best[blender.name] = Math.min(best[blender.name] ?? ms, ms); // the first compiles
       }
     }
     this.setRatio(ratio);
-    const slower = this.measured.card < this.measured.processor ? processor : card;
-    this.take(slower === card ? processor : card);
-    slower.dispose();
+    return best;
   }
 
   /// \param exact  the program's own face of it, or nothing: then what its last one had is kept.

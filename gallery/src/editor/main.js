@@ -403,7 +403,8 @@ class Editor {
     }
     const [{ name }] = this.job.regions;
     this.view.chooseBlend((strength) => this.coefficientsOf(
-      this.withRegions(name, (region) => ({ ...region, extrapolation: strength }))));
+      this.withRegions(name, (region) => ({ ...region, extrapolation: strength }))),
+    new URLSearchParams(location.search).get('blend'));
     this.shares = null;
     this.exactOf = null;
     this.ready = true;

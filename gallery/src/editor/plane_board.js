@@ -179,7 +179,9 @@ export class PlaneBoard {
       let [x, y] = place.at;
       const onHead = heads.some((head) => shares(head, place)); // whose picture is to be seen
       if ((here.length > 1 || onHead) && this.drag?.node !== node) {
-        const angle = (2 * Math.PI * (here.indexOf(place) + 0.5)) / here.length - Math.PI / 2;
+        // Side by side above, where no name stands.
+        const step = Math.min(50, 260 / Math.max(here.length - 1, 1));
+        const angle = ((here.indexOf(place) - (here.length - 1) / 2) * step - 90) * (Math.PI / 180);
         const away = onHead ? headRadius + 4 : ring;
         x += away * Math.cos(angle);
         y += away * Math.sin(angle);
