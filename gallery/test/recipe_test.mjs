@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { unpack } from './src/editor/api.js';
 import { cornersAround, normalsOf } from './src/editor/corners.js';
+import { hitTriangle } from './src/editor/hit.js';
 import { History } from './src/editor/history.js';
 import { ProcessorBlend } from './src/editor/processor_blend.js';
 import {
@@ -276,4 +277,17 @@ test('binary answers are unpacked as the head lists them', () => {
   const { ms, a, b } = unpack(bytes.buffer);
   assert.deepEqual([ms, [...a], [...b]], [3, [7, 8, 9], [0.5, -2]]);
   assert.throws(() => unpack(new Uint8Array([2, 0, 0, 0]).buffer));
+});
+
+test('a ray meets the nearest triangle that looks at it, and no part', () => {
+  const points = Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1]);
+  const both = Uint32Array.from([0, 1, 2, 3, 4, 5]);
+  const hit = hitTriangle([0.2, 0.3, 5], [0, 0, -1], points, both);
+  assert.equal(hit.triangle, 1);
+  near(hit.u, 0.2, 1e-6);
+  near(hit.v, 0.3, 1e-6);
+  assert.deepEqual([hit.point[2], hit.normal], [1, [0, 0, 1]]);
+  assert.equal(hitTriangle([0.2, 0.3, 5], [0, 0, -1], points, both, [0, 0, 0, 1, 1, 1]).triangle, 0);
+  assert.equal(hitTriangle([0.2, 0.3, -5], [0, 0, 1], points, both), null);
+  assert.equal(hitTriangle([0.7, 0.7, 5], [0, 0, -1], points, both), null);
 });

@@ -148,6 +148,11 @@ export class HeadView extends Stage {
     geometry.setAttribute('regionColour', new BufferAttribute(mixed, 3));
   }
 
+  setMasks(alpha) {
+    this.blender.setMasks(alpha);
+    this.colourRegions();
+  }
+
   take(blender) {
     this.blender = blender;
     this.uniforms.facePoints.value = blender.pointTexture;

@@ -14,8 +14,11 @@ export class History {
     this.listeners = [];
   }
 
-  toJson() {
-    const { now, label, past, future } = this;
+  /// \param letters  about how many at most: the oldest steps are left out beyond.
+  toJson(letters = Infinity) {
+    const { now, label, future } = this;
+    let { past } = this;
+    while (past.length > 0 && JSON.stringify([past, future]).length > letters) past = past.slice(Math.ceil(past.length / 4));
     return { now, label, past, future };
   }
 

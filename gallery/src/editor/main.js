@@ -6,19 +6,22 @@ import { showGenerate, showKeys, showPutBack } from './dialogs.js';
 import { Exact } from './exact.js';
 import { HeadView } from './head_view.js';
 import { History } from './history.js';
+import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
 import { coefficients, headAlone, headIndex, targetShares, weightsOf, wire } from './recipe.js';
 import { RegionPanel } from './region_panel.js';
 import { Shelf } from './shelf.js';
 import { toolbar, viewBar } from './toolbar.js';
 
+const mostKept = 3e6; // letters of steps that the program keeps for us
 const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
 
 class Editor {
   constructor(job, mesh, state) {
     this.job = job;
-    this.history = new History(this.fromWire(job.start), this.fits(state) ? state.history : null);
-    this.kept = this.fits(state) ? state.kept ?? [] : [];
+    const { history, kept } = this.restored(state);
+    this.history = new History(this.fromWire(job.start), history);
+    this.kept = kept;
     this.linked = new Set(state?.linked ?? []);
     this.locked = new Set(state?.locked ?? []);
     this.look = { show: 'surface', wireframe: false, ...state?.look };
@@ -41,16 +44,26 @@ class Editor {
     new ResizeObserver(() => this.view.fit()).observe(this.stage);
   }
 
-  /// Whether what was kept speaks of the heads and regions that there are.
-  fits(state) {
-    const known = (document) => headIndex(this.job, document?.recipe?.target) >= 0 &&
-      this.job.regions.every(({ name }) => document.recipe.regions[name]) &&
-      Object.keys(document.anchors ?? {}).every((name) => headIndex(this.job, name) >= 0) &&
-      Object.values(document.recipe.regions).every((region) =>
-        Object.keys(region.weights ?? {}).every((name) => headIndex(this.job, name) >= 0));
-    const documents = [state?.history?.now, ...(state?.history?.past ?? []).map((step) => step.document),
-      ...(state?.history?.future ?? []).map((step) => step.document), ...(state?.kept ?? []).map((entry) => entry.document)];
-    return Boolean(state?.history) && documents.every(known);
+  /// What was kept, as far as it speaks of the heads that there are: regions may have come and gone.
+  restored(state) {
+    const known = (names) => Object.keys(names ?? {}).every((name) => headIndex(this.job, name) >= 0);
+    const documents = [];
+    const again = (document) => {
+      const { recipe } = document;
+      const any = Object.values(recipe.regions)[0];
+      const regions = Object.fromEntries(this.job.regions.map(({ name }) => [name, recipe.regions[name] ?? any]));
+      documents.push({ ...document, recipe: { ...recipe, regions } });
+      return documents[documents.length - 1];
+    };
+    const step = ({ document, label }) => ({ document: again(document), label });
+    const { history } = state ?? {};
+    const result = history ? {
+      history: { ...history, now: again(history.now), past: history.past.map(step), future: history.future.map(step) },
+      kept: (state.kept ?? []).map((entry) => ({ ...entry, document: again(entry.document) })),
+    } : { kept: [] };
+    const fits = documents.every(({ recipe, anchors }) => headIndex(this.job, recipe.target) >= 0 && known(anchors) &&
+      known(recipe.mixture) && Object.values(recipe.regions).every((region) => known(region.weights)));
+    return fits ? result : { kept: [] };
   }
 
   build() {
@@ -234,6 +247,27 @@ class Editor {
     this.commit(document, `all on ${name}`);
   }
 
+  // -- masks --
+
+  async offerPainting() {
+    this.painting = await openPainting(this);
+    if (!this.painting) return;
+    this.shelf.node.prepend(this.painting.node);
+    this.viewTools.offerPainting();
+  }
+
+  masksChanged(alpha) {
+    this.view.setMasks(alpha);
+    this.exactOf = null;
+    this.refresh();
+  }
+
+  /// Regions have come or gone: all is read again, steps are kept.
+  async reopen() {
+    await this.keepNow(false);
+    location.reload();
+  }
+
   // -- documents --
 
   wire() {
@@ -383,10 +417,10 @@ class Editor {
     clearTimeout(this.keeping);
     const { kept, look } = this;
     const state = {
-      history: this.history.toJson(), kept, look: { ...look, place: this.view.place() },
+      history: this.history.toJson(mostKept), kept, look: { ...look, place: this.view.place() },
       linked: [...this.linked], locked: [...this.locked],
     };
-    put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
+    return put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
   }
 
   // -- heads --
@@ -409,6 +443,7 @@ class Editor {
     this.exactOf = null;
     this.ready = true;
     this.refresh();
+    await this.offerPainting();
   }
 
   // -- keys --
@@ -419,7 +454,8 @@ class Editor {
       ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['K, B', 'keep, compare with what was kept'],
       ['R, L, N', 'draw a face; six like this one; between two'], ['[ ]', 'faces of the crowd'],
       ['F, Q, P', 'front, three-quarter, profile'], [', . + −', 'turn, come near, go far'],
-      ['W, C', 'wireframe; what the face shows'], ['Ctrl+S', 'save the mesh'], ['Esc', 'leave a field, close a list']]);
+      ['W, C', 'wireframe; what the face shows'],
+      ...(this.painting ? [['M, Space', 'paint masks; paint in the middle of the view']] : []), ['Ctrl+S', 'save the mesh'], ['Esc', 'leave a field, close a list']]);
   }
 
   key(event) {
@@ -458,11 +494,14 @@ class Editor {
       ',': () => view.turn(-10), '.': () => view.turn(10), '+': () => view.nearer(0.85), '=': () => view.nearer(0.85),
       '-': () => view.nearer(1 / 0.85), w: () => this.setWireframe(!this.look.wireframe), c: () => this.cycleShow(),
       '?': () => this.help(), escape: () => this.closeAll(),
+      ...(this.painting ? { m: () => this.painting.setOn(!this.painting.on) } : {}),
+      ...(this.painting?.on && event.target === view.node ? { ' ': () => this.painting.paintMiddle() } : {}),
     }[letter];
   }
 
   closeAll() {
     this.shelf.closePicks();
+    if (this.painting?.on) this.painting.setOn(false);
     if (!this.shelf.path.hidden) this.shelf.endTravel(false);
     if (this.comparing !== null) this.compare(null);
   }

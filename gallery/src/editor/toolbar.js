@@ -70,6 +70,9 @@ export function viewBar(editor) {
   const wire = el('button', {
     title: 'Edges of the preview (W)', onclick: () => editor.setWireframe(!editor.look.wireframe),
   }, 'Wireframe');
+  const paint = el('button', {
+    hidden: true, title: 'Paint the regions’ masks (M)', onclick: () => editor.painting.setOn(!editor.painting.on),
+  }, 'Paint masks');
   const scale = el('div', { class: 'scale', hidden: true }, el('i', {}), el('span', {}, '0'),
     el('span', {}, `${view.showMm} mm`));
   scale.firstChild.style.background = `linear-gradient(90deg, ${distanceColours.join(', ')})`;
@@ -77,13 +80,15 @@ export function viewBar(editor) {
     node: el('div', { class: 'viewbar' },
       el('div', { class: 'group', role: 'group', 'aria-label': 'Standard views' },
         views.map(([name, text]) => el('button', { onclick: () => view.view(name) }, text))),
-      show, wire, scale),
+      show, wire, paint, scale),
     show() {
       show.value = editor.look.show;
       wire.classList.toggle('on', editor.look.wireframe);
       wire.setAttribute('aria-pressed', String(editor.look.wireframe));
       scale.hidden = editor.look.show !== 'distance';
+      paint.classList.toggle('on', Boolean(editor.painting?.on));
     },
+    offerPainting() { paint.hidden = false; },
     values: options.map(([value]) => value),
   };
 }

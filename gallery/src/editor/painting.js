@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Painting the regions' masks on the head: the brush, its numbers, and what the program makes of a
+// stroke. The program measures along the surface; the page tells where the brush was.
+import { Mesh, MeshBasicMaterial, Ray, RingGeometry, Vector2, Vector3 } from 'three';
+import { el } from '../dom.js';
+import { getJson, post, postForBinary } from './api.js';
+import { hitTriangle } from './hit.js';
+
+const pause = 30; // ms between points of a stroke
+
+export class Painting {
+  /// \param editor  job, view, attempt, say, refresh, setShow, masksChanged(alpha), reopen().
+  /// \param told    GET api/masks: regions, bands.
+  constructor(editor, told) {
+    Object.assign(this, { editor, on: false, waiting: [], region: editor.job.regions[0].name, mode: 'grow' });
+    this.ring = new Mesh(new RingGeometry(0.97, 1, 48), new MeshBasicMaterial({
+      color: 0xffffff, transparent: true, opacity: 0.9, depthTest: false, toneMapped: false,
+    }));
+    this.ring.visible = false;
+    editor.view.group.add(this.ring);
+    this.node = this.panel(told);
+    const { node } = editor.view;
+    node.addEventListener('pointerdown', (event) => this.down(event), { capture: true });
+    node.addEventListener('pointermove', (event) => this.move(event));
+    for (const end of ['pointerup', 'pointercancel']) node.addEventListener(end, () => this.up());
+    node.addEventListener('pointerleave', () => this.showRing(null));
+  }
+
+  panel(told) {
+    const slider = (text, low, high, step, value) => {
+      const input = el('input', { type: 'range', min: low, max: high, step, value, 'aria-label': text });
+      const number = el('span', {}, String(value));
+      input.addEventListener('input', () => { number.textContent = input.value; });
+      return { input, node: el('label', { class: 'control' }, el('span', {}, text), input, number) };
+    };
+    this.radius = slider('Radius, mm', 2, 60, 1, 15);
+    this.strength = slider('Strength', 0.05, 1, 0.05, 0.5);
+    this.falloff = slider('Falloff', 0, 1, 0.05, 0.7);
+    this.mirror = el('input', { type: 'checkbox', checked: true });
+    this.regionButtons = this.editor.job.regions.map((region) => {
+      const dot = el('i', { class: 'regiondot' });
+      dot.style.background = region.colour;
+      return el('button', { 'data-region': region.name, onclick: () => this.choose({ region: region.name }) }, dot, region.name);
+    });
+    this.modeButtons = [['grow', 'Paint'], ['erase', 'Erase'], ['smooth', 'Smooth']].map(([mode, text]) =>
+      el('button', { 'data-mode': mode, onclick: () => this.choose({ mode }) }, text));
+    const bands = (told.bands ?? []).map((band) => {
+      const input = el('input', { type: 'checkbox', value: band, checked: ['brow', 'nose', 'mouth'].includes(band) });
+      return el('label', {}, input, ` ${band}`);
+    });
+    const added = el('input', { type: 'text', placeholder: 'new region', 'aria-label': 'Name of a new region', maxlength: 64 });
+    const ask = (text, act, title = '') => el('button', { title, onclick: () => this.editor.attempt(act) }, text);
+    const node = el('section', { class: 'painting', hidden: true, 'aria-label': 'Masks' },
+      el('header', {}, el('h2', {}, 'Masks'), el('span', { class: 'grow' }),
+        ask('Undo stroke', () => this.changed(postForBinary('masks/undo', {}))),
+        ask('Save masks', () => this.save(), 'As images in the layout of the textures'),
+        el('button', { onclick: () => this.setOn(false), 'aria-label': 'Stop painting' }, '✕')),
+      el('div', { class: 'choices', role: 'group', 'aria-label': 'Region to paint' }, this.regionButtons),
+      el('div', { class: 'choices' }, el('span', { class: 'group', role: 'group', 'aria-label': 'Brush' }, this.modeButtons),
+        el('label', {}, this.mirror, ' mirror')),
+      this.radius.node, this.strength.node, this.falloff.node,
+      el('div', { class: 'choices' }, bands, ask('Propose', () => this.changedRegions('masks/propose', {
+        bands: bands.map((label) => label.firstChild).filter((box) => box.checked).map((box) => box.value),
+      }), 'Bands from the mean head’s own shape, in place of all regions')),
+      el('div', { class: 'choices' }, added, ask('Add', () => this.changedRegions('masks/regions', { add: added.value })),
+        ask('Remove this region', () => this.changedRegions('masks/regions', { remove: this.region }))),
+      el('p', { class: 'muted' }, 'Paint on the head; drag beside it to turn it. Space paints in the middle of the view.'));
+    this.choose = (change) => {
+      Object.assign(this, change);
+      const mark = (buttons, key, value) => buttons.forEach((button) => {
+        button.classList.toggle('on', button.dataset[key] === value);
+        button.setAttribute('aria-pressed', String(button.dataset[key] === value));
+      });
+      mark(this.regionButtons, 'region', this.region);
+      mark(this.modeButtons, 'mode', this.mode);
+    };
+    this.choose({});
+    return node;
+  }
+
+  setOn(on) {
+    this.on = on;
+    this.node.hidden = !on;
+    this.editor.setShow(on ? 'regions' : 'surface');
+    this.showRing(null);
+    if (on) this.node.scrollIntoView({ block: 'nearest' });
+  }
+
+  // -- the brush --
+
+  /// Where a pixel lies on the head; nothing beside it.
+  at(x, y) {
+    const { view } = this.editor;
+    const box = view.node.getBoundingClientRect();
+    const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
+    view.camera.updateMatrixWorld();
+    const origin = new Vector3().setFromMatrixPosition(view.camera.matrixWorld);
+    const way = new Vector3(point.x, point.y, 0.5).unproject(view.camera).sub(origin).normalize();
+    const ray = new Ray(origin, way).applyMatrix4(view.group.matrixWorld.clone().invert());
+    this.points ??= view.blender.read();
+    return hitTriangle(ray.origin.toArray(), ray.direction.toArray(), this.points, view.mesh.triangles, view.mesh.part);
+  }
+
+  showRing(hit) {
+    const { view, job } = this.editor;
+    const shown = this.on && hit !== null;
+    if (!shown && !this.ring.visible) return;
+    this.ring.visible = shown;
+    if (shown) {
+      this.ring.position.fromArray(hit.point);
+      this.ring.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...hit.normal));
+      this.ring.scale.setScalar(Number(this.radius.input.value) / job.mm_per_unit);
+    }
+    view.draw();
+  }
+
+  down(event) {
+    if (!this.on || event.button !== 0) return;
+    this.points = null;
+    const hit = this.at(event.clientX, event.clientY);
+    if (!hit) return;
+    event.stopImmediatePropagation(); // the view does not turn
+    this.editor.view.node.setPointerCapture(event.pointerId);
+    this.begin(hit);
+  }
+
+  begin(hit) {
+    this.stroke = { begin: true, last: performance.now() };
+    this.waiting.push(hit);
+    this.send();
+  }
+
+  move(event) {
+    if (!this.on) return;
+    const hit = this.at(event.clientX, event.clientY);
+    this.showRing(hit);
+    if (!this.stroke || !hit || performance.now() - this.stroke.last < pause) return;
+    this.stroke.last = performance.now();
+    this.waiting.push(hit);
+    this.send();
+  }
+
+  up() {
+    this.stroke = null;
+    this.points = null;
+  }
+
+  /// Space, for those who use keys: turn the head until the place is in the middle.
+  paintMiddle() {
+    const box = this.editor.view.node.getBoundingClientRect();
+    this.points = null;
+    const hit = this.at(box.left + box.width / 2, box.top + box.height / 2);
+    this.showRing(hit);
+    if (hit) this.begin(hit);
+    this.up();
+  }
+
+  /// One request at a time; what is painted meanwhile goes with the next.
+  async send() {
+    if (this.sending || this.waiting.length === 0) return;
+    const points = this.waiting.splice(0).map(({ triangle, u, v }) => ({ triangle, u, v }));
+    const begin = this.stroke?.begin ?? true;
+    if (this.stroke) this.stroke.begin = false;
+    this.sending = true;
+    await this.changed(postForBinary('masks/stroke', {
+      region: this.region, mode: this.mode, points, begin, mirror: this.mirror.checked,
+      radius_mm: Number(this.radius.input.value), strength: Number(this.strength.input.value),
+      falloff: Number(this.falloff.input.value),
+    }));
+    this.sending = false;
+    this.send();
+  }
+
+  async changed(answer) {
+    await this.editor.attempt(async () => this.editor.masksChanged((await answer).alpha));
+  }
+
+  async changedRegions(path, body) {
+    await post(path, body);
+    await this.editor.reopen();
+  }
+
+  async save() {
+    const { file } = await post('masks/save', {});
+    this.editor.say(`Masks saved: ${file}`);
+  }
+}
+
+/// The panel, or nothing where the program paints no masks.
+export async function openPainting(editor) {
+  return editor.job.can_paint ? new Painting(editor, await getJson('masks')) : null;
+}
