@@ -5,6 +5,7 @@ import { anchorMark, planeFrame, side } from '../plane.js';
 import { anchorsOf, weightsOf } from './recipe.js';
 
 const headRadius = 30;
+const knobRadius = 11;
 const ring = 20; // how far controllers at one place stand from it, so that each can be taken
 const still = 4; // pixels: below, a press is a click
 
@@ -39,7 +40,7 @@ export class PlaneBoard {
     const { job, document } = this.editor;
     const points = [...anchorsOf(job, document.anchors),
       ...job.regions.map(({ name }) => document.recipe.regions[name].position).filter(Boolean)];
-    this.frame = planeFrame(points, 1.28);
+    this.frame = planeFrame(points, 1.36);
   }
 
   headNode(head, h) {
@@ -57,12 +58,12 @@ export class PlaneBoard {
   }
 
   handleNode(region) {
-    const knob = el('circle', { r: 11 });
+    const knob = el('circle', { r: knobRadius });
     knob.style.fill = region.colour;
     const letter = el('text', { y: 4.5 }, region.name[0].toUpperCase());
     letter.style.fill = isDark(region.colour) ? '#fff' : '#17181a';
     const node = el('g', { class: 'handle', tabindex: '0', role: 'slider', 'data-region': region.name },
-      el('circle', { r: 18, class: 'grab' }), knob, letter);
+      el('circle', { r: 14, class: 'grab' }), knob, letter);
     this.makeDraggable(node, {
       from: () => this.placeOf(region.name),
       to: (point) => this.withPosition(region.name, point),
@@ -179,10 +180,10 @@ export class PlaneBoard {
       let [x, y] = place.at;
       const onHead = heads.some((head) => shares(head, place)); // whose picture is to be seen
       if ((here.length > 1 || onHead) && this.drag?.node !== node) {
-        // Side by side above, where no name stands.
-        const step = Math.min(50, 260 / Math.max(here.length - 1, 1));
-        const angle = ((here.indexOf(place) - (here.length - 1) / 2) * step - 90) * (Math.PI / 180);
         const away = onHead ? headRadius + 4 : ring;
+        // Side by side above, where no name stands; all around where they are many.
+        const step = Math.min(2 * Math.asin(knobRadius * 1.2 / away), (2 * Math.PI) / here.length);
+        const angle = (here.indexOf(place) - (here.length - 1) / 2) * step - Math.PI / 2;
         x += away * Math.cos(angle);
         y += away * Math.sin(angle);
         const line = el('line', { x1: place.at[0], y1: place.at[1], x2: x, y2: y, class: 'lead' });
