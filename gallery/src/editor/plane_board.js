@@ -4,7 +4,6 @@ import { el, short } from '../dom.js';
 import { anchorMark, planeFrame, side } from '../plane.js';
 import { anchorsOf, weightsOf } from './recipe.js';
 
-const headRadius = 30;
 const knobRadius = 11;
 const ring = 20; // how far controllers at one place stand from it, so that each can be taken
 const still = 4; // pixels: below, a press is a click
@@ -19,7 +18,7 @@ export class PlaneBoard {
   ///                setTarget(name), gather(head).
   constructor(editor) {
     this.editor = editor;
-    this.picked = null;
+    this.headRadius = Math.min(30, Math.max(13, (0.2 * side) / Math.sqrt(editor.job.heads.length)));
     this.heads = el('g', {});
     this.leads = el('g', {});
     this.handles = el('g', {});
@@ -44,14 +43,17 @@ export class PlaneBoard {
   }
 
   headNode(head, h) {
-    const mark = anchorMark({ name: head.name, picture: `api/heads/${h}/thumbnail` }, headRadius);
-    mark.append(el('circle', { r: headRadius + 6, class: 'targetring' }));
+    const mark = anchorMark({ name: head.name, picture: `api/heads/${h}/thumbnail` }, this.headRadius);
+    mark.append(el('circle', { r: this.headRadius + 6, class: 'targetring' }));
     const node = el('g', { class: 'head', tabindex: '0', role: 'button' }, mark);
     this.makeDraggable(node, {
       from: () => anchorsOf(this.editor.job, this.editor.document.anchors)[h],
       to: (point) => this.withAnchor(head.name, point),
       label: `${head.name} moved`,
       click: () => this.editor.setTarget(head.name),
+    });
+    node.addEventListener('pointerenter', () => {
+      if (!this.drag && this.heads.lastChild !== node) this.heads.append(node); // over those that it touches
     });
     node.addEventListener('dblclick', () => this.editor.gather(head.name));
     return node;
@@ -155,12 +157,15 @@ export class PlaneBoard {
   show() {
     if (!this.drag) this.frameAnew();
     const { job, document } = this.editor;
-    anchorsOf(job, document.anchors).forEach((anchor, h) => {
+    const places = anchorsOf(job, document.anchors).map((anchor) => this.frame.at(anchor));
+    const covers = ([x, y], [ox, oy]) => Math.abs(ox - x) < 2 * this.headRadius && oy > y && oy - y < 2.6 * this.headRadius;
+    places.forEach((place, h) => {
       const node = this.headNodes[h];
       const { name } = job.heads[h];
       const target = document.recipe.target === name;
-      node.setAttribute('transform', `translate(${this.frame.at(anchor)})`);
+      node.setAttribute('transform', `translate(${place})`);
       node.classList.toggle('target', target);
+      node.classList.toggle('crowded', places.some((other) => covers(place, other)));
       node.classList.toggle('away', Boolean(document.anchors?.[name]));
       node.setAttribute('aria-pressed', String(target));
       node.setAttribute('aria-label', target ? `${name}, the target` : `${name}: make it the target`);
@@ -180,7 +185,7 @@ export class PlaneBoard {
       let [x, y] = place.at;
       const onHead = heads.some((head) => shares(head, place)); // whose picture is to be seen
       if ((here.length > 1 || onHead) && this.drag?.node !== node) {
-        const away = onHead ? headRadius + 4 : ring;
+        const away = onHead ? this.headRadius + 4 : ring;
         // Side by side above, where no name stands; all around where they are many.
         const step = Math.min(2 * Math.asin(knobRadius * 1.2 / away), (2 * Math.PI) / here.length);
         const angle = (here.indexOf(place) - (here.length - 1) / 2) * step - Math.PI / 2;
