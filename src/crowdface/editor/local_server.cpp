@@ -162,7 +162,8 @@ LocalServer::LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, i
                               : (state_->server.bind_to_port(kHost, port) ? port : -1);
   if (bound <= 0) {
     throw CannotCreate(concat("port ", port, " of this machine cannot be listened to: ",
-                              std::generic_category().message(errno), "; choose another with --port"));
+                              std::generic_category().message(errno),
+                              "; choose another with --port"));
   }
   state_->hosts = {concat(kHost, ':', bound), concat("localhost:", bound)};
   state_->address = concat("http://", state_->hosts[0], state_->prefix);

@@ -15,22 +15,6 @@ namespace {
 
 constexpr Index kBins = 720;
 
-/// The middle of the skin's surface along `side`.
-double middle_of(const Topology& topology, const Positions& positions,
-                 const std::vector<bool>& skin, const Eigen::Vector3d& side) {
-  double sum = 0, area = 0;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto face = topology.face(f);
-    if (!skin[face[0]]) continue;
-    double middle = 0;
-    for (const std::uint32_t v : face) middle += dot3(row3(positions, v), side);
-    const double weight = length3(face_area_vector(topology, f, positions));
-    sum += weight * middle / static_cast<double>(face.size());
-    area += weight;
-  }
-  return area > 0 ? sum / area : 0;
-}
-
 /// How far in front the skin reaches in a plane, at each of kBins heights.
 class Outline {
  public:
@@ -245,13 +229,28 @@ HeadShape shape_of_mean(const FaceSet& faces) {
   return head;
 }
 
+double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes) {
+  const Eigen::Vector3d side = axes.side();
+  double sum = 0, area = 0;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto face = topology.face(f);
+    if (!head.skin[face[0]]) continue;
+    double middle = 0;
+    for (const std::uint32_t v : face) middle += dot3(row3(head.positions, v), side);
+    const double weight = length3(face_area_vector(topology, f, head.positions));
+    sum += weight * middle / static_cast<double>(face.size());
+    area += weight;
+  }
+  return area > 0 ? sum / area : 0;
+}
+
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes) {
   const Positions& positions = head.positions;
   const std::vector<bool>& skin = head.skin;
   if (asymmetry(positions, skin, axes) > kMostUneven) return std::nullopt;
   FaceMarks marks;
-  marks.middle = middle_of(topology, positions, skin, axes.side());
+  marks.middle = middle_of(topology, head, axes);
   const Outline outline(topology, positions, skin, axes, marks.middle);
   if (outline.empty()) return std::nullopt;
   const double size = diagonal_of(positions, skin), way = kNoseWay * size;

@@ -32,6 +32,9 @@ struct HeadShape {
 };
 HeadShape shape_of_mean(const FaceSet& faces);
 
+/// Where the head's halves meet along HeadAxes::side(): the middle of its skin.
+double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
+
 /// Looks for nose, mouth and chin in the outline that the head's middle plane cuts from its skin, for
 /// any topology.
 /// \return nothing if nothing there stands out as a nose does, over a throat that lies back.

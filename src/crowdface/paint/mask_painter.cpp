@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/paint/mask_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "crowdface/core/require.h"
+#include "crowdface/core/smooth_step.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+using Alpha = RegionWeights::Alpha;
+
+// Smoothing reaches over this part of the radius, growing over that, whatever the mesh's resolution.
+constexpr double kSmoothReach = 0.25, kGrowReach = 0.125;
+constexpr int kMostRounds = 400;
+
+/// A vertex under the brush.
+struct Touched {
+  std::uint32_t vertex;
+  double strength;
+};
+
+void scale_to_one(Alpha& alpha, Index row) {
+  double sum = 0;
+  for (Index k = 0; k < alpha.cols(); ++k) {
+    alpha(row, k) = std::max(alpha(row, k), 0.0);
+    sum += alpha(row, k);
+  }
+  for (Index k = 0; k < alpha.cols(); ++k) alpha(row, k) /= sum;
+}
+
+/// Gives one region this much of a vertex, and the others the rest in proportion; where they have none,
+/// `heir` takes it.
+void set_share(Alpha& alpha, Index row, Index region, double share, Index heir) {
+  const double others = 1 - alpha(row, region);
+  if (others <= 0) {
+    if (heir == region) return;
+    alpha(row, heir) = 1 - share;
+  } else {
+    const double factor = (1 - share) / others;
+    for (Index k = 0; k < alpha.cols(); ++k) alpha(row, k) *= factor;
+  }
+  alpha(row, region) = share;
+  scale_to_one(alpha, row);
+}
+
+/// The region beside `region` that has most of these vertices; of equals the first.
+Index heir_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
+  Index heir = region;
+  double most = -1;
+  for (Index k = 0; k < alpha.cols(); ++k) {
+    if (k == region) continue;
+    double sum = 0;
+    for (const Touched& t : touched) sum += alpha(t.vertex, k);
+    if (sum <= most) continue;
+    most = sum;
+    heir = k;
+  }
+  return heir;
+}
+
+/// The vertices next to each touched one.
+Grouped<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
+                                     const std::vector<Touched>& touched) {
+  Grouped<std::uint32_t> neighbours;
+  for (const Touched& t : touched) neighbours.add_group(surface.around(t.vertex));
+  return neighbours;
+}
+
+double edge_length(const Positions& positions, const std::vector<Touched>& touched,
+                   const Grouped<std::uint32_t>& neighbours) {
+  double sum = 0;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    for (const std::uint32_t n : neighbours.of(i)) {
+      sum += length3(row3(positions, n) - row3(positions, touched[i].vertex));
+    }
+  }
+  return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
+}
+
+/// How often to go from vertex to vertex to get that far.
+int rounds(double edges) {
+  return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMostRounds}));
+}
+
+/// Moves each touched vertex towards its neighbours' mean.
+void smooth_once(const std::vector<Touched>& touched, const Grouped<std::uint32_t>& neighbours,
+                 Alpha& alpha) {
+  Alpha next(static_cast<Index>(touched.size()), alpha.cols());
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const auto& [v, strength] = touched[i];
+    const auto around = neighbours.of(i);
+    const double share = around.empty() ? 0 : strength / static_cast<double>(around.size());
+    for (Index k = 0; k < alpha.cols(); ++k) {
+      double value = alpha(v, k);
+      for (const std::uint32_t n : around) value += share * (alpha(n, k) - alpha(v, k));
+      next(static_cast<Index>(i), k) = value;
+    }
+  }
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    alpha.row(touched[i].vertex) = next.row(static_cast<Index>(i));
+    scale_to_one(alpha, touched[i].vertex);
+  }
+}
+
+void grow_once(const std::vector<Touched>& touched, const Grouped<std::uint32_t>& neighbours,
+               Index region, Alpha& alpha) {
+  std::vector<double> share;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const auto& [v, strength] = touched[i];
+    double most = alpha(v, region);
+    for (const std::uint32_t n : neighbours.of(i)) most = std::max(most, alpha(n, region));
+    share.push_back(alpha(v, region) + strength * (most - alpha(v, region)));
+  }
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    set_share(alpha, touched[i].vertex, region, share[i], region);
+  }
+}
+
+}  // namespace
+
+MaskPainter::MaskPainter(const Topology& topology, const Positions& positions,
+                         const MirrorPlane& mirror, Alpha alpha)
+    : mirror_(mirror), surface_(topology, positions), alpha_(std::move(alpha)) {
+  require(alpha_.rows() == positions.rows() && alpha_.cols() >= 1, "paint: ", alpha_.rows(),
+          " weights of ", positions.rows(), " vertices");
+}
+
+void MaskPainter::exchange(Step& step) {
+  if (step.whole) {
+    std::swap(alpha_, step.values);
+    return;
+  }
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    alpha_.row(step.rows[i]).swap(step.values.row(static_cast<Index>(i)));
+  }
+}
+
+void MaskPainter::begin_step(const std::vector<std::uint32_t>& rows, bool goes_on) {
+  undone_.clear();
+  if (!goes_on || done_.empty() || done_.back().whole) {
+    done_.push_back({rows, alpha_(rows, Eigen::all), false});
+    return;
+  }
+  Step& step = done_.back();
+  std::vector<std::uint32_t> fresh;
+  std::set_difference(rows.begin(), rows.end(), step.rows.begin(), step.rows.end(),
+                      std::back_inserter(fresh));
+  Step both;
+  std::merge(step.rows.begin(), step.rows.end(), fresh.begin(), fresh.end(),
+             std::back_inserter(both.rows));
+  both.values = alpha_(both.rows, Eigen::all);
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < both.rows.size() && old < step.rows.size(); ++i) {
+    if (both.rows[i] != step.rows[old]) continue;
+    both.values.row(static_cast<Index>(i)) = step.values.row(static_cast<Index>(old++));
+  }
+  step = std::move(both);
+}
+
+void MaskPainter::keep_all() {
+  undone_.clear();
+  done_.push_back({{}, alpha_, true});
+}
+
+std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<SurfacePoint>& places,
+                                              const Brush& brush, bool goes_on) {
+  require(region >= 0 && region < alpha_.cols() && brush.radius > 0 && brush.strength >= 0 &&
+              brush.strength <= 1 && brush.falloff >= 0 && brush.falloff <= 1,
+          "paint: region ", region, ", radius ", brush.radius, ", strength ", brush.strength,
+          ", falloff ", brush.falloff);
+  std::vector<SurfacePoint> all = places;
+  if (brush.mirror) {
+    for (const SurfacePoint& place : places) {
+      const double off = dot3(place.position, mirror_.normal) - mirror_.at;
+      all.push_back(surface_.nearest(place.position - 2 * off * mirror_.normal));
+    }
+  }
+  std::vector<Touched> touched;
+  std::vector<std::uint32_t> rows;
+  const double core = (1 - brush.falloff) * brush.radius;
+  for (const auto& [vertex, distance] : surface_.within(all, brush.radius)) {
+    const double soft = core < brush.radius ? smooth_step(brush.radius, core, distance) : 1;
+    touched.push_back({vertex, brush.strength * soft});
+    rows.push_back(vertex);
+  }
+  begin_step(rows, goes_on);
+  switch (brush.mode) {
+    case BrushMode::kAdd:
+      for (const auto& [v, strength] : touched) {
+        const double share = alpha_(v, region);
+        set_share(alpha_, v, region, share + strength * (1 - share), region);
+      }
+      break;
+    case BrushMode::kErase: {
+      const Index heir = heir_of(alpha_, touched, region);
+      for (const auto& [v, strength] : touched) {
+        set_share(alpha_, v, region, (1 - strength) * alpha_(v, region), heir);
+      }
+      break;
+    }
+    case BrushMode::kSmooth:
+    case BrushMode::kGrow: {
+      const auto neighbours = neighbours_of(surface_, touched);
+      const double edge = edge_length(surface_.positions(), touched, neighbours);
+      const double smooth = kSmoothReach * brush.radius / std::max(edge, 1e-300);
+      const double grow = kGrowReach * brush.radius / std::max(edge, 1e-300);
+      const bool smooths = brush.mode == BrushMode::kSmooth;
+      for (int i = rounds(smooths ? smooth * smooth : grow); i > 0; --i) {
+        if (smooths) {
+          smooth_once(touched, neighbours, alpha_);
+        } else {
+          grow_once(touched, neighbours, region, alpha_);
+        }
+      }
+      break;
+    }
+  }
+  return rows;
+}
+
+void MaskPainter::add_region() {
+  keep_all();
+  const Index count = alpha_.cols();
+  alpha_.conservativeResize(Eigen::NoChange, count + 1);
+  alpha_.col(count).setZero();
+}
+
+void MaskPainter::remove_region(Index region) {
+  const Index count = alpha_.cols();
+  require(region >= 0 && region < count && count > 1, "paint: region ", region, " of ", count,
+          " cannot be removed");
+  keep_all();
+  Alpha rest(alpha_.rows(), count - 1);
+  rest << alpha_.leftCols(region), alpha_.rightCols(count - 1 - region);
+  std::vector<std::uint32_t> bare;
+  for (Index v = 0; v < rest.rows(); ++v) {
+    if (rest.row(v).sum() > 0) {
+      scale_to_one(rest, v);
+    } else {
+      bare.push_back(static_cast<std::uint32_t>(v));
+    }
+  }
+  // What was the region's alone is filled from its border inwards.
+  while (!bare.empty()) {
+    std::vector<std::uint32_t> left;
+    std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;
+    for (const std::uint32_t v : bare) {
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(rest.cols());
+      for (const std::uint32_t n : surface_.around(v)) sum += rest.row(n);
+      if (sum.sum() > 0) {
+        filled.emplace_back(v, sum);
+      } else {
+        left.push_back(v);
+      }
+    }
+    for (const auto& [v, sum] : filled) {
+      rest.row(v) = sum;
+      scale_to_one(rest, v);
+    }
+    if (left.size() == bare.size()) break;
+    bare = std::move(left);
+  }
+  for (const std::uint32_t v : bare) rest(v, 0) = 1;
+  alpha_ = std::move(rest);
+}
+
+bool MaskPainter::undo() {
+  if (done_.empty()) return false;
+  exchange(done_.back());
+  undone_.push_back(std::move(done_.back()));
+  done_.pop_back();
+  return true;
+}
+
+bool MaskPainter::redo() {
+  if (undone_.empty()) return false;
+  exchange(undone_.back());
+  done_.push_back(std::move(undone_.back()));
+  undone_.pop_back();
+  return true;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/paint/surface_distance.h"
+#include "crowdface/region/region_weights.h"
+
+namespace crowdface {
+
+enum class BrushMode : std::uint8_t {
+  kAdd,     ///< more of the region
+  kErase,   ///< less of it: the others grow in proportion
+  kSmooth,  ///< all regions run more softly into one another
+  kGrow,    ///< the region's border moves outwards
+};
+
+struct Brush {
+  BrushMode mode = BrushMode::kAdd;
+  double radius = 1;    ///< along the surface, in the positions' unit, above 0
+  double strength = 1;  ///< 0 to 1: how much is changed where the brush is strongest
+  double falloff = 1;   ///< 0: equally strong up to the rim; 1: softer from the middle on
+  bool mirror = false;  ///< paints on the other half of the head too
+};
+
+/// Where a head's halves meet: places p with p·normal = at.
+struct MirrorPlane {
+  Eigen::Vector3d normal = {1, 0, 0};
+  double at = 0;
+};
+
+/// Regions of a mesh that are painted by hand. Whatever is done to them, weights are not negative and sum
+/// to one at every vertex, and all can be taken back exactly.
+class MaskPainter {
+ public:
+  using Alpha = RegionWeights::Alpha;
+
+  /// \param positions  #V by 3, of the head that is painted on; with the topology they must outlive it.
+  /// \param alpha      #V by #R.
+  MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
+              Alpha alpha);
+
+  const Alpha& alpha() const { return alpha_; }
+  const SurfaceDistance& surface() const { return surface_; }
+
+  /// One touch of the brush along some places: as strong at a vertex as where it comes nearest.
+  /// \param goes_on  whether it belongs to the touch before, and is taken back with that.
+  /// \return the vertices that may have changed, ascending.
+  /// \throws BrokenPrecondition for numbers outside their ranges.
+  std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,
+                                   const Brush& brush, bool goes_on = false);
+
+  /// A region that is nowhere yet, after all others.
+  void add_region();
+  /// Its share goes to the others in proportion; where it was alone, to those around, and failing these
+  /// to the first. \throws BrokenPrecondition if it is the only one.
+  void remove_region(Index region);
+
+  bool can_undo() const { return !done_.empty(); }
+  bool can_redo() const { return !undone_.empty(); }
+  /// Take the last step back, or do again what was taken back last. \return false if there is none.
+  bool undo();
+  bool redo();
+
+ private:
+  /// What stood there before a step (or, once it is taken back, after it).
+  struct Step {
+    std::vector<std::uint32_t> rows;  ///< ascending
+    Alpha values;                     ///< #rows by #R, or if `whole` all of α
+    bool whole = false;
+  };
+  void exchange(Step& step);
+  void begin_step(const std::vector<std::uint32_t>& rows, bool goes_on);
+  void keep_all();
+
+  MirrorPlane mirror_;
+  SurfaceDistance surface_;
+  Alpha alpha_;
+  std::vector<Step> done_, undone_;
+};
+
+}  // namespace crowdface

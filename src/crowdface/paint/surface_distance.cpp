@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/paint/surface_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <queue>
+
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// How far c is from the source of a wave that has reached a and b, all in the plane of the triangle;
+/// along its edges where the straight way does not cross it.
+double across(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+              double from_a, double from_b) {
+  const double along_edges = std::min(from_a + length3(c - a), from_b + length3(c - b));
+  const double length = length3(b - a);
+  if (!(length > 0)) return along_edges;
+  // a at the origin, b at (length, 0), c above, the source at (x, −y).
+  const double x = (from_a * from_a - from_b * from_b + length * length) / (2 * length);
+  const double y = std::sqrt(std::max(0.0, from_a * from_a - x * x));
+  const double c_x = dot3(c - a, b - a) / length;
+  const double c_y = std::sqrt(std::max(0.0, dot3(c - a, c - a) - c_x * c_x));
+  if (!(y + c_y > 0)) return along_edges;
+  const double crossing = x + (c_x - x) * y / (y + c_y);
+  if (crossing < 0 || crossing > length) return along_edges;
+  return std::sqrt((c_x - x) * (c_x - x) + (c_y + y) * (c_y + y));
+}
+
+/// Rings of rim vertices of several components that lie in one place.
+std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Positions& positions) {
+  std::vector<std::uint32_t> twins(static_cast<std::size_t>(positions.rows()));
+  std::iota(twins.begin(), twins.end(), 0U);
+  const Components components = find_components(adjacency);
+  std::map<std::array<double, 3>, std::vector<std::uint32_t>> places;
+  for (std::uint32_t v = 0; v < twins.size(); ++v) {
+    if (!adjacency.boundary[v]) continue;
+    auto& there = places[{positions(v, 0), positions(v, 1), positions(v, 2)}];
+    const auto is_of_same = [&](std::uint32_t other) {
+      return components.of_vertex[other] == components.of_vertex[v];
+    };
+    if (std::none_of(there.begin(), there.end(), is_of_same)) there.push_back(v);
+  }
+  for (const auto& [place, there] : places) {
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      twins[there[i]] = there[(i + 1) % there.size()];
+    }
+  }
+  return twins;
+}
+
+std::vector<std::uint32_t> used_vertices(const Adjacency& adjacency) {
+  std::vector<std::uint32_t> used;
+  for (std::uint32_t v = 0; v < adjacency.group_count(); ++v) {
+    if (!adjacency.of(v).empty()) used.push_back(v);
+  }
+  if (used.empty()) used.push_back(0);
+  return used;
+}
+
+}  // namespace
+
+SurfaceDistance::SurfaceDistance(const Topology& topology, const Positions& positions)
+    : topology_(topology),
+      positions_(positions),
+      adjacency_(build_adjacency(topology)),
+      faces_(topology),
+      twins_(find_twins(adjacency_, positions)),
+      grid_(positions, used_vertices(adjacency_)) {}
+
+SurfacePoint SurfaceDistance::nearest(const Eigen::Vector3d& point) const {
+  return nearest_around(topology_, faces_, positions_, grid_.nearest(point).vertex, point);
+}
+
+std::vector<std::uint32_t> SurfaceDistance::around(std::uint32_t vertex) const {
+  std::vector<std::uint32_t> out;
+  std::uint32_t at = vertex;
+  do {
+    const auto neighbours = adjacency_.of(at);
+    out.insert(out.end(), neighbours.begin(), neighbours.end());
+    at = twins_[at];
+  } while (at != vertex);
+  return out;
+}
+
+std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
+    const std::vector<SurfacePoint>& places, double reach) const {
+  std::vector<double> distance(twins_.size(), kFar);
+  std::vector<bool> done(twins_.size(), false);
+  using Front = std::pair<double, std::uint32_t>;
+  std::priority_queue<Front, std::vector<Front>, std::greater<>> front;
+  const auto reached = [&](std::uint32_t vertex, double way) {
+    if (!(way < distance[vertex]) || way > reach) return;
+    distance[vertex] = way;
+    front.emplace(way, vertex);
+  };
+  for (const SurfacePoint& place : places) {
+    // All corners of the faces that the place's triangle is of, so that quads count whole.
+    for (const std::uint32_t f : faces_.of(place.corners[0])) {
+      const auto face = topology_.face(f);
+      const auto has = [&](std::uint32_t v) {
+        return std::find(face.begin(), face.end(), v) != face.end();
+      };
+      if (!has(place.corners[1]) || !has(place.corners[2])) continue;
+      for (const std::uint32_t v : face) {
+        reached(v, length3(row3(positions_, v) - place.position));
+      }
+    }
+  }
+  std::vector<Reached> out;
+  while (!front.empty()) {
+    const auto [way, vertex] = front.top();
+    front.pop();
+    if (done[vertex]) continue;
+    done[vertex] = true;
+    out.push_back({vertex, way});
+    if (twins_[vertex] != vertex) reached(twins_[vertex], way);
+    const Eigen::Vector3d here = row3(positions_, vertex);
+    for (const std::uint32_t f : faces_.of(vertex)) {
+      const auto face = topology_.face(f);
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        const std::uint32_t to = face[i];
+        if (to == vertex || done[to]) continue;
+        const Eigen::Vector3d there = row3(positions_, to);
+        reached(to, way + length3(there - here));
+        for (std::size_t j = 0; j < face.size(); ++j) {
+          const std::uint32_t other = face[j];
+          const bool near = face.size() <= 4 || (i + 1) % face.size() == j ||
+                            (j + 1) % face.size() == i;  // of large polygons: those next to it
+          if (!near || other == vertex || other == to || distance[other] == kFar) continue;
+          reached(to, across(here, row3(positions_, other), there, way, distance[other]));
+        }
+      }
+    }
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Reached& a, const Reached& b) { return a.vertex < b.vertex; });
+  return out;
+}
+
+}  // namespace crowdface
