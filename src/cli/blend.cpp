@@ -3,15 +3,13 @@
 
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
-#include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/run/face_builder.h"
-#include "crowdface/run/mesh_writers.h"
-#include "crowdface/run/own_textures.h"
 #include "crowdface/run/pipeline.h"
+#include "crowdface/run/write_face.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -66,26 +64,6 @@ void declare(CLI::App& command, Options& options) {
                    "Blend even if heads, masks or smoothing differ from the plan's");
 }
 
-/// The mesh, and beside it what a crowd's folder has beside it: textures and materials of its own.
-void write_face(const Job& job, const CastFace& face, MeshFormat format, const Positions& positions,
-                const std::filesystem::path& file) {
-  const MeshWriters writers(job.config, job.inputs, {format}, {&face, 1});
-  const FaceTextures textures(job.config, job.inputs);
-  if (textures.blender() == nullptr) {
-    write_mesh(writers.encode(face, positions).front(), file);
-    return;
-  }
-  const OwnTextures own(job.config, job.inputs, {&face, 1});
-  std::vector<std::string> encoded = own.encode(textures.blender()->blend(face.recipe));
-  const std::vector<std::string_view> of_mesh = own.of_mesh(encoded);
-  write_mesh(writers.encode(face, positions, of_mesh).front(), file);
-  for (const OwnFile& beside : own.files(face, std::span(&format, 1), std::move(encoded))) {
-    const std::filesystem::path path = file.parent_path() / beside.name;
-    make_directories(path.parent_path());
-    write_file(path, beside.bytes);
-  }
-}
-
 void blend(const Options& options) {
   const auto format = mesh_format_of(options.out);
   if (!format) {
@@ -117,7 +95,8 @@ void blend(const Options& options) {
   Positions positions;
   FaceBuilder(job.config, job.inputs, prepared)
       .build(std::span(&recipe, 1), std::span(&positions, 1));
-  write_face(job, line.face, *format, positions, file);
+  write_face(job, FaceTextures(job.config, job.inputs).blender(), line.face, *format, positions,
+             file);
   log_info(concat(line.face.id, " written to ", options.out));
 }
 

@@ -5,6 +5,7 @@
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/editor/edit_api.h"
+#include "crowdface/editor/editor_lock.h"
 
 namespace crowdface {
 namespace {
@@ -20,12 +21,17 @@ Job load_edited_job(const std::filesystem::path& given, ConfigOverrides override
 
 }  // namespace
 
-void edit(const std::filesystem::path& job, const ConfigOverrides& overrides,
+void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started) {
-  EditSession session(load_edited_job(job, overrides, options.cache), options.cache,
-                      options.preview_vertices);
-  EditApi api(session);
+  Job job = load_edited_job(given, overrides, options.cache);
+  const std::filesystem::path path = make_edited_folder(job.config);
+  EditorLock lock(path);
+  const EditSession session(std::move(job), options.cache, options.preview_vertices);
+  EditedFolder folder(session.job(), path);
+  std::error_code ignored;
+  EditApi api(session, folder, !std::filesystem::is_directory(given, ignored));
   LocalServer server([&](const HttpRequest& request) { return api.answer(request); }, options.port);
+  lock.tell(server.address());
   started(server.address());
   server.run(interrupted);
 }

@@ -17,10 +17,10 @@ struct EditOptions {
 };
 
 /// Serves the editor of a crowd until a signal asks to end.
-/// \param job      a config, or the folder of a crowd
+/// \param given    a config, or the folder of a crowd
 /// \param started  is given the address once the page can be opened
 /// \throws Error
-void edit(const std::filesystem::path& job, const ConfigOverrides& overrides,
+void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started);
 
 }  // namespace crowdface

@@ -8,18 +8,16 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/editor/binary_answer.h"
+#include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/page_files.h"
 #include "crowdface/editor/recipe_json.h"
-#include "crowdface/io/shallow_json.h"
+#include "crowdface/editor/request_values.h"
 
 namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-HttpAnswer json_answer(const Json& json, int status = 200) {
-  return {status, "application/json", json.dump()};
-}
 HttpAnswer binary_answer(std::string bytes) {
   return {200, "application/octet-stream", std::move(bytes)};
 }
@@ -40,22 +38,22 @@ int status_of(const Error& error) {
   }
 }
 
-/// \throws UsageError if the body is no mapping.
-Json body_of(const HttpRequest& request) {
-  Json json = parse_shallow_json(request.body);
-  if (!json.is_object()) throw UsageError("the request: expected a mapping in JSON");
-  return json;
-}
-
 }  // namespace
 
-EditApi::EditApi(EditSession& session) : session_(session) {}
+EditApi::EditApi(const EditSession& session, EditedFolder& folder, bool may_edit_config)
+    : session_(session),
+      may_edit_config_(may_edit_config),
+      folder_(folder),
+      pictures_(session.job()) {}
 
 const std::vector<EditApi::Route>& EditApi::routes() {
-  static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
-                                            {"GET", "api/mesh", &EditApi::mesh},
-                                            {"GET", "api/heads/", &EditApi::head},
-                                            {"POST", "api/face", &EditApi::face}};
+  static const std::vector<Route> routes = {
+      {"GET", "api/job", &EditApi::job},          {"GET", "api/mesh", &EditApi::mesh},
+      {"GET", "api/heads/", &EditApi::head},      {"POST", "api/face", &EditApi::face},
+      {"POST", "api/draw", &EditApi::draw},       {"GET", "api/state", &EditApi::state},
+      {"PUT", "api/state", &EditApi::keep_state}, {"POST", "api/save", &EditApi::save},
+      {"POST", "api/picture", &EditApi::picture}, {"POST", "api/recipes", &EditApi::put_recipe},
+      {"POST", "api/review", &EditApi::review}};
   return routes;
 }
 
@@ -91,16 +89,55 @@ HttpAnswer EditApi::mesh(const HttpRequest&, const std::string&) {
 }
 
 HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
-  const auto number = parse_unsigned(rest);
+  const std::size_t slash = std::min(rest.find('/'), rest.size());
+  const std::string what = rest.substr(slash);
+  const auto number = parse_unsigned(std::string_view(rest).substr(0, slash));
   if (!number || *number >= session_.job().inputs.faces.heads.size()) {
     return refusal(404, "there is no such head");
   }
-  return binary_answer(session_.head(static_cast<Index>(*number)));
+  const auto head = static_cast<Index>(*number);
+  if (what.empty()) return binary_answer(session_.head(head));
+  if (what == "/thumbnail") return {200, "image/png", pictures_.thumbnail(head)};
+  if (what != "/texture") return refusal(404, "there is nothing at this address");
+  auto texture = pictures_.texture(head);
+  if (!texture) return refusal(404, "the head has no texture, or one of several pictures");
+  return {200, "image/jpeg", std::move(*texture)};
 }
 
-CastFace EditApi::face_of(const Json& request) const {
-  return face_of_json(request.contains("recipe") ? request["recipe"] : Json(), session_.casting(),
+CastFace EditApi::face_of(const Json& body, const std::string& key) const {
+  return face_of_json(body.contains(key) ? body[key] : Json(), session_.casting(),
                       session_.job().config);
+}
+
+std::vector<std::size_t> EditApi::regions_in(const Json& body, const std::string& key) const {
+  std::vector<std::size_t> regions;
+  if (!body.contains(key)) return regions;
+  const std::vector<std::string>& names = session_.casting().region_names;
+  for (const Json& name : body[key]) {
+    const auto found =
+        std::find(names.begin(), names.end(), name.is_string() ? name.get<std::string>() : "");
+    if (found == names.end()) throw UsageError(concat(key, ": expected a list of regions"));
+    regions.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  return regions;
+}
+
+HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
+  constexpr double kMostFaces = 64;
+  constexpr std::uint32_t kAttempts = 4096;  // more than one request takes
+  const Json body = body_of(request);
+  DrawRequest draw{face_of(body), regions_in(body, "locked"), std::nullopt};
+  if (body.contains("like") && !body["like"].is_null()) draw.like = face_of(body, "like");
+  if (body.contains("amount")) draw.amount = number_in(body, "amount", 0, 1);
+  if (body.contains("count")) {
+    draw.count = static_cast<std::size_t>(number_in(body, "count", 1, kMostFaces));
+  }
+  draw.first_attempt = draws_.fetch_add(kAttempts);
+  Json recipes = Json::array();
+  for (const CastFace& face : session_.draw(draw)) {
+    recipes.push_back(recipe_to_json(face, session_.casting(), session_.job().config));
+  }
+  return json_answer({{"recipes", recipes}});
 }
 
 void EditApi::note_turn(const std::string& page, std::uint64_t turn) {
@@ -118,10 +155,12 @@ bool EditApi::overtaken(const std::string& page, std::uint64_t turn) {
 }
 
 HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
+  constexpr double kMostTurns = 1e15;
   const Json body = body_of(request);
   const CastFace face = face_of(body);
-  const std::string page = body.value("page", "");
-  const std::uint64_t turn = body.value("turn", std::uint64_t{0});
+  const std::string page = body.contains("page") ? text_in(body, "page") : "";
+  const auto turn = static_cast<std::uint64_t>(
+      body.contains("turn") ? number_in(body, "turn", 0, kMostTurns) : 0);
   if (!page.empty()) note_turn(page, turn);
   const std::lock_guard lock(building_);
   if (!page.empty() && overtaken(page, turn)) return refusal(409, "overtaken by a newer request");
@@ -134,7 +173,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.add("normals", std::span(normals));
   answer.head["ms"] =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  if (body.value("measure", false)) {
+  if (body.contains("measure") && body["measure"] == true) {
     const FaceMeasures measures = session_.measure(face, positions);
     const auto& names = session_.job().names.heads;
     answer.head["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.head)]},

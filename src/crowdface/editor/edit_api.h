@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -9,7 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/editor/edit_pictures.h"
 #include "crowdface/editor/edit_session.h"
+#include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/local_server.h"
 
 namespace crowdface {
@@ -17,8 +20,9 @@ namespace crowdface {
 /// What the editor's page asks for, answered (docs/editor.md).
 class EditApi {
  public:
-  /// \param session  must outlive this object
-  explicit EditApi(EditSession& session);
+  /// \param session, folder  must outlive this object
+  /// \param may_edit_config  whether recipes may be put into the job's config: it is the user's own
+  EditApi(const EditSession& session, EditedFolder& folder, bool may_edit_config);
 
   /// Never throws for what a request holds: mistakes are answers, {"error": sentence}.
   HttpAnswer answer(const HttpRequest& request);
@@ -38,12 +42,26 @@ class EditApi {
   HttpAnswer head(const HttpRequest& request, const std::string& rest);
   HttpAnswer face(const HttpRequest& request, const std::string& rest);
 
-  CastFace face_of(const Json& request) const;
+  HttpAnswer draw(const HttpRequest& request, const std::string& rest);
+  HttpAnswer state(const HttpRequest& request, const std::string& rest);
+  HttpAnswer keep_state(const HttpRequest& request, const std::string& rest);
+  HttpAnswer save(const HttpRequest& request, const std::string& rest);
+  HttpAnswer picture(const HttpRequest& request, const std::string& rest);
+  HttpAnswer put_recipe(const HttpRequest& request, const std::string& rest);
+  HttpAnswer review(const HttpRequest& request, const std::string& rest);
+
+  // What a request's body holds. \throws UsageError with the key's name.
+  std::vector<std::size_t> regions_in(const Json& body, const std::string& key) const;
+  CastFace face_of(const Json& body, const std::string& key = "recipe") const;
   void note_turn(const std::string& page, std::uint64_t turn);
   bool overtaken(const std::string& page, std::uint64_t turn);
 
-  EditSession& session_;
-  std::mutex building_;  ///< one face at a time, by all cores
+  const EditSession& session_;
+  bool may_edit_config_;
+  EditedFolder& folder_;
+  EditPictures pictures_;
+  std::mutex building_;                   ///< one face at a time, by all cores
+  std::atomic<std::uint32_t> draws_ = 0;  ///< attempts so far, so that each draw is another
   std::mutex turns_mutex_;
   std::map<std::string, std::uint64_t> turns_;  ///< the newest of each page
 };

@@ -12,6 +12,7 @@
 
 #include "crowdface/cast/face_judge.h"
 #include "crowdface/cast/face_point_index.h"
+#include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/preview_mesh.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/casting.h"
@@ -55,6 +56,8 @@ class EditSession {
   Positions build(const Recipe& recipe) const;
   /// \param face  what `build` gave
   FaceMeasures measure(const CastFace& recipe, const Positions& face) const;
+  /// See draw_faces.
+  std::vector<CastFace> draw(const DrawRequest& request) const;
   /// Unit normals of the whole mesh at the preview's vertices, #preview by 3.
   std::vector<float> normals(const Positions& face) const;
   /// Positions at the preview's vertices, #preview by 3.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <future>
 #include <system_error>
 #include <thread>
 
@@ -176,10 +177,13 @@ const std::string& LocalServer::address() const {
 }
 
 void LocalServer::run(const std::function<bool()>& stop) {
-  std::thread serving([this] { state_->server.listen_after_bind(); });
-  while (!stop()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  state_->server.stop();
-  serving.join();
+  constexpr auto kMoment = std::chrono::milliseconds(100);
+  auto serving = std::async(std::launch::async, [this] { state_->server.listen_after_bind(); });
+  while (!stop()) std::this_thread::sleep_for(kMoment);
+  // The library lets only a server be stopped that has begun to listen.
+  do {
+    state_->server.stop();
+  } while (serving.wait_for(kMoment) != std::future_status::ready);
 }
 
 }  // namespace crowdface

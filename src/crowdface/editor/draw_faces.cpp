@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/draw_faces.h"
+
+#include <algorithm>
+#include <map>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+double between(double a, double b, double share) {
+  return a + share * (b - a);
+}
+
+std::vector<SourceWeight> between(const std::vector<SourceWeight>& a,
+                                  const std::vector<SourceWeight>& b, double share) {
+  std::map<Index, double> sums;
+  for (const SourceWeight& source : a) sums[source.head] += (1 - share) * source.weight;
+  for (const SourceWeight& source : b) sums[source.head] += share * source.weight;
+  std::vector<SourceWeight> weights;
+  for (const auto& [head, weight] : sums) {
+    if (weight != 0) weights.push_back({head, weight});
+  }
+  return weights;
+}
+
+RegionRecipe between(const RegionRecipe& a, const RegionRecipe& b, double share, Index target,
+                     const Casting& casting) {
+  RegionRecipe region;
+  if (a.position && b.position) {
+    region.position = *a.position + share * (*b.position - *a.position);
+    region.weights = weights_at(casting.anchors, target, casting.sampling.sources, *region.position,
+                                casting.normalization, casting.sampling.max_sources);
+  } else {
+    region.weights = between(a.weights, b.weights, share);
+  }
+  region.smoothness = between(a.smoothness, b.smoothness, share);
+  region.iterations = iterations_of(region.smoothness, casting.scale);
+  region.extrapolation = between(a.extrapolation, b.extrapolation, share);
+  return region;
+}
+
+CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint32_t attempt) {
+  const bool keeps_target = request.like || !request.locked.empty();
+  const CastFace& old = request.like ? *request.like : request.from;
+  HandRecipe open;
+  open.id = request.from.id;
+  open.age = Range{0, 0};
+  if (keeps_target) open.target = old.recipe.target;
+  CastFace face =
+      draw_recipe(casting, open, {0, attempt, concat("edit/", open.id)}, kind_of_group(casting));
+  if (keeps_target) face.recipe.mixture = old.recipe.mixture;
+  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+    RegionRecipe& region = face.recipe.regions[k];
+    if (std::find(request.locked.begin(), request.locked.end(), k) != request.locked.end()) {
+      region = request.from.recipe.regions[k];
+    } else if (request.like) {
+      region = between(request.like->recipe.regions[k], region, request.amount, face.recipe.target,
+                       casting);
+    }
+  }
+  return face;
+}
+
+}  // namespace
+
+std::vector<CastFace> draw_faces(const Casting& casting, const FaceJudge& judge,
+                                 const FacePointIndex& crowd, const DrawRequest& request) {
+  constexpr std::uint32_t kAttemptsEach = 40;
+  const auto most = static_cast<std::uint32_t>(request.count) * kAttemptsEach;
+  std::vector<CastFace> faces;
+  std::map<Reason, std::uint32_t> reasons;
+  for (std::uint32_t i = 0; i < most && faces.size() < request.count; ++i) {
+    throw_if_interrupted();
+    CastFace face = draw_one(casting, request, request.first_attempt + i);
+    const FaceSpace::Point point = judge.space().point(face.recipe);
+    std::optional<Reason> why = judge.at_a_glance(face.recipe, point);
+    const double least = casting.diversity.min_distance_mm;
+    if (!why && !request.like && least > 0 && crowd.nearest(point, least).face >= 0) {
+      why = Reason::kMinDistance;
+    }
+    if (!why) why = judge.closely(face.recipe);
+    if (why) {
+      ++reasons[*why];
+    } else {
+      faces.push_back(std::move(face));
+    }
+  }
+  if (!faces.empty() || request.count == 0) return faces;
+  const auto main =
+      std::max_element(reasons.begin(), reasons.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  throw Unsatisfiable(concat("none of ", most, " faces that were drawn keeps the config's limits; ",
+                             main->second, " of them fail by ", name_of(main->first)));
+}
+
+}  // namespace crowdface

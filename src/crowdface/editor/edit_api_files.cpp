@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the editor's page asks to be kept or written.
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/config/words.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/editor/edit_api.h"
+#include "crowdface/editor/recipe_in_config.h"
+#include "crowdface/editor/recipe_json.h"
+#include "crowdface/editor/request_values.h"
+#include "crowdface/io/shallow_json.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// \throws UsageError if the text is none of the words.
+template <class Value>
+Value word_in(const Json& body, const std::string& key) {
+  const std::string text = text_in(body, key);
+  std::vector<std::string> known;
+  for (const auto& word : words_of<Value>()) {
+    if (word.text == text) return word.value;
+    known.emplace_back(word.text);
+  }
+  throw UsageError(concat(key, ": expected ", join(known, " or "), ", found ", quoted(text)));
+}
+
+/// A view's name, or the standard view that is nearest to {yaw, pitch} in degrees.
+View view_in(const Json& body) {
+  if (!body.contains("view")) return View::kFront;
+  if (!body["view"].is_object()) return word_in<View>(body, "view");
+  constexpr double kFrontUpTo = 17.5, kThreeQuarterUpTo = 62.5;
+  const double yaw = std::abs(number_in(body["view"], "yaw", -360, 360));
+  if (yaw <= kFrontUpTo) return View::kFront;
+  return yaw <= kThreeQuarterUpTo ? View::kThreeQuarter : View::kProfile;
+}
+
+Json file_json(const std::filesystem::path& file) {
+  return {{"file", file.string()}};
+}
+
+}  // namespace
+
+HttpAnswer EditApi::state(const HttpRequest&, const std::string&) {
+  std::string text = folder_.state();
+  return {200, "application/json", text.empty() ? "null" : std::move(text)};
+}
+
+HttpAnswer EditApi::keep_state(const HttpRequest& request, const std::string&) {
+  if (parse_shallow_json(request.body).is_discarded()) throw UsageError("the state: expected JSON");
+  folder_.keep_state(request.body);
+  return json_answer(Json::object());
+}
+
+HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
+  const Json body = body_of(request);
+  const CastFace face = face_of(body);
+  const std::string name = text_in(body, "format");
+  const auto format = mesh_format_of("face." + name);
+  if (!format) {
+    throw UsageError(concat("format: expected obj, ply, glb or npy, found ", quoted(name)));
+  }
+  const std::lock_guard lock(building_);
+  return json_answer(
+      file_json(folder_.save(face, *format, session_.build(face.recipe), pictures_.textures())));
+}
+
+HttpAnswer EditApi::picture(const HttpRequest& request, const std::string&) {
+  constexpr double kLeast = 64, kMost = 4096;
+  const Json body = body_of(request);
+  const CastFace face = face_of(body);
+  const View view = view_in(body);
+  const auto size =
+      body.contains("size") ? static_cast<int>(number_in(body, "size", kLeast, kMost)) : 1024;
+  const std::lock_guard lock(building_);
+  std::string png = pictures_.picture(face.recipe, session_.build(face.recipe), view, size);
+  folder_.save_picture(face.id, png);
+  return {200, "image/png", std::move(png)};
+}
+
+HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
+  if (!may_edit_config_) {
+    throw UsageError(
+        "a crowd's own config.yaml tells what its faces were made of and is not changed: open the "
+        "config it was made from");
+  }
+  const Json body = body_of(request);
+  const Config& config = session_.job().config;
+  const HandRecipe recipe =
+      hand_recipe_of_json(body.contains("recipe") ? body["recipe"] : Json(), config);
+  const std::lock_guard lock(building_);
+  crowdface::put_recipe(recipe, config);
+  return json_answer(file_json(config.file));
+}
+
+HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
+  constexpr std::size_t kLongestNote = 2000;
+  const Json body = body_of(request);
+  ReviewMark mark;
+  mark.id = text_in(body, "id");
+  const std::vector<CastFace>* crowd = session_.crowd();
+  if (crowd == nullptr || std::none_of(crowd->begin(), crowd->end(),
+                                       [&](const CastFace& face) { return face.id == mark.id; })) {
+    throw UsageError(concat("no face of this crowd is called ", crowdface::quoted(mark.id)));
+  }
+  if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");
+  mark.locked = regions_in(body, "lock");
+  if (!mark.locked.empty()) mark.verdict = ReviewMark::Verdict::kReject;
+  if (body.contains("note")) {
+    mark.note = text_in(body, "note");
+    if (mark.note->size() > kLongestNote) {
+      throw UsageError(concat("note: expected at most ", kLongestNote, " bytes"));
+    }
+  }
+  return json_answer(file_json(folder_.save_mark(mark)));
+}
+
+}  // namespace crowdface

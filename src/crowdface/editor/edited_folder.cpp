@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/edited_folder.h"
+
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "crowdface/config/yaml.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/run/write_face.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& regions) {
+  std::vector<std::string> entries = {mark.verdict == ReviewMark::Verdict::kKeep ? "mark: keep"
+                                                                                 : "mark: reject"};
+  std::vector<std::string> locked;
+  for (const std::size_t k : mark.locked) locked.push_back(write_scalar(regions[k]));
+  if (!locked.empty()) entries.push_back(concat("lock: [", join(locked), ']'));
+  if (mark.note) entries.push_back(concat("note: ", write_scalar(*mark.note)));
+  return concat("  ", write_scalar(mark.id), ": {", join(entries), "}\n");
+}
+
+/// The lines of a plan but for the one with that id.
+std::string other_lines(const fs::path& plan, const std::string& id, const PlanNames& names) {
+  std::error_code ignored;
+  if (!fs::exists(plan, ignored)) return {};
+  std::string lines;
+  for (const PlanLine& line : read_plan(plan, names)) {
+    if (line.face.id == id) continue;
+    const auto settings = parse_digest(line.settings);
+    lines += format_recipe(line.face, names, settings.value_or(Digest{})) + '\n';
+  }
+  return lines;
+}
+
+}  // namespace
+
+fs::path make_edited_folder(const Config& config) {
+  fs::path path = config.output.directory / "edited";
+  refuse_folder_elsewhere({config.output.directory}, path);
+  make_directories(path);
+  return path;
+}
+
+EditedFolder::EditedFolder(const Job& job, fs::path path) : job_(job), path_(std::move(path)) {
+  remove_leftovers(path_);
+}
+
+std::string EditedFolder::state() const {
+  std::error_code ignored;
+  const fs::path file = path_ / "state.json";
+  return fs::exists(file, ignored) ? read_file(file) : std::string();
+}
+
+void EditedFolder::keep_state(std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  write_file(path_ / "state.json", text);
+}
+
+fs::path EditedFolder::save(const CastFace& face, MeshFormat format, const Positions& positions,
+                            const TextureBlender* textures) {
+  const std::lock_guard lock(mutex_);
+  const fs::path plan = path_ / "edited.jsonl";
+  const std::string others = other_lines(plan, face.id, job_.names);
+  fs::path mesh = path_ / concat(face.id, extension_of(format));
+  write_face(job_, textures, face, format, positions, mesh);
+  write_file(plan, others + format_recipe(face, job_.names, job_.settings) + '\n');
+  return mesh;
+}
+
+fs::path EditedFolder::save_picture(const std::string& name, std::string_view png) {
+  const std::lock_guard lock(mutex_);
+  fs::path file = path_ / (name + ".png");
+  write_file(file, png);
+  return file;
+}
+
+fs::path EditedFolder::save_mark(const ReviewMark& mark) {
+  const std::lock_guard lock(mutex_);
+  marks_[mark.id] = mark;
+  std::string text = "schema: 1\nfaces:\n";
+  for (const auto& [id, one] : marks_) text += format_mark(one, job_.names.regions);
+  fs::path file = path_ / "review.yaml";
+  write_file(file, text);
+  return file;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "crowdface/cast/review.h"
+#include "crowdface/run/pipeline.h"
+#include "crowdface/texture/texture_blender.h"
+
+namespace crowdface {
+
+/// The folder `edited` in the output folder, made if need be.
+/// \throws CannotCreate, also if it is a link that leads out of the output folder.
+std::filesystem::path make_edited_folder(const Config& config);
+
+/// What an editor leaves behind. Every file is whole or not
+/// there, whenever the editor is killed. Any thread may ask.
+class EditedFolder {
+ public:
+  /// \param job   must outlive this object
+  /// \param path  see make_edited_folder
+  EditedFolder(const Job& job, std::filesystem::path path);
+
+  /// What the page last kept, as it gave it; empty: nothing yet.
+  std::string state() const;
+  void keep_state(std::string_view text);
+
+  /// Writes the mesh, then its recipe among those of edited.jsonl, in place of one with the same id:
+  /// `crowdface blend` makes the same file from that line.
+  /// \param textures   blends those of the face's own, or null
+  /// \return the file
+  std::filesystem::path save(const CastFace& face, MeshFormat format, const Positions& positions,
+                             const TextureBlender* textures);
+  std::filesystem::path save_picture(const std::string& name, std::string_view png);
+  /// Writes the mark among those of review.yaml that this editor made, in place of one about the same
+  /// face.
+  std::filesystem::path save_mark(const ReviewMark& mark);
+
+ private:
+  const Job& job_;
+  std::filesystem::path path_;
+  std::mutex mutex_;
+  std::map<std::string, ReviewMark> marks_;  ///< by the face's id
+};
+
+}  // namespace crowdface

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page gets of a job before it shows the first face.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/units.h"
+#include "crowdface/core/version.h"
+#include "crowdface/editor/binary_answer.h"
+#include "crowdface/editor/edit_pictures.h"
+#include "crowdface/editor/edit_session.h"
+#include "crowdface/editor/recipe_json.h"
+#include "crowdface/pictures/surfaces.h"
+#include "crowdface/render/eyeballs.h"
+#include "crowdface/render/vertex_colours.h"
+#include "crowdface/smooth/level_size.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Steps of the sliders' square-root scale.
+constexpr int kLevels = 256;
+
+double smoothness_at(int step) {
+  const double root = static_cast<double>(step) / kLevels;
+  return root * root;
+}
+
+Json axis_to_json(Axis axis) {
+  Json json = {0, 0, 0};
+  json[static_cast<std::size_t>(axis.index)] = axis.sign;
+  return json;
+}
+
+Json colour_to_json(const Light& light) {
+  return {light[0], light[1], light[2]};
+}
+
+std::string hex_colour(const Eigen::Vector3f& colour) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "#";
+  for (int c = 0; c < 3; ++c) {
+    const auto value = static_cast<unsigned>(std::lround(255 * colour[c]));
+    text += kDigits[value >> 4U & 15U];
+    text += kDigits[value & 15U];
+  }
+  return text;
+}
+
+/// The smoothnesses that casting would draw within, as shares of L_max.
+Range fractions_of(const SmoothnessDistribution& smoothness, const LevelScale& scale) {
+  const auto fraction = [&](double value) {
+    double share = value;
+    if (smoothness.unit == SmoothnessDistribution::Unit::kIterations) {
+      share = value / static_cast<double>(scale.max_level);
+    } else if (smoothness.unit == SmoothnessDistribution::Unit::kSize && value > 0) {
+      share = static_cast<double>(iterations_of_size(scale.kind, value, scale.edge_length_mm)) /
+              static_cast<double>(scale.max_level);
+    }
+    return std::min(share, 1.0);
+  };
+  return {fraction(smoothness.range.low), fraction(smoothness.range.high)};
+}
+
+Json range_to_json(const Range& range) {
+  return {{"min", range.low}, {"max", range.high}};
+}
+
+}  // namespace
+
+Json EditSession::regions_json() const {
+  Json regions = Json::array();
+  for (std::size_t k = 0; k < casting_.region_names.size(); ++k) {
+    const RegionSampling& sampling = casting_.sampling.regions[k];
+    regions.push_back(
+        {{"name", casting_.region_names[k]},
+         {"colour", hex_colour(palette_colour(static_cast<Index>(k)))},
+         {"smoothness", range_to_json(fractions_of(sampling.smoothness, casting_.scale))},
+         {"extrapolation", range_to_json(sampling.extrapolation)}});
+  }
+  return regions;
+}
+
+CastFace EditSession::first_face() const {
+  if (crowd_ && !crowd_->empty()) return crowd_->front();
+  CastFace face;
+  face.id = "edited";
+  for (const RegionSampling& sampling : casting_.sampling.regions) {
+    const Range smoothness = fractions_of(sampling.smoothness, casting_.scale);
+    RegionRecipe region;
+    region.position = casting_.anchors.front();
+    region.weights = weights_at(casting_.anchors, 0, casting_.sampling.sources, *region.position,
+                                casting_.normalization, casting_.sampling.max_sources);
+    region.smoothness = (smoothness.low + smoothness.high) / 2;
+    region.iterations = iterations_of(region.smoothness, casting_.scale);
+    face.recipe.regions.push_back(std::move(region));
+  }
+  return face;
+}
+
+Json EditSession::description() const {
+  const Config& config = job_.config;
+  Json json;
+  json["name"] = config.crowd.name;
+  json["seed"] = config.crowd.seed;
+  json["version"] = kVersion;
+  json["unit"] = name_of(config.faces.units);
+  json["mm_per_unit"] = mm_per(config.faces.units);
+  json["up"] = axis_to_json(config.faces.up);
+  json["front"] = axis_to_json(config.faces.front);
+  json["max_iterations"] = casting_.scale.max_level;
+  json["edge_mm"] = casting_.scale.edge_length_mm;
+  json["vertices"] = job_.inputs.faces.topology.vertex_count;
+  json["regions"] = regions_json();
+  json["heads"] = Json::array();
+  for (std::size_t h = 0; h < config.faces.names.size(); ++h) {
+    json["heads"].push_back(
+        {{"name", config.faces.names[h]},
+         {"tags", config.faces.tags[h]},
+         {"anchor", {casting_.anchors[h].x(), casting_.anchors[h].y()}},
+         {"texture", has_one_texture(job_.inputs.textures, static_cast<Index>(h))}});
+  }
+  json["normalization"] =
+      config.blending.normalization == Normalization::kPartition ? "partition" : "printed";
+  json["falloff"] = 2;
+  json["sources"] = config.sampling.sources;
+  json["max_sources"] =
+      config.sampling.max_sources ? Json(*config.sampling.max_sources) : Json(nullptr);
+  json["formats"] = {"obj", "ply", "glb", "npy"};
+  json["limits"] = {{"head_mm", config.diversity.min_distance_to_faces_mm},
+                    {"face_mm", config.diversity.min_distance_mm}};
+  for (int step = 0; step <= kLevels; ++step) {
+    const std::uint64_t level = iterations_of(smoothness_at(step), casting_.scale);
+    json["levels"]["smoothness"].push_back(smoothness_at(step));
+    json["levels"]["iterations"].push_back(level);
+    json["levels"]["size_mm"].push_back(
+        size_of_iterations(casting_.scale.kind, level, casting_.scale.edge_length_mm));
+  }
+  json["start"] = recipe_to_json(first_face(), casting_, config);
+  json["crowd"] = nullptr;
+  if (crowd_) {
+    json["crowd"] = {{"directory", config.output.directory.string()}, {"faces", Json::array()}};
+    for (const CastFace& face : *crowd_) {
+      Json entry = recipe_to_json(face, casting_, config);
+      if (face.family) entry["family"] = *face.family;
+      if (face.group) entry["group"] = *face.group;
+      json["crowd"]["faces"].push_back(std::move(entry));
+    }
+  }
+  json["can_generate"] = false;
+  return json;
+}
+
+std::string EditSession::mesh() const {
+  const FaceSet& faces = job_.inputs.faces;
+  const Surfaces surfaces = surfaces_of(job_.config, job_.inputs);
+  const Positions mean = mean_head(faces);
+  const VertexColours of_all =
+      surface_colours(faces.topology, surfaces, mean, job_.config.faces.front);
+  const RegionWeights::Alpha& alpha = builder_.regions().alpha;
+  std::vector<bool> is_part(static_cast<std::size_t>(faces.topology.vertex_count), false);
+  for (const Part& part : job_.inputs.parts.parts) {
+    for (const std::uint32_t v : part.vertices) is_part[v] = true;
+  }
+  std::vector<std::uint8_t> colours, parts;
+  std::vector<float> masks;
+  for (const std::uint32_t v : preview_.vertices) {
+    for (int c = 0; c < 3; ++c) {
+      colours.push_back(static_cast<std::uint8_t>(std::lround(255 * of_all(v, c))));
+    }
+    for (Index k = 0; k < alpha.cols(); ++k) masks.push_back(static_cast<float>(alpha(v, k)));
+    parts.push_back(is_part[v] ? 1 : 0);
+  }
+  Eigen::Array3d low = mean.row(0).array(), high = low;
+  for (const Head& head : faces.heads) {
+    low = low.min(head.positions.colwise().minCoeff().transpose().array());
+    high = high.max(head.positions.colwise().maxCoeff().transpose().array());
+  }
+  BinaryAnswer answer;
+  answer.head["vertices"] = preview_.vertices.size();
+  answer.head["low"] = {low[0], low[1], low[2]};
+  answer.head["high"] = {high[0], high[1], high[2]};
+  const auto add = [&](std::string_view name, const auto& values) {
+    answer.add(name, std::span(values));
+  };
+  add("triangles", preview_.triangles);
+  add("colours", colours);
+  add("alpha", masks);
+  if (!preview_.uvs.empty()) add("uv", preview_.uvs);
+  add("twin", preview_.twins);
+  add("part", parts);
+  if (const auto eyes = eye_coordinates(faces.topology, surfaces, mean, job_.config.faces.front)) {
+    answer.head["eyes"] = {{"pupil", kPupilRadius},
+                           {"iris", kIrisRadius},
+                           {"softness", kIrisSoftness},
+                           {"white", colour_to_json(albedo_of(SurfaceKind::kEye))},
+                           {"colour", colour_to_json(albedo_of(SurfaceKind::kIris))}};
+    std::vector<float> places;
+    for (const std::uint32_t v : preview_.vertices) {
+      for (int c = 0; c < 3; ++c) places.push_back((*eyes)(v, c));
+    }
+    add("eyes", places);
+  }
+  return answer.bytes();
+}
+
+std::string EditSession::head(Index head) const {
+  const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
+  const auto vertices = static_cast<std::size_t>(job_.inputs.faces.topology.vertex_count);
+  const auto rank = static_cast<std::size_t>(levels.rank);
+  const std::size_t shown = 3 * preview_.vertices.size();
+  std::vector<std::int16_t> fields(rank * shown);
+  std::vector<double> scales(rank, 1.0);
+  parallel_for_each(rank, [&](std::size_t p) {
+    const float* field = levels.fields.data() + 3 * p * vertices;
+    const auto value = [&](std::size_t i) {
+      return field[std::size_t{3} * preview_.vertices[i / 3] + i % 3];
+    };
+    float largest = 0;
+    for (std::size_t i = 0; i < shown; ++i) largest = std::max(largest, std::abs(value(i)));
+    if (largest == 0) return;
+    scales[p] = static_cast<double>(largest) / std::numeric_limits<std::int16_t>::max();
+    for (std::size_t i = 0; i < shown; ++i) {
+      fields[p * shown + i] = static_cast<std::int16_t>(std::lround(value(i) / scales[p]));
+    }
+  });
+  std::vector<float> functions;
+  for (int step = 0; step <= kLevels; ++step) {
+    for (const double value :
+         levels.functions(iterations_of(smoothness_at(step), casting_.scale))) {
+      functions.push_back(static_cast<float>(value));
+    }
+  }
+  const std::vector<float> positions =
+      points(job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions);
+  BinaryAnswer answer;
+  answer.head["rank"] = rank;
+  answer.head["scale"] = scales;
+  answer.add("positions", std::span(positions));
+  answer.add("fields", std::span(std::as_const(fields)));
+  answer.add("functions", std::span(std::as_const(functions)));
+  return answer.bytes();
+}
+
+}  // namespace crowdface

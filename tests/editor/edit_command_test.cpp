@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command itself, as a page uses it.
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+#include "support/program.h"
+#include "support/small_crowd.h"
+
+namespace crowdface::testing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+SmallCrowd some_crowd() {
+  SmallCrowd crowd;
+  crowd.regions = 2;
+  crowd.levels = "basis";
+  return crowd;
+}
+
+class EditCommandTest : public ::testing::Test {
+ protected:
+  EditCommandTest() : folder_(some_crowd()) {}
+
+  /// Runs the editor for as long as `use` takes, then sends it the signal. \return its exit code.
+  int edit(const std::function<void()>& use, int signal = SIGTERM) {
+    const Outcome outcome = run_program(CROWDFACE_PROGRAM, arguments(), [&](pid_t process) {
+      wait_for_address();
+      use();
+      ::kill(process, signal);
+    });
+    outcome_ = outcome;
+    return outcome.code;
+  }
+  std::vector<std::string> arguments() const {
+    return {"edit",         folder_.config().string(),
+            "--cache",      folder_.cache().string(),
+            "--no-browser", "--quiet"};
+  }
+  std::filesystem::path edited(const std::string& name) const {
+    return folder_.out() / "edited" / name;
+  }
+
+  httplib::Result get(const std::string& what) const {
+    return httplib::Client(host_).Get(path_ + what);
+  }
+  httplib::Result post(const std::string& what, const Json& body) const {
+    return httplib::Client(host_).Post(path_ + what, {{"Origin", host_}}, body.dump(),
+                                       "application/json");
+  }
+  int put(const std::string& what, const std::string& body) const {
+    return httplib::Client(host_)
+        .Put(path_ + what, {{"Origin", host_}}, body, "application/json")
+        ->status;
+  }
+  Json start() const {
+    Json recipe = Json::parse(get("api/job")->body)["start"];
+    recipe["id"] = "eva";
+    recipe["target"] = folder_.names()[1];
+    return recipe;
+  }
+
+  SmallCrowdFolder folder_;
+  Outcome outcome_;
+  std::string address_, host_, path_;
+
+ private:
+  void wait_for_address() {
+    for (int i = 0; i < 600 && !std::filesystem::exists(edited(".address")); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    address_ = read_text(edited(".address"));
+    ASSERT_THAT(address_, ::testing::StartsWith("http://127.0.0.1:"));
+    host_ = address_.substr(0, address_.find('/', 7));
+    path_ = address_.substr(host_.size());
+  }
+};
+
+TEST_F(EditCommandTest, WhatItSavesIsWhatBlendMakes) {
+  const int code = edit([&] {
+    const Json saved =
+        Json::parse(post("api/save", {{"recipe", start()}, {"format", "ply"}})->body);
+    EXPECT_EQ(saved["file"], edited("eva.ply").string());
+    EXPECT_EQ(post("api/save", {{"recipe", start()}, {"format", "stl"}})->status, 400);
+  });
+  EXPECT_EQ(code, 0) << outcome_.err;
+  const std::string blended = folder_ / "blended.ply";
+  const Outcome blend = run_program(
+      CROWDFACE_PROGRAM, {"blend", folder_.config(), "--cache", folder_.cache(), "--recipe",
+                          edited("edited.jsonl").string() + "#eva", "-o", blended, "--quiet"});
+  ASSERT_EQ(blend.code, 0) << blend.err;
+  EXPECT_EQ(read_text(blended), read_text(edited("eva.ply")));
+}
+
+TEST_F(EditCommandTest, KilledAtAnyMomentItHasTheLastState) {
+  edit([&] { EXPECT_EQ(put("api/state", R"({"history": [1, 2]})"), 200); }, SIGKILL);
+  EXPECT_EQ(outcome_.code, -SIGKILL);
+  std::filesystem::remove(edited(".address"));  // the killed one's
+  edit([&] {
+    EXPECT_EQ(get("api/state")->body, R"({"history": [1, 2]})");
+    EXPECT_EQ(put("api/state", R"({"history": )"), 400);
+    EXPECT_EQ(get("api/state")->body, R"({"history": [1, 2]})");
+  });
+}
+
+TEST_F(EditCommandTest, ASecondEditorIsToldOfTheFirst) {
+  edit([&] {
+    struct stat status {};
+    ASSERT_EQ(::stat(edited(".address").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777U, 0600U);
+    const Outcome second = run_program(CROWDFACE_PROGRAM, arguments());
+    EXPECT_EQ(second.code, 64);
+    EXPECT_THAT(second.err, ::testing::HasSubstr(address_));
+  });
+  EXPECT_FALSE(std::filesystem::exists(edited(".address")));
+}
+
+TEST_F(EditCommandTest, PutsARecipeIntoTheConfig) {
+  const std::string before = read_text(folder_.config());
+  edit([&] {
+    EXPECT_EQ(post("api/recipes", {{"recipe", start()}})->status, 200);
+    Json wrong = start();
+    wrong["id"] = "small_0001x/";
+    EXPECT_EQ(post("api/recipes", {{"recipe", wrong}})->status, 400);
+  });
+  const std::string after = read_text(folder_.config());
+  EXPECT_THAT(after, ::testing::StartsWith(before));
+  EXPECT_THAT(after.substr(before.size()), ::testing::HasSubstr("- id: eva"));
+  const Outcome check =
+      run_program(CROWDFACE_PROGRAM, {"check", folder_.config(), "--cache", folder_.cache()});
+  EXPECT_EQ(check.code, 0) << check.err;
+}
+
+TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
+  ASSERT_EQ(run_program(CROWDFACE_PROGRAM,
+                        {"generate", folder_.config(), "--cache", folder_.cache(), "--quiet"})
+                .code,
+            0);
+  edit([&] {
+    const Json crowd = Json::parse(get("api/job")->body)["crowd"];
+    ASSERT_EQ(crowd["faces"].size(), 4U);
+    const Json first = crowd["faces"][0];
+    const auto face = post("api/face", {{"recipe", first}, {"measure", true}});
+    EXPECT_EQ(face->status, 200);
+    EXPECT_EQ(post("api/save", {{"recipe", first}, {"format", "obj"}})->status, 200);
+    const std::string id = first["id"];
+    EXPECT_EQ(read_text(edited(id + ".obj")), read_text(folder_.out() / "meshes" / (id + ".obj")));
+    EXPECT_EQ(post("api/review",
+                   {{"id", id}, {"verdict", "reject"}, {"lock", {"region_1"}}, {"note", "a \"b\""}})
+                  ->status,
+              200);
+    EXPECT_EQ(post("api/review", {{"id", "nobody"}, {"verdict", "keep"}})->status, 400);
+  });
+  const Outcome plan = run_program(
+      CROWDFACE_PROGRAM, {"plan", folder_.config(), "--cache", folder_.cache(), "--review",
+                          edited("review.yaml"), "--out", folder_ / "again"});
+  EXPECT_EQ(plan.code, 0) << plan.err;
+}
+
+TEST_F(EditCommandTest, AnswersWhatIsWrongWithASentence) {
+  edit([&] {
+    for (const char* body :
+         {"", "[]", "{}", R"({"recipe": 3})", R"({"recipe": {"id": "a/b", "regions": {}}})",
+          R"({"recipe": {"id": "a"}, "turn": "x", "page": "p"})"}) {
+      const auto answer = httplib::Client(host_).Post(path_ + "api/face", {{"Origin", host_}}, body,
+                                                      "application/json");
+      EXPECT_EQ(answer->status, 400) << body;
+      EXPECT_FALSE(Json::parse(answer->body)["error"].get<std::string>().empty()) << body;
+    }
+    EXPECT_EQ(get("api/heads/4")->status, 404);
+    EXPECT_EQ(get("api/heads/0/thumbnail")->get_header_value("Content-Type"), "image/png");
+    EXPECT_EQ(get("../config.yaml")->status, 404);
+  });
+}
+
+}  // namespace
+}  // namespace crowdface::testing
