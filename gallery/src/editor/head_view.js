@@ -108,13 +108,18 @@ export class HeadView extends Stage {
   makeGeometry() {
     const { mesh } = this;
     const geometry = new BufferGeometry();
-    const [skin, parts] = [[], []];
-    for (let t = 0; t < mesh.triangles.length; t += 3) {
-      (mesh.part?.[mesh.triangles[t]] ? parts : skin).push(...mesh.triangles.subarray(t, t + 3));
+    const index = new Uint32Array(mesh.triangles.length);
+    let filled = 0;
+    for (const wanted of [0, 1]) {
+      const first = filled;
+      for (let t = 0; t < index.length; t += 3) {
+        if ((mesh.part?.[mesh.triangles[t]] ? 1 : 0) !== wanted) continue;
+        for (let c = 0; c < 3; c += 1) index[filled + c] = mesh.triangles[t + c];
+        filled += 3;
+      }
+      geometry.addGroup(first, filled - first, wanted);
     }
-    geometry.setIndex(new BufferAttribute(Uint32Array.from([...skin, ...parts]), 1));
-    geometry.addGroup(0, skin.length, 0);
-    geometry.addGroup(skin.length, parts.length, 1);
+    geometry.setIndex(new BufferAttribute(index, 1));
     geometry.setAttribute('color', new BufferAttribute(linearColours(mesh.colours), 3));
     if (mesh.uv) geometry.setAttribute('uv', new BufferAttribute(mesh.uv, 2));
     // Wireframes and bounds are made from positions; what is drawn comes from the textures.
@@ -175,8 +180,11 @@ export class HeadView extends Stage {
     let card;
     try {
       card = new CardBlend(this.renderer, this.mesh, this.job.regions.length, this.loaded);
+      card.blend(...change(1));
+      if (this.renderer.getContext().getError() !== 0) throw new Error('the card holds less than this');
     } catch {
-      return; // the card holds less than it says: the processor goes on
+      card?.dispose();
+      return; // the processor goes on
     }
     this.measured = this.measure([processor, card], change);
     const slower = wanted !== 'card' && this.measured.processor < this.measured.card ? card : processor;
@@ -251,7 +259,7 @@ export class HeadView extends Stage {
     this.showMm = mm;
     this.uniforms.faceShow.value = shows.indexOf(show);
     this.uniforms.farthest.value = mm / this.job.mm_per_unit;
-    this.material.vertexColors = show !== 'texture' && show !== 'distance';
+    this.material.vertexColors = show !== 'texture';
     this.setMap(show === 'texture' ? this.material.map : null);
     this.draw();
   }
@@ -284,29 +292,49 @@ export class HeadView extends Stage {
     this.draw();
   }
 
-  /// A small picture of what stands there, from the front.
-  picture(size = 160) {
+  /// A small picture of what stands there, from the front, with its surfaces or its texture.
+  picture(size = 224) {
     const { camera, controls, renderer } = this;
     const kept = { place: this.place(), lines: this.lines.visible };
     this.silent = true;
     this.lines.visible = false;
+    const { faceShow } = this.uniforms;
+    const shown = faceShow.value;
+    if (this.show !== 'texture') faceShow.value = 0;
     this.scene.background = new Color('#64666a');
     renderer.setPixelRatio(1);
     renderer.setSize(size, size, false);
     camera.aspect = 1;
     camera.updateProjectionMatrix();
-    controls.target.set(0, 0.12, 0);
-    camera.position.set(0, 0.12, 4.9);
+    this.middle ??= this.faceMiddle();
+    controls.target.set(0, this.middle, 0);
+    camera.position.set(0, this.middle, 4.8);
     controls.update();
     super.draw();
     this.scene.background = null;
     const url = renderer.domElement.toDataURL('image/jpeg', 0.85);
     this.lines.visible = kept.lines;
+    faceShow.value = shown;
     renderer.setPixelRatio(this.ratio);
     this.restore(kept.place);
     this.silent = false;
     this.fit();
     return url;
+  }
+
+  /// How high the middle of the face stands in the scene: somewhat below the eyes, if there are any.
+  faceMiddle() {
+    const { eyes, vertices } = this.mesh;
+    const positions = this.loaded.find(Boolean)?.positions;
+    if (!eyes || !positions) return 0.1;
+    const sum = new Vector3();
+    let count = 0;
+    for (let v = 0; v < vertices; v += 1) {
+      if (eyes[3 * v + 2] <= -1.5) continue;
+      sum.add(new Vector3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]));
+      count += 1;
+    }
+    return count > 0 ? sum.divideScalar(count).applyMatrix4(this.group.matrix).y - 0.12 : 0.1;
   }
 
   nearer(factor) {
