@@ -125,11 +125,12 @@ assert.match((await recipe()).regions[region].smoothness, /^[\d.]+ mm$/);
 await settled();
 
 // Another target, with one click.
-const other = job.heads.findIndex((name) => name !== before.target);
-await page.locator('.head').nth(other).click();
-assert.equal((await recipe()).target, job.heads[other]);
+const other = job.heads.find((name) => name !== before.target);
+const otherHead = page.locator(`.head[data-head="${other}"]`);
+await otherHead.click();
+assert.equal((await recipe()).target, other);
 await settled();
-assert.equal(await page.locator('.head').nth(other).getAttribute('aria-pressed'), 'true');
+assert.equal(await otherHead.getAttribute('aria-pressed'), 'true');
 assert.ok((await previewError()) < 0.1);
 await settled();
 await take('target');
@@ -274,6 +275,26 @@ const download = page.waitForEvent('download');
 await page.getByRole('button', { name: 'Picture', exact: true }).click();
 assert.match((await download).suggestedFilename(), /^made_by_hand_.*\.png$/);
 
+// Put it under the config's recipes, and say about a face of the crowd what a review says.
+const said = (pattern) => page.waitForFunction(
+  (text) => new RegExp(text).test(document.querySelector('.message').textContent), pattern, { timeout: 30000 });
+await page.getByRole('button', { name: 'Put back' }).click();
+await page.getByRole('button', { name: 'Put it under recipes' }).click();
+await said('made_by_hand stands under recipes');
+for (let i = 0; i < 2; i += 1) await page.keyboard.press(']'); // the first is written by hand
+await settled();
+const opened = await editor('editor.document.face');
+assert.ok(opened, 'a face of the crowd is open');
+await page.locator(`.regioncard[data-region="${region}"] button.lock`).click();
+await page.getByRole('button', { name: 'Put back' }).click();
+await take('put_back');
+await page.getByLabel('Note').fill('the chin: é "so"');
+await page.getByRole('button', { name: 'Draw anew but for' }).click();
+await said(`${opened} is marked`);
+for (let i = 0; i < 2; i += 1) await page.keyboard.press('Control+z');
+assert.deepEqual(await recipe(), last);
+await settled();
+
 // Large screens.
 await page.setViewportSize({ width: 3840, height: 2160 });
 await page.waitForTimeout(1500);
@@ -299,7 +320,7 @@ await drag(page.locator(`.handle[data-region="${region}"]`), -40, 30);
 await settled();
 assert.ok((await previewError()) < 0.1);
 
-writeFileSync(resultFile, JSON.stringify({ recipe: saved, file, points: shown }));
+writeFileSync(resultFile, JSON.stringify({ recipe: saved, file, reviewed: opened, points: shown }));
 assert.deepEqual(problems, []);
 await browser.close();
 console.log('all right');

@@ -34,9 +34,11 @@ crowd: {name: mob, count: 4}
 faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
 regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
 blending: {contacts: none} # as the preview, which is compared with the whole
-recipes: [{id: by_hand, target: synth_01, regions: {all: {position: [0.2, 0.3], smoothness: 0.5}}}] # a comment
+recipes: # a comment
+  - {id: by_hand, target: synth_01, regions: {all: {position: [0.2, 0.3], smoothness: 0.5}}}
 output: {directory: out, meshes: [points], contact_sheet: {cell: 96}}
 YAML
+cp "$folder/config.yaml" "$folder/as_it_was.yaml"
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
 "$program" edit "$folder/config.yaml" --cache "$folder/cache" --no-browser >"$folder/edit.log" 2>&1 &
 server=$!
@@ -61,3 +63,13 @@ node "$root/build/gallery/compare_points.mjs" "$folder/result.json" "$saved" 0.0
 "$program" blend "$folder/config.yaml" --cache "$folder/cache" \
   --recipe "$folder/out/edited/edited.jsonl#made_by_hand" -o "$folder/again.obj" --quiet
 cmp "$saved" "$folder/again.obj"
+
+# What was put back: the recipe beside the one that was there, with its comment; the review takes effect.
+grep -q '# a comment' "$folder/config.yaml"
+"$program" check "$folder/config.yaml" --cache "$folder/cache" --quiet >/dev/null
+grep -q 'made_by_hand' "$folder/config.yaml"
+cp "$folder/out/plan.jsonl" "$folder/before.jsonl"
+"$program" plan "$folder/as_it_was.yaml" --cache "$folder/cache" --quiet --review "$folder/out/edited/review.yaml"
+changed=$(diff "$folder/before.jsonl" "$folder/out/plan.jsonl" | grep -c '^<' || true)
+[ "$changed" -eq 1 ] || { echo "expected 1 face drawn anew, found $changed"; exit 1; }
+grep -q 'the chin: é \\"so\\"' "$folder/out/plan.jsonl" || { echo "the note did not reach the plan"; exit 1; }

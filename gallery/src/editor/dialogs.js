@@ -23,18 +23,20 @@ export function showPutBack(editor) {
   const note = el('textarea', { rows: 2, placeholder: 'Note', 'aria-label': 'Note' });
   const locked = editor.lockedNames();
   const review = (verdict, lock) => editor.attempt(async () => {
-    await post('review', { face, verdict, lock, note: note.value });
+    const { file } = await post('review', {
+      id: face, lock, ...(verdict ? { verdict } : {}), ...(note.value ? { note: note.value } : {}),
+    });
     dialog.close();
-    editor.say(`The review says of ${face}: ${verdict ?? `keep ${lock.join(', ')}`}.`);
+    editor.say(`${face} is marked in ${file}`);
   });
   const dialog = openDialog('Put back',
     el('section', {}, el('h3', {}, 'Into the config'),
       el('p', { class: 'muted' }, `As ${editor.document.recipe.id} under recipes, comments and order kept.`),
       el('button', {
         class: 'export', onclick: () => editor.attempt(async () => {
-          await post('recipes', { recipe: editor.wire() });
+          const { file } = await post('recipes', { recipe: editor.wire() });
           dialog.close();
-          editor.say(`${editor.document.recipe.id} stands under recipes in the config.`);
+          editor.say(`${editor.document.recipe.id} stands under recipes in ${file}`);
         }),
       }, 'Put it under recipes')),
     editor.job.crowd ? el('section', {}, el('h3', {}, 'As a review'),

@@ -45,7 +45,7 @@ export class PlaneBoard {
   headNode(head, h) {
     const mark = anchorMark({ name: head.name, picture: `api/heads/${h}/thumbnail` }, this.headRadius);
     mark.append(el('circle', { r: this.headRadius + 6, class: 'targetring' }));
-    const node = el('g', { class: 'head', tabindex: '0', role: 'button' }, mark);
+    const node = el('g', { class: 'head', tabindex: '0', role: 'button', 'data-head': head.name }, mark);
     this.makeDraggable(node, {
       from: () => anchorsOf(this.editor.job, this.editor.document.anchors)[h],
       to: (point) => this.withAnchor(head.name, point),
