@@ -135,6 +135,37 @@ assert.ok((await previewError()) < 0.1);
 await settled();
 await take('target');
 
+// Drag a head: weights change, not the controllers; the recipe tells weights.
+const place = (await recipe()).regions[region].position;
+await drag(page.locator(`.head[data-head="${job.heads[2]}"]`), 30, 20);
+assert.deepEqual((await recipe()).regions[region].position, place);
+assert.ok((await editor('editor.wire()')).regions[region].weights);
+await settled();
+assert.ok((await previewError()) < 0.1);
+await settled();
+
+// What a frame takes while something is dragged, for docs/editor.md.
+console.log(await page.evaluate((name) => {
+  const { editor: it } = window.crowdface;
+  const { view } = it;
+  const gl = view.renderer.getContext();
+  const pixel = new Uint8Array(4);
+  view.setMoving(true);
+  const times = [];
+  for (let i = 0; i < 12; i += 1) {
+    const coefficients = it.coefficientsOf(it.withRegions(name, ({ weights, ...rest }) => ({ ...rest, position: [0.01 * i, 0.1] })));
+    const began = performance.now();
+    view.blend(...coefficients);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    times.push(performance.now() - began);
+  }
+  times.sort((a, b) => a - b);
+  it.exactOf = null;
+  it.refresh();
+  return `a frame of ${view.mesh.vertices} vertices takes ${times[0].toFixed(1)} to ${times[6].toFixed(1)} ms`;
+}, region));
+await settled();
+
 // Undo everything and do it again.
 const made = await recipe();
 const count = await steps();

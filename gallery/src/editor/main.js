@@ -40,6 +40,8 @@ class Editor {
     this.history.listeners.push(() => this.stepped());
     this.view.controls.addEventListener('end', () => this.remember());
     addEventListener('keydown', (event) => this.key(event));
+    this.view.node.addEventListener('webglcontextlost', () =>
+      this.say('The browser has lost the graphics card: load the page again, every step is kept.', true));
     addEventListener('pagehide', () => this.keepNow(true));
     new ResizeObserver(() => this.view.fit()).observe(this.stage);
   }

@@ -85,8 +85,13 @@ export class PlaneBoard {
     return [0, 1].map((axis) => weights.reduce((sum, weight, h) => sum + weight * anchors[h][axis], 0));
   }
 
+  /// The printed formula takes positions alone, and these speak of heads where the config puts them.
   withAnchor(name, point) {
-    const { document } = this.editor;
+    const { document, job } = this.editor;
+    if (job.normalization === 'printed') {
+      this.editor.say('With the printed normalization heads stay where the config puts them.');
+      return document;
+    }
     return { ...document, anchors: { ...document.anchors, [name]: point } };
   }
 

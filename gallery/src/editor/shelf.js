@@ -5,6 +5,7 @@ import { post } from './api.js';
 import { between, headAlone } from './recipe.js';
 
 const mostKept = 12;
+const mostOffered = 400; // faces of the crowd to go between; others are opened and kept first
 
 export class Shelf {
   /// \param editor  job, document, preview, commit(document, label), pictureOf(document), say(text),
@@ -130,7 +131,7 @@ export class Shelf {
     const { editor } = this;
     this.ends = new Map([['this face', editor.document],
       ...editor.kept.map((entry) => [entry.name, entry.document]),
-      ...(editor.job.crowd?.faces ?? []).map((face) => [face.id, editor.fromWire(face)]),
+      ...(editor.job.crowd?.faces ?? []).slice(0, mostOffered).map((face) => [face.id, editor.fromWire(face)]),
       ...editor.job.heads.map((head) => [head.name, headAlone(editor.job, head.name, editor.document.recipe.id)])]);
     for (const select of [this.from, this.to]) {
       select.replaceChildren(...[...this.ends.keys()].map((name) => el('option', { value: name }, name)));

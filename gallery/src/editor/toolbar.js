@@ -3,19 +3,43 @@
 import { el } from '../dom.js';
 import { distanceColours } from './head_view.js';
 
+const mostListed = 400; // faces in a list; of more one types the id
+
+function openList(editor, faces) {
+  const list = el('select', {
+    'aria-label': 'Open a face', title: 'Open a face of the crowd, or a head ([ and ])',
+    onchange: () => { editor.open(list.value); },
+  }, el('option', { value: '' }, 'Open …'),
+  faces.length > 0 ? el('optgroup', { label: 'Faces of the crowd' },
+    faces.map((face) => el('option', { value: `face ${face.id}` }, face.id))) : null,
+  el('optgroup', { label: 'Heads unblended' },
+    editor.job.heads.map((head) => el('option', { value: `head ${head.name}` }, head.name))));
+  list.show = (face) => { list.value = face ? `face ${face}` : ''; };
+  return list;
+}
+
+function openField(editor, faces) {
+  const ids = new Set(faces.map((face) => face.id));
+  const field = el('input', {
+    type: 'text', class: 'name', placeholder: 'Open …', 'aria-label': 'Open a face or a head by its name', spellcheck: 'false',
+    title: `${faces.length} faces, from ${faces[0].id} to ${faces[faces.length - 1].id}, and the heads ([ and ])`,
+    onchange: () => {
+      const name = field.value.trim();
+      if (ids.has(name)) editor.open(`face ${name}`);
+      else if (editor.job.heads.some((head) => head.name === name)) editor.open(`head ${name}`);
+      else editor.say(`There is no face and no head called ${name}.`, true);
+    },
+  });
+  field.show = (face) => { field.value = face ?? ''; };
+  return field;
+}
+
 export function toolbar(editor) {
   const { job } = editor;
   const button = (text, title, act, properties = {}) =>
     el('button', { title, onclick: () => editor.attempt(act), ...properties }, text);
   const faces = job.crowd?.faces ?? [];
-  const open = el('select', {
-    'aria-label': 'Open a face', title: 'Open a face of the crowd, or a head ([ and ])',
-    onchange: () => { editor.open(open.value); },
-  }, el('option', { value: '' }, 'Open …'),
-  faces.length > 0 ? el('optgroup', { label: 'Faces of the crowd' },
-    faces.map((face) => el('option', { value: `face ${face.id}` }, face.id))) : null,
-  el('optgroup', { label: 'Heads unblended' },
-    job.heads.map((head) => el('option', { value: `head ${head.name}` }, head.name))));
+  const open = faces.length <= mostListed ? openList(editor, faces) : openField(editor, faces);
   const name = el('input', {
     type: 'text', class: 'name', 'aria-label': 'Name of the face', title: 'Its name in files and in the config',
     maxlength: 64, spellcheck: 'false', onchange: () => editor.rename(name.value),
@@ -50,7 +74,7 @@ export function toolbar(editor) {
       compare.classList.toggle('on', editor.comparing !== null);
       compare.setAttribute('aria-pressed', String(editor.comparing !== null));
       if (document.activeElement !== name) name.value = editor.document.recipe.id;
-      open.value = editor.document.face ? `face ${editor.document.face}` : '';
+      if (document.activeElement !== open || open.matches('select')) open.show(editor.document.face);
     },
     format,
   };
