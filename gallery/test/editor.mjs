@@ -267,6 +267,17 @@ for (let i = 0; i < 120; i += 1) {
   }));
 }
 for (const place of ['toolbar', 'face', 'head', 'handle', 'shelf', 'card']) assert.ok(reached.has(place), `Tab reaches ${place}`);
+await page.locator(`.head[data-head="${job.heads[1]}"]`).focus();
+await page.keyboard.press('Enter');
+assert.equal((await recipe()).target, job.heads[1]);
+await page.keyboard.press('Shift+ArrowLeft');
+assert.ok(await editor('editor.document.anchors[editor.job.heads[1].name]'), 'an arrow moves a head');
+for (let i = 0; i < 2; i += 1) await page.keyboard.press('Control+z');
+await canvas.focus();
+const facing = await editor('editor.view.angle()');
+await page.keyboard.press('ArrowRight');
+assert.notEqual(await editor('editor.view.angle()'), facing);
+await page.keyboard.press('f');
 const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, [tabindex="0"]')]
   .filter((node) => !node.getAttribute('aria-label') && !node.textContent.trim() && !node.labels?.length).map((node) => node.outerHTML));
 assert.deepEqual(nameless, [], 'all that takes the focus has a name');
