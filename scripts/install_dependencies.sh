@@ -6,6 +6,7 @@
 #
 #   scripts/install_dependencies.sh          what building needs, and most tests
 #   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, and Doxygen
+#   scripts/install_dependencies.sh --farm   only what the tests of farms start: Slurm, GNU parallel, sshd
 #   scripts/install_dependencies.sh --docs   and what scripts/docs.sh needs
 #   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
 #   scripts/install_dependencies.sh --fuzz   and what scripts/fuzz.sh and scripts/bits.sh need
@@ -32,8 +33,9 @@ case "${1-}" in
   --test) packages+=(chromium doxygen) ;;
   --docs) packages+=(doxygen) ;;
   --check) packages+=(clang-format clang-tidy) ;;
+  --farm) packages=(slurmctld slurmd slurm-client munge parallel openssh-server openssh-client) ;;
   --fuzz) packages+=(clang llvm-14 libclang-rt-14-dev) ;;
-  *) echo "usage: scripts/install_dependencies.sh [--test | --docs | --check | --fuzz]" >&2; exit 64 ;;
+  *) echo "usage: scripts/install_dependencies.sh [--test | --farm | --docs | --check | --fuzz]" >&2; exit 64 ;;
 esac
 
 cannot() {

@@ -27,5 +27,7 @@ Run add_mask(CLI::App& program);
 Run add_cache(CLI::App& program);
 Run add_wrap(CLI::App& program);
 Run add_edit(CLI::App& program);
+Run add_submit(CLI::App& program);
+Run add_status(CLI::App& program);
 
 }  // namespace crowdface::cli

@@ -117,31 +117,43 @@ void WriteOptions::add_to(CLI::App& command) {
 void WriteOptions::add_shard_to(CLI::App& command) {
   add_option(command, "--shard", shard, "I/N",
              "Only part I of N of the faces; `crowdface gather` puts the parts together");
+  command
+      .add_flag("--planned", planned,
+                "Only with the plan that `crowdface plan` left in the folder; cast nothing")
+      ->needs("--shard");
 }
 
 GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {
-  std::uint64_t bytes = 0;
-  if (!memory.empty()) {
-    const auto given = parse_bytes(memory);
-    if (!given || *given == 0) {
-      throw UsageError(concat("--memory: expected a size with its unit, such as \"4 GiB\", found ",
-                              quoted(memory)));
-    }
-    bytes = *given;
-    limit_image_memory(bytes / 2);
+  const std::uint64_t bytes = bytes_from("--memory", memory);
+  if (bytes > 0) limit_image_memory(bytes / 2);
+  return {cache,
+          force ? Replace::kForce : Replace::kRefuse,
+          dry_run,
+          bytes,
+          shard_from(shard),
+          planned ? PlanFrom::kFolder : PlanFrom::kFolderOrCasting};
+}
+
+Shard shard_from(const std::string& text) {
+  if (text.empty()) return {};
+  const auto given = parse_shard(text);
+  if (!given) {
+    throw UsageError(
+        concat("--shard: expected I/N, such as 2/7, with I from 1 to N and N at most "
+               "9999, found ",
+               quoted(text)));
   }
-  Shard part;
-  if (!shard.empty()) {
-    const auto given = parse_shard(shard);
-    if (!given) {
-      throw UsageError(
-          concat("--shard: expected I/N, such as 2/7, with I from 1 to N and N at most "
-                 "9999, found ",
-                 quoted(shard)));
-    }
-    part = *given;
+  return *given;
+}
+
+std::uint64_t bytes_from(std::string_view option, const std::string& text) {
+  if (text.empty()) return 0;
+  const auto given = parse_bytes(text);
+  if (!given || *given == 0) {
+    throw UsageError(
+        concat(option, ": expected a size with its unit, such as \"4 GiB\", found ", quoted(text)));
   }
-  return {cache, force ? Replace::kForce : Replace::kRefuse, dry_run, bytes, part};
+  return *given;
 }
 
 void print(std::string_view text) {

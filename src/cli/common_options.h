@@ -56,12 +56,19 @@ struct WriteOptions {
   bool dry_run = false;
   std::string memory;
   std::string shard;
+  bool planned = false;
 
   void add_to(CLI::App& command);
-  /// `--shard`, of commands that build faces.
+  /// `--shard` and `--planned`, of commands that build faces.
   void add_shard_to(CLI::App& command);
   GenerateOptions with_cache(const std::filesystem::path& cache) const;
 };
+
+/// The `I/N` of `--shard`; the whole if `text` is empty. \throws UsageError.
+Shard shard_from(const std::string& text);
+
+/// A size with its unit, "4 GiB", of an option; 0 if `text` is empty. \throws UsageError.
+std::uint64_t bytes_from(std::string_view option, const std::string& text);
 
 /// An option with a value, "-o,--output", or an argument, "config". A default that stands in `value`
 /// is shown. \param type  "DIR", what help calls the value.

@@ -152,7 +152,8 @@ int run_program(int argc, char** argv) {
   Run chosen;
   for (Run (*add)(CLI::App&) :
        {add_generate, add_check, add_init, add_mask, add_plan, add_prepare, add_blend, add_smooth,
-        add_gather, add_verify, add_sheet, add_synth, add_import, add_cache, add_wrap, add_edit}) {
+        add_gather, add_verify, add_sheet, add_synth, add_import, add_cache, add_wrap, add_edit,
+        add_submit, add_status}) {
     const std::size_t before = program.get_subcommands({}).size();
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(

@@ -43,15 +43,25 @@ void refuse_heads_not_kept(const Prepared& prepared, const std::vector<std::stri
 Run add_prepare(CLI::App& program) {
   struct Options : CommonOptions {
     ConfigOptions config;
+    std::string shard;
   };
   return add_command<Options>(
       program, "prepare", "Smooth and fit the heads only, into the cache",
-      [](CLI::App& command, Options& options) { options.config.add_to(command); },
+      [](CLI::App& command, Options& options) {
+        options.config.add_to(command);
+        add_option(command, "--shard", options.shard, "I/N",
+                   "Only part I of N of the heads, which other tasks prepare at the same time");
+      },
       [](const Options& options) {
+        const Shard shard = shard_from(options.shard);
         const Job job =
             load_job(options.config.config, options.config.overrides, options.config.cache_path());
         const std::filesystem::path cache = options.config.cache_path();
         make_directories(cache);
+        if (!shard.whole()) {
+          return prepare_some(job.config, job.inputs, job.smoothing, cache,
+                              [&](std::size_t head) { return shard.owns(head); });
+        }
         const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
         refuse_heads_not_kept(prepared, job.names.heads, cache);
         const double size = size_of_iterations(job.smoothing.kind(), job.inputs.max_level,

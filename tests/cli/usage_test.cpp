@@ -26,6 +26,8 @@ TEST(Usage, VersionAndHelpAreNoErrors) {
            {"sheet", {"CROWD_DIR"}},
            {"gather", {"CROWD_DIR", "--cache"}},
            {"verify", {"CROWD_DIR"}},
+           {"submit", {"CONFIG", "--engine", "--shards", "--partition", "--scratch", "--print"}},
+           {"status", {"CROWD_DIR", "--json", "--watch"}},
            {"synth", {"--vertices", "--seed", "--count"}},
            {"check", {"--masks"}},
            {"init", {"HEADS_DIR"}},

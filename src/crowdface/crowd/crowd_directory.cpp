@@ -48,9 +48,9 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
 }
 
 std::vector<fs::path> record_files(const CrowdDirectory& directory) {
-  return {directory.plan(),     directory.founders(), directory.table(),
-          directory.casting(),  directory.report(),   directory.ledger(),
-          directory.likeness(), directory.timings(),  directory.rejected()};
+  return {directory.plan(),     directory.founders(), directory.table(),    directory.casting(),
+          directory.report(),   directory.ledger(),   directory.likeness(), directory.timings(),
+          directory.rejected(), directory.planned()};
 }
 
 /// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
@@ -94,6 +94,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) remove_file(*folder);
   for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
   for (const fs::path& path : directory.shard_logs()) remove_file(path);
+  for (const fs::path& path : directory.all_progress()) remove_file(path);
   for (const fs::path& path : record_files(directory)) remove_file(path);
   remove_file(directory.log());
   remove_file(directory.config());
@@ -198,6 +199,12 @@ std::vector<fs::path> CrowdDirectory::shard_ledgers() const {
 }
 std::vector<fs::path> CrowdDirectory::shard_logs() const {
   return of_all_shards(log());
+}
+fs::path CrowdDirectory::progress(const Shard& shard) const {
+  return of_shard(root / "progress.json", shard);
+}
+std::vector<fs::path> CrowdDirectory::all_progress() const {
+  return of_all_shards(root / "progress.json");
 }
 std::vector<fs::path> CrowdDirectory::ledgers() const {
   std::vector<fs::path> all = shard_ledgers();

@@ -36,6 +36,13 @@ struct CrowdDirectory {
   std::filesystem::path log() const { return root / "crowdface.log"; }
   std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
   std::filesystem::path lock() const { return root / ".crowdface.lock"; }
+  /// Which job the plan is of, for shards that take it as it is: see planned_faces.
+  std::filesystem::path planned() const { return root / "planned.json"; }
+  /// How far a shard is, for those who watch.
+  std::filesystem::path progress(const Shard& shard) const;
+  std::vector<std::filesystem::path> all_progress() const;
+  /// What runs the crowd on other machines: task scripts and what tasks said.
+  std::filesystem::path submitted() const { return root / "submit"; }
   /// A shard's own; those above if the shard is the whole crowd.
   std::filesystem::path log(const Shard& shard) const;
   std::filesystem::path ledger(const Shard& shard) const;

@@ -139,21 +139,47 @@ bool into_cache(const std::filesystem::path& cache, const Digest& key, const Hea
   }
 }
 
-}  // namespace
-
-Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                 const std::filesystem::path& cache) {
+/// What all heads share.
+Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
   prepared.samples = choose_face_samples(inputs.faces.topology, inputs.skin,
                                          mean_head(inputs.faces), config.faces.front, kSamples);
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
                                                       inputs.max_level, missed_by_nodes(config));
-  const HeadCacheShape shape = {inputs.faces.topology.vertex_count,
-                                static_cast<Index>(prepared.samples.size()),
-                                static_cast<Index>(trajectory_levels(inputs.max_level).size()),
-                                static_cast<Index>(prepared.nodes->levels().size()),
-                                inputs.max_level,
-                                config.smoothing.levels};
+  return prepared;
+}
+
+HeadCacheShape shape_of(const Config& config, const Inputs& inputs, const Prepared& prepared) {
+  return {inputs.faces.topology.vertex_count,
+          static_cast<Index>(prepared.samples.size()),
+          static_cast<Index>(trajectory_levels(inputs.max_level).size()),
+          static_cast<Index>(prepared.nodes->levels().size()),
+          inputs.max_level,
+          config.smoothing.levels};
+}
+
+}  // namespace
+
+void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                  const std::filesystem::path& cache,
+                  const std::function<bool(std::size_t)>& is_wanted) {
+  Prepared prepared = shared_by_heads(config, inputs);
+  const HeadCacheShape shape = shape_of(config, inputs, prepared);
+  clean(cache);
+  HeadPreparation preparation(config, inputs, smoothing, prepared);
+  for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
+    if (!is_wanted(h)) continue;
+    throw_if_interrupted();
+    const Digest key = key_of(config, inputs, prepared.samples, h);
+    if (from_cache(cache, key, shape)) continue;
+    write_cached_head(cache, key, shape, preparation.prepare(inputs.faces.heads[h]));
+  }
+}
+
+Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                 const std::filesystem::path& cache) {
+  Prepared prepared = shared_by_heads(config, inputs);
+  const HeadCacheShape shape = shape_of(config, inputs, prepared);
   clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "crowdface/blend/crowd_blender.h"
@@ -18,6 +19,12 @@ namespace crowdface {
 /// \param cache  the cache's folder, see cache_directory.
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                  const std::filesystem::path& cache);
+
+/// Into the cache only: heads that it has not. \param is_wanted  of a head's place, from 0.
+/// \throws CannotCreate, IoError if a head cannot be kept.
+void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                  const std::filesystem::path& cache,
+                  const std::function<bool(std::size_t)>& is_wanted);
 
 /// The fitted levels in the form that blending takes.
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);

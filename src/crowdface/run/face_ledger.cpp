@@ -74,11 +74,12 @@ SkinDefects skin_of(const std::string& note) {
 }  // namespace
 
 FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
-                       FaceExtras extras)
+                       FaceExtras extras, std::function<void()> recorded)
     : ledger_(ledger),
       job_(job),
       directory_(directory),
       extras_(extras),
+      recorded_(std::move(recorded)),
       output_(digest_of_output(job.config, job, extras)) {}
 
 Digest FaceLedger::key_of(const CastFace& face) const {
@@ -133,6 +134,7 @@ void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
   }
   if (files.skin) entry.note = to_json(*files.skin).dump();
   ledger_.record(std::move(entry));
+  recorded_();
 }
 
 }  // namespace crowdface

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "crowdface/crowd/crowd_directory.h"
@@ -21,8 +22,9 @@ struct FaceExtras {
 /// found about its skin, so that a run that goes on writes the same sheets and the same report.
 class FaceLedger {
  public:
-  /// All must outlive this object.
-  FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory, FaceExtras extras);
+  /// All must outlive this object. \param recorded  called after each face that is, by any thread.
+  FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory, FaceExtras extras,
+             std::function<void()> recorded);
 
   /// A face's files if all of them are there as an earlier run wrote them.
   std::optional<FaceFiles> done(const CastFace& face) const;
@@ -35,6 +37,7 @@ class FaceLedger {
   const Job& job_;
   const CrowdDirectory& directory_;
   FaceExtras extras_;
+  std::function<void()> recorded_;
   Digest output_;  ///< of what the config says about files and pictures
 };
 

@@ -10,6 +10,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
@@ -29,8 +30,10 @@
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/output_check.h"
+#include "crowdface/run/planned.h"
 #include "crowdface/run/report.h"
 #include "crowdface/run/resume.h"
+#include "crowdface/run/shard_progress.h"
 
 namespace crowdface {
 namespace {
@@ -77,17 +80,42 @@ struct CastJob {
   Lazy<FaceBuilder> builder;
   Lazy<FaceTextures> textures;
   Cast cast;
+  /// If not empty, `cast` holds a shard's faces, as the folder's plan has them, and no more.
+  std::vector<LedgerEntry::File> plan_files;
+  bool planned() const { return !plan_files.empty(); }
 };
+
+Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSeconds& stages) {
+  return timed(stages, "prepare",
+               [&] { return prepare(job.config, job.inputs, job.smoothing, options.cache); });
+}
+
+/// A shard's faces from the folder's plan; null if there is no plan of this job.
+std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& options,
+                                     StageSeconds& stages) {
+  const CrowdDirectory directory{job.config.output.directory};
+  check_output(job, options.replace);
+  auto planned = planned_faces(job, directory, options.shard);
+  if (!planned) {
+    if (options.plan_from == PlanFrom::kFolderOrCasting) return nullptr;
+    throw MissingInput(concat(directory.planned().string(),
+                              ": says nothing of a plan of this config that is whole; run "
+                              "crowdface plan first"));
+  }
+  auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
+  crowd->cast.crowd = std::move(planned->faces);
+  crowd->plan_files = std::move(planned->files);
+  log_info(concat("the folder's plan is taken; ", crowd->cast.crowd.size(),
+                  " faces of it are of shard ", options.shard.name()));
+  return crowd;
+}
 
 /// Everything that comes before a file is written: a crowd that cannot be cast leaves nothing
 /// behind, and no other crowd in the folder is touched for it.
 std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options,
                                   StageSeconds& stages) {
   check_output(job, options.replace);
-  Prepared prepared = timed(stages, "prepare", [&] {
-    return prepare(job.config, job.inputs, job.smoothing, options.cache);
-  });
-  auto crowd = std::make_unique<CastJob>(job, std::move(prepared));
+  auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
   crowd->cast = timed(stages, "cast", [&] {
     MeshDefects defects;
     if (candidates_are_built(job.config)) defects = mesh_defects(job.inputs, crowd->builder.get());
@@ -110,15 +138,6 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cas
   if (!cast.founders.empty()) write(directory.founders(), format_founders(job, cast.founders));
   if (!cast.rejected.empty()) write(directory.rejected(), format_plan(job, cast.rejected));
   write(directory.casting(), casting_to_json(job.config, cast).dump(2) + "\n");
-}
-
-std::uint64_t face_count(const Config& config) {
-  std::uint64_t faces = config.crowd.count + config.recipes.size();
-  for (const FamilyOptions& family : config.families) {
-    faces += static_cast<std::uint64_t>(family.members);
-    for (const Parent& parent : family.parents) faces += parent.drawn ? 1U : 0U;
-  }
-  return faces;
 }
 
 /// \param inputs  null: only the plan is wanted
@@ -181,25 +200,37 @@ std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& d
 /// Everything after the crowd is cast and the folder is ready. \return what to say of it.
 std::string fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& cast_job,
                            const GenerateOptions& options, Purpose purpose,
-                           Lazy<FaceStages>& face_stages, StageSeconds& stages) {
+                           Lazy<FaceStages>& face_stages, StageSeconds& stages,
+                           std::optional<ShardProgress>& progress) {
   const Cast& cast = cast_job.cast;
   const std::vector<CastFace>& crowd = cast.crowd;
-  Ledger ledger(directory.root, directory.ledger(options.shard), directory.ledgers());
+  Ledger ledger(directory.root, directory.ledger(options.shard),
+                ledgers_that_matter(directory, options.shard));
   const auto write = [&](const fs::path& path, std::string_view bytes) {
     ledger.write(directory.relative(path), bytes);
   };
   write(directory.config(), config_in_folder(job.config, directory));
-  write_plan(job, directory, cast, write);
+  if (!cast_job.planned()) write_plan(job, directory, cast, write);
+  for (const LedgerEntry::File& file : cast_job.plan_files) {
+    ledger.record({file.name, file.content.digest, {file}, {}});
+  }
 
   const auto& sheet = job.config.output.contact_sheet;
   const bool judged = skin_is_judged(job.config, job.inputs);
   const FaceLedger face_ledger(ledger, job, directory,
-                               {sheet.has_value(), has_gallery(job.config), judged});
-  FacesSoFar so_far = find_done_faces(face_ledger, crowd, options.shard);
+                               {sheet.has_value(), has_gallery(job.config), judged}, [&] {
+                                 if (progress) progress->step();
+                               });
+  FacesSoFar so_far =
+      find_done_faces(face_ledger, crowd, cast_job.planned() ? Shard() : options.shard);
   const std::size_t built = so_far.todo.size();
   if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);
+  if (!options.shard.whole()) {
+    progress.emplace(directory.progress(options.shard), so_far.owned, so_far.owned - built);
+  }
 
-  std::vector<std::string> warnings = write_materials(job, directory, cast, ledger);
+  std::vector<std::string> warnings;
+  if (!cast_job.planned()) warnings = write_materials(job, directory, cast, ledger);
   write_shared_arrays(job.inputs, job.config.output.meshes, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
@@ -213,6 +244,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   face_stages.release();
   if (!options.shard.whole()) {
     ledger.require_files();
+    progress->end(ShardState::kDone);
     return concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
                   " built; when all shards are done: crowdface gather ", directory.root.string());
   }
@@ -229,6 +261,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
         format_report(job, cast_job.prepared, cast, so_far.files, pages, warnings));
   ledger.settle();
   gather_logs(directory);
+  remove_notes_of_shards(directory);
   write_file(directory.timings(),
              format_timings(stages, busy, built, cast_job.prepared.from_cache));
   ledger.require_files();
@@ -260,7 +293,9 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   const CrowdDirectory directory{job.config.output.directory};
   const bool is_new = purpose == Purpose::kGenerate && makes_faces(job.config, options);
   if (is_new) refuse_too_little_memory(job.config, job.inputs, memory_for(options));
-  const auto crowd = cast_job(job, options, stages);
+  std::unique_ptr<CastJob> crowd;
+  if (!options.shard.whole()) crowd = planned_job(job, options, stages);
+  if (!crowd) crowd = cast_job(job, options, stages);
   Lazy<FaceStages> face_stages([&] {
     return std::make_unique<FaceStages>(job.config, job.inputs, crowd->prepared,
                                         crowd->builder.get(), crowd->textures.get().blender(),
@@ -273,12 +308,16 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   open_crowd_directory(directory, crowd_config(job.config, directory), options.replace);
   const CrowdLog log(directory.log(options.shard));
   memory.replay();
+  std::optional<ShardProgress> progress;
   try {
     const std::string done =
-        fill_directory(job, directory, *crowd, options, purpose, face_stages, stages);
+        fill_directory(job, directory, *crowd, options, purpose, face_stages, stages, progress);
     lock.require_still_there();
     log_info(done);
   } catch (const std::exception& error) {
+    if (progress) {
+      progress->end(interrupted() ? ShardState::kInterrupted : ShardState::kFailed, error.what());
+    }
     log_debug(error.what());  // `main` says it aloud, when this log is closed
     throw;
   }
@@ -333,6 +372,7 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
     open_crowd_directory(directory, crowd_config(job.config, directory), options.replace);
     write_plan(job, directory, crowd->cast,
                [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });
+    mark_planned(job, directory);
     lock.require_still_there();
     log_info(concat(crowd->cast.crowd.size(), " recipes in ", directory.plan().string()));
   });

@@ -11,6 +11,12 @@
 
 namespace crowdface {
 
+/// Where a shard has its faces from.
+enum class PlanFrom {
+  kFolderOrCasting,  ///< the folder's plan if it is this very job's, else the crowd is cast
+  kFolder,           ///< the folder's plan, or the shard is refused
+};
+
 struct GenerateOptions {
   std::filesystem::path cache;         ///< folder of prepared heads
   Replace replace = Replace::kRefuse;  ///< what to do about another config's crowd in the folder
@@ -19,6 +25,7 @@ struct GenerateOptions {
   /// the machine, or its control group, has.
   std::uint64_t memory = 0;
   Shard shard = {};  ///< only these faces, and neither sheets nor report: `gather` makes those
+  PlanFrom plan_from = PlanFrom::kFolderOrCasting;
 };
 
 /// The whole job: read, prepare, cast, blend, write, render, report. Nothing is written before all

@@ -108,6 +108,15 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
   return std::move(*job);
 }
 
+std::uint64_t face_count(const Config& config) {
+  std::uint64_t faces = config.crowd.count + config.recipes.size();
+  for (const FamilyOptions& family : config.families) {
+    faces += static_cast<std::uint64_t>(family.members);
+    for (const Parent& parent : family.parents) faces += parent.drawn ? 1U : 0U;
+  }
+  return faces;
+}
+
 std::string config_in_folder(Config config, const CrowdDirectory& directory) {
   for (std::size_t i = 0; i < config.review.files.size(); ++i) {
     config.review.files[i] = directory.review(i + 1);

@@ -33,6 +33,9 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
              const std::filesystem::path& cache = {});
 
+/// How many faces the config asks for.
+std::uint64_t face_count(const Config& config);
+
 /// The config as it will stand in that folder, which keeps the reviews.
 std::string config_in_folder(Config config, const CrowdDirectory& directory);
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);

@@ -39,6 +39,7 @@ FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>
     }
   });
   for (std::size_t i = 0; i < crowd.size(); ++i) {
+    if (shard.owns(i)) ++so_far.owned;
     if (missing[i] != 0) so_far.todo.push_back(i);
   }
   return so_far;
@@ -80,6 +81,25 @@ void write_shared_arrays(const Inputs& inputs, const std::vector<MeshFormat>& fo
     names.push_back(directory.relative(file));
   }
   ledger.record(kItem, key.digest(), names);
+}
+
+std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const Shard& shard) {
+  std::vector<fs::path> ledgers = directory.ledgers();
+  if (shard.whole()) return ledgers;
+  const std::string same_count = concat("of", shard.count, ".jsonl");
+  std::erase_if(ledgers, [&](const fs::path& path) {
+    return path != directory.ledger(shard) && path.filename().string().ends_with(same_count);
+  });
+  return ledgers;
+}
+
+void remove_notes_of_shards(const CrowdDirectory& directory) {
+  std::vector<fs::path> notes = directory.all_progress();
+  notes.push_back(directory.planned());
+  for (const fs::path& path : notes) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
 }
 
 void gather_logs(const CrowdDirectory& directory) {

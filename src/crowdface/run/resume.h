@@ -18,6 +18,7 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const std::str
 struct FacesSoFar {
   std::vector<FaceFiles> files;   ///< #crowd; of a face that is missing: nothing
   std::vector<std::size_t> todo;  ///< of this shard, ascending
+  std::size_t owned = 0;          ///< by this shard
 };
 
 /// Asks the ledger, in parallel: every file is read once. \throws Interrupted.
@@ -31,6 +32,14 @@ void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Cas
 /// Writes the arrays beside all faces, if a format needs them and they are not there.
 void write_shared_arrays(const Inputs& inputs, const std::vector<MeshFormat>& formats,
                          const CrowdDirectory& directory, Ledger& ledger);
+
+/// Of the folder's ledgers those that may hold what a shard looks for: none of another shard that shares
+/// the crowd with it, whose faces are others.
+std::vector<std::filesystem::path> ledgers_that_matter(const CrowdDirectory& directory,
+                                                       const Shard& shard);
+
+/// What shards left for each other and for those who watch them, once the crowd is whole.
+void remove_notes_of_shards(const CrowdDirectory& directory);
 
 /// What the shards said becomes part of the crowd's log.
 void gather_logs(const CrowdDirectory& directory);

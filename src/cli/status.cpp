@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include <unistd.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_status.h"
+#include "crowdface/crowd/status_text.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace crowdface::cli {
+namespace {
+
+struct Options : CommonOptions {
+  std::string directory;
+  bool json = false;
+  bool watch = false;
+  std::string every = "5";
+};
+
+void declare(CLI::App& command, Options& options) {
+  add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder")
+      ->required();
+  command.add_flag("--json", options.json, "As one JSON object on one line");
+  command.add_flag("--watch", options.watch, "Look again and again until the crowd is finished");
+  add_option(command, "--every", options.every, "SECONDS", "How often to look")->needs("--watch");
+}
+
+void wait(std::uint64_t seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(seconds);
+  while (Clock::now() < end) {
+    throw_if_interrupted();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+void show(const Options& options) {
+  constexpr std::uint64_t kMostSeconds = 86'400;
+  const std::uint64_t every = whole_number("--every", options.every, 1, kMostSeconds);
+  const bool renew = options.watch && !options.json && ::isatty(STDOUT_FILENO) == 1;
+  for (;;) {
+    const CrowdStatus status = crowd_status(options.directory);
+    if (renew) std::cout << "\033[H\033[2J";
+    print(options.json ? format_status_json(status) : format_status_table(status));
+    if (!std::cout.flush()) throw IoError("standard output: writing failed");
+    if (!options.watch || status.gathered) return;
+    wait(every);
+  }
+}
+
+}  // namespace
+
+Run add_status(CLI::App& program) {
+  return add_command(program, "status",
+                     "How far a crowd is that this or other machines are at work on", declare,
+                     show);
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/run/output_check.h"
+#include "crowdface/run/pipeline.h"
+#include "crowdface/run/task_scripts.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace crowdface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options : CommonOptions {
+  ConfigOptions config;
+  std::string engine = "slurm", shards, prepares, processors = "1", memory, scratch, program;
+  std::string grace = "60";
+  EngineOptions of_engine;
+  bool print = false;
+};
+
+void declare(CLI::App& command, Options& options) {
+  options.config.add_to(command);
+  options.config.add_review_to(command);
+  add_option(command, "--engine", options.engine, "NAME", "slurm, parallel or openjd");
+  add_option(command, "--shards", options.shards, "N",
+             "Tasks that make faces (default: as many as last about ten minutes each)");
+  add_option(command, "--prepare-tasks", options.prepares, "N",
+             "Tasks that prepare heads (default: as many as last about a minute each)");
+  add_option(command, "--processors", options.processors, "N", "Processors of each task");
+  add_option(command, "--memory", options.memory, "SIZE",
+             "Memory of each task, such as \"8 GiB\" (default: the engine's)");
+  add_option(command, "--partition", options.of_engine.partition, "NAME", "Slurm's");
+  add_option(command, "--time", options.of_engine.time, "TIME",
+             "How long a task may take, in Slurm's form (2:00:00)");
+  add_option(command, "--grace", options.grace, "SECONDS",
+             "How long before its time is up a task is told to end");
+  add_option(command, "--scratch", options.scratch, "DIR",
+             "A folder of each machine's own, where tasks copy the prepared heads to; variables "
+             "such as $TMPDIR are the machine's");
+  add_repeated(command, "--host", options.of_engine.hosts, "HOST",
+               "With --engine parallel: a machine to reach by ssh");
+  add_repeated(command, "--engine-option", options.of_engine.more, "OPTION",
+               "Given to sbatch or parallel as it is, such as --engine-option=--account=films");
+  add_option(command, "--program", options.program, "FILE",
+             "The program on the machines (default: this one)");
+  command.add_flag("--print", options.print, "Write the scripts and submit nothing");
+}
+
+fs::path full_path(const fs::path& path) {
+  return fs::absolute(path).lexically_normal();
+}
+
+/// The arguments that mean this config on any machine, from any working directory.
+std::vector<std::string> config_arguments(const ConfigOptions& options, const fs::path& out) {
+  std::vector<std::string> arguments = {full_path(options.config).string(), "--out", out.string()};
+  const auto add = [&](const char* name, const std::string& value) {
+    arguments.insert(arguments.end(), {name, value});
+  };
+  for (const std::string& value : options.overrides.set) add("--set", value);
+  if (options.overrides.seed) add("--seed", *options.overrides.seed);
+  if (options.overrides.count) add("--count", *options.overrides.count);
+  for (const std::string& file : options.overrides.review)
+    add("--review", full_path(file).string());
+  return arguments;
+}
+
+Engine engine_from(const std::string& name) {
+  for (const Engine engine : {Engine::kSlurm, Engine::kParallel, Engine::kOpenJd}) {
+    if (name == name_of(engine)) return engine;
+  }
+  throw UsageError(
+      concat("--engine: expected one of slurm, parallel, openjd, found ", quoted(name)));
+}
+
+/// \throws UsageError if the engine has no use for an option that was given.
+void refuse_strange_options(const Options& options, Engine engine) {
+  const EngineOptions& of_engine = options.of_engine;
+  const auto only_for = [&](const char* name, bool given, Engine wanted) {
+    if (!given || engine == wanted) return;
+    throw UsageError(concat(name, ": only --engine ", name_of(wanted), " has a use for it"));
+  };
+  only_for("--partition", !of_engine.partition.empty(), Engine::kSlurm);
+  only_for("--time", !of_engine.time.empty(), Engine::kSlurm);
+  only_for("--host", !of_engine.hosts.empty(), Engine::kParallel);
+  if (engine == Engine::kOpenJd && !of_engine.more.empty()) {
+    throw UsageError("--engine-option: only slurm and parallel are started from here");
+  }
+  if (of_engine.time.find_first_not_of("0123456789:-") != std::string::npos) {
+    throw UsageError(
+        concat("--time: expected minutes, hours:minutes:seconds or another form of "
+               "Slurm's, found ",
+               quoted(of_engine.time)));
+  }
+}
+
+std::uint64_t count_from(std::string_view option, const std::string& text, std::uint64_t fitting) {
+  constexpr std::uint64_t kMost = 9999;
+  return text.empty() ? fitting : whole_number(option, text, 1, kMost);
+}
+
+TaskJob tasks_of(const Options& options, const Job& job) {
+  constexpr std::uint64_t kMostProcessors = 1024;
+  TaskJob tasks;
+  tasks.directory.root = full_path(job.config.output.directory);
+  tasks.program =
+      options.program.empty() ? fs::read_symlink("/proc/self/exe") : full_path(options.program);
+  tasks.config = config_arguments(options.config, tasks.directory.root);
+  tasks.crowd = job.config.crowd.name;
+  tasks.cache = options.config.cache.empty() ? tasks.directory.submitted() / "cache"
+                                             : full_path(options.config.cache);
+  tasks.scratch = options.scratch;
+  tasks.processors = whole_number("--processors", options.processors, 1, kMostProcessors);
+  tasks.memory = bytes_from("--memory", options.memory);
+  tasks.prepares = count_from("--prepare-tasks", options.prepares,
+                              fitting_prepares(job.inputs, tasks.processors));
+  tasks.shards =
+      count_from("--shards", options.shards,
+                 fitting_shards(job.config, job.inputs, face_count(job.config), tasks.processors));
+  return tasks;
+}
+
+/// Runs a script of ours to its end; its exit code becomes ours.
+void run_script(const fs::path& script) {
+  std::string program = "bash", argument = script.string();
+  std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  if (const int error =
+          ::posix_spawnp(&child, "bash", nullptr, nullptr, arguments.data(), environ)) {
+    throw IoError(concat("bash cannot be started: ", std::generic_category().message(error)));
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw IoError("waiting for the engine failed");
+  }
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ExitCode::kIoError);
+  if (code == 0) return;
+  const bool is_ours = code == static_cast<int>(ExitCode::kUnsatisfiable) ||
+                       (code >= static_cast<int>(ExitCode::kUsage) &&
+                        code <= static_cast<int>(ExitCode::kInterrupted));
+  throw Error(is_ours ? static_cast<ExitCode>(code) : ExitCode::kIoError,
+              concat(script.string(), ": ended with code ", code));
+}
+
+void submit(const Options& options) {
+  const Engine engine = engine_from(options.engine);
+  refuse_strange_options(options, engine);
+  EngineOptions of_engine = options.of_engine;
+  of_engine.grace_seconds = whole_number("--grace", options.grace, 1, 65535);
+  const Job job =
+      load_job(options.config.config, options.config.overrides, options.config.cache_path());
+  const TaskJob tasks = tasks_of(options, job);
+  check_output(job, Replace::kRefuse);
+  const fs::path file = write_task_scripts(tasks, engine, of_engine);
+  log_info(concat(face_count(job.config), " faces; tasks: ", tasks.prepares,
+                  " to prepare heads, 1 to ", "plan, ", tasks.shards,
+                  " to make faces, 1 to gather; crowdface status ", tasks.directory.root.string(),
+                  " tells how far they are"));
+  if (options.print || engine == Engine::kOpenJd) {
+    print(concat(file.string(), "\n"));
+  } else {
+    run_script(file);
+  }
+}
+
+}  // namespace
+
+Run add_submit(CLI::App& program) {
+  return add_command(program, "submit",
+                     "The whole job as tasks for a farm: Slurm, GNU parallel, Open Job Description",
+                     declare, submit);
+}
+
+}  // namespace crowdface::cli

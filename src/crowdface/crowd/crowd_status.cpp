@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/crowd_status.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <system_error>
+#include <unordered_set>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/list_files.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/io/shallow_json.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file that others are replacing or removing meanwhile may be gone: then it says nothing.
+std::string text_of(const fs::path& path) {
+  try {
+    return read_file(path);
+  } catch (const MissingInput&) {
+    return {};
+  }
+}
+
+/// What stands between `start` and the next quote, if the line begins with `start`.
+std::string_view quoted_after(std::string_view line, std::string_view start) {
+  if (!line.starts_with(start)) return {};
+  line.remove_prefix(start.size());
+  return line.substr(0, line.find('"'));
+}
+
+/// Calls `use` with each line that has its end.
+template <class Use>
+void for_each_line(std::string_view text, const Use& use) {
+  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != text.npos;
+       begin = end + 1) {
+    use(text.substr(begin, end - begin));
+  }
+}
+
+/// Faces that have a line in some ledger. Lines are not checked: whoever goes on or gathers does that.
+class FacesInLedgers {
+ public:
+  explicit FacesInLedgers(const CrowdDirectory& directory) {
+    for (const fs::path& path : directory.ledgers()) {
+      texts_.push_back(std::make_unique<std::string>(text_of(path)));
+      for_each_line(*texts_.back(), [&](std::string_view line) {
+        const std::string_view id = quoted_after(line, R"({"item":"faces/)");
+        if (!id.empty()) ids_.insert(id);
+      });
+    }
+  }
+  bool have(std::string_view id) const { return ids_.contains(id); }
+
+ private:
+  std::vector<std::unique_ptr<std::string>> texts_;  ///< that the ids lie in
+  std::unordered_set<std::string_view> ids_;
+};
+
+/// "2of7" in "ledger-2of7.jsonl".
+std::optional<Shard> shard_in_name(const fs::path& path) {
+  std::string name = path.stem().string();
+  name = name.substr(name.find('-') + 1);
+  const std::size_t of = name.find("of");
+  return of == name.npos ? std::nullopt : parse_shard(name.replace(of, 2, "/"));
+}
+
+/// How many shards the crowd was last shared among; 1 if it was not.
+std::uint64_t shard_count(const CrowdDirectory& directory) {
+  const auto job = parse_shallow_json(text_of(directory.submitted() / "job.json"));
+  if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {
+    const auto shards = job["shards"].get<std::uint64_t>();
+    if (parse_shard(concat("1/", shards))) return shards;
+  }
+  std::uint64_t count = 1;
+  for (const auto& files : {directory.shard_ledgers(), directory.all_progress()}) {
+    for (const fs::path& file : files) {
+      if (const auto shard = shard_in_name(file)) count = std::max(count, shard->count);
+    }
+  }
+  return count;
+}
+
+/// Since any of the files was written.
+std::optional<double> seconds_since(const std::vector<fs::path>& files) {
+  std::optional<double> least;
+  for (const fs::path& file : files) {
+    std::error_code error;
+    const auto written = fs::last_write_time(file, error);
+    if (error) continue;
+    const std::chrono::duration<double> since = fs::file_time_type::clock::now() - written;
+    least = std::max(0.0, std::min(least.value_or(since.count()), since.count()));
+  }
+  return least;
+}
+
+void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
+  const fs::path file = directory.progress(status.shard);
+  const auto notes = parse_shard_notes(text_of(file));
+  if (!notes) return;
+  status.state = notes->state;
+  status.machine = notes->machine;
+  status.reason = notes->reason;
+  if (notes->made > 0 && notes->seconds > 0) {
+    status.faces_a_second = static_cast<double>(notes->made) / notes->seconds;
+  }
+}
+
+/// What a task says that died without a word to the folder, or before it got there.
+void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
+  const TaskEnd end = end_of_task(
+      text_of(directory.submitted() / "log" / concat("blend-", status.shard.index, ".log")));
+  if (!end.code || *end.code == 0) return;
+  constexpr auto kAgain = static_cast<std::uint64_t>(ExitCode::kInterrupted);
+  status.state = *end.code == kAgain ? ShardState::kInterrupted : ShardState::kFailed;
+  if (!end.reason.empty() || status.reason.empty()) {
+    status.reason = end.reason.empty() ? concat("ended with code ", *end.code) : end.reason;
+  }
+}
+
+ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
+  ShardStatus status;
+  status.shard = shard;
+  add_notes(directory, status);
+  add_task_end(directory, status);
+  return status;
+}
+
+/// Once it is known how many of its faces are done.
+void finish(const CrowdDirectory& directory, ShardStatus& status) {
+  if (status.faces > 0 && status.done == status.faces) {
+    status.state = ShardState::kDone;
+    status.reason.clear();
+  }
+  if (status.state != ShardState::kWorking) return;
+  status.silent_seconds =
+      seconds_since({directory.progress(status.shard), directory.ledger(status.shard)});
+  if (status.faces_a_second) {
+    status.seconds_left = static_cast<double>(status.faces - status.done) / *status.faces_a_second;
+  }
+}
+
+void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
+  const auto is_log = [](const fs::path& path) {
+    return path.extension() == ".log" && !path.filename().string().starts_with("blend-");
+  };
+  for (const fs::path& log : list_files(directory.submitted() / "log", is_log)) {
+    const TaskEnd end = end_of_task(text_of(log));
+    if (!end.code || *end.code == 0) continue;
+    status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.code,
+                                     end.reason.empty() ? "" : ": ", end.reason));
+  }
+}
+
+}  // namespace
+
+TaskEnd end_of_task(std::string_view log) {
+  TaskEnd end;
+  for_each_line(log, [&](std::string_view line) {
+    if (line.starts_with("=== ended with code ")) {
+      end.code = parse_unsigned(line.substr(line.rfind(' ') + 1));
+    } else if (line.starts_with("===")) {
+      end = {};
+    } else if (line.find("error: ") != line.npos) {
+      end.reason = line.substr(line.find("error: ") + std::string_view("error: ").size());
+    }
+  });
+  return end;
+}
+
+CrowdStatus crowd_status(const fs::path& crowd_directory) {
+  const CrowdDirectory directory{crowd_directory};
+  std::error_code ignored;
+  if (!fs::exists(directory.config(), ignored) && !fs::exists(directory.submitted(), ignored)) {
+    throw MissingInput(
+        concat(directory.config().string(), ": not there; expected a crowd's folder"));
+  }
+  CrowdStatus status;
+  status.planned = fs::exists(directory.plan(), ignored);
+  status.gathered = fs::exists(directory.report(), ignored);
+  const std::uint64_t shards = status.gathered ? 1 : shard_count(directory);
+  for (std::uint64_t index = 1; shards > 1 && index <= shards; ++index) {
+    status.shards.push_back(status_of(directory, {index, shards}));
+  }
+  const FacesInLedgers ledgers(directory);
+  for_each_line(text_of(directory.plan()), [&](std::string_view line) {
+    const bool done = ledgers.have(quoted_after(line, R"({"id":")"));
+    if (!status.shards.empty()) {
+      ShardStatus& shard = status.shards[status.faces % shards];
+      ++shard.faces;
+      shard.done += done ? 1U : 0U;
+    }
+    ++status.faces;
+    status.done += done ? 1U : 0U;
+  });
+  for (ShardStatus& shard : status.shards) {
+    finish(directory, shard);
+    if (shard.seconds_left) {
+      status.faces_a_second = status.faces_a_second.value_or(0) + *shard.faces_a_second;
+      status.seconds_left = std::max(status.seconds_left.value_or(0), *shard.seconds_left);
+    }
+  }
+  if (!status.gathered) add_failures(directory, status);
+  return status;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/status_text.h"
+
+#include <algorithm>
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/progress.h"
+#include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A shard that says nothing for longer may have been killed.
+constexpr double kSilentSeconds = 60;
+
+std::string percent(std::uint64_t done, std::uint64_t faces) {
+  return faces == 0 ? "" : concat(100 * done / faces, "%");
+}
+
+std::string pace(const std::optional<double>& faces_a_second) {
+  return faces_a_second ? concat(format_fixed(*faces_a_second, 2), "/s") : "";
+}
+
+std::string duration(const std::optional<double>& seconds) {
+  return seconds ? format_duration(*seconds) : "";
+}
+
+using Row = std::array<std::string, 7>;
+
+Row row_of(const ShardStatus& shard) {
+  std::string remark = shard.reason;
+  if (shard.silent_seconds.value_or(0) > kSilentSeconds) {
+    remark = concat("nothing written for ", format_duration(*shard.silent_seconds));
+  }
+  return {concat(shard.shard.index, "/", shard.shard.count),
+          std::string(name_of(shard.state)),
+          concat(shard.done, "/", shard.faces),
+          pace(shard.faces_a_second),
+          duration(shard.seconds_left),
+          shard.machine,
+          remark};
+}
+
+/// Columns as wide as their widest.
+std::string aligned(const std::vector<Row>& rows) {
+  std::array<std::size_t, std::tuple_size_v<Row>> widths = {};
+  for (const Row& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      line += row[c] + std::string(widths[c] - row[c].size() + 2, ' ');
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? Json(rounded(*value)) : Json();
+}
+
+}  // namespace
+
+std::string format_status_table(const CrowdStatus& status) {
+  std::string text = status.gathered  ? "finished"
+                     : status.planned ? "planned, not finished"
+                                      : "not planned yet";
+  if (status.planned) {
+    text += concat(": ", status.done, " of ", status.faces, " faces, ",
+                   percent(status.done, status.faces));
+  }
+  if (status.seconds_left) {
+    text += concat(", ", pace(status.faces_a_second), ", ", duration(status.seconds_left), " left");
+  }
+  text += "\n";
+  for (const std::string& failure : status.failures) text += failure + "\n";
+  if (status.shards.empty()) return text;
+  std::vector<Row> rows = {{"shard", "state", "faces", "pace", "left", "machine", ""}};
+  for (const ShardStatus& shard : status.shards) rows.push_back(row_of(shard));
+  return text + aligned(rows);
+}
+
+std::string format_status_json(const CrowdStatus& status) {
+  Json json = {{"planned", status.planned},
+               {"finished", status.gathered},
+               {"faces", status.faces},
+               {"done", status.done},
+               {"faces_a_second", number(status.faces_a_second)},
+               {"seconds_left", number(status.seconds_left)},
+               {"failures", status.failures},
+               {"shards", Json::array()}};
+  for (const ShardStatus& shard : status.shards) {
+    json["shards"].push_back({{"shard", shard.shard.index},
+                              {"of", shard.shard.count},
+                              {"state", name_of(shard.state)},
+                              {"faces", shard.faces},
+                              {"done", shard.done},
+                              {"faces_a_second", number(shard.faces_a_second)},
+                              {"seconds_left", number(shard.seconds_left)},
+                              {"silent_seconds", number(shard.silent_seconds)},
+                              {"machine", shard.machine},
+                              {"reason", shard.reason}});
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace crowdface

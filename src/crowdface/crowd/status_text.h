@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "crowdface/crowd/crowd_status.h"
+
+namespace crowdface {
+
+/// As a table for people.
+std::string format_status_table(const CrowdStatus& status);
+/// As one JSON object on one line.
+std::string format_status_json(const CrowdStatus& status);
+
+}  // namespace crowdface

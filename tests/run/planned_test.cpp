@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shards that take the folder's plan in place of casting the crowd again.
+#include "crowdface/run/planned.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/run/generate.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::IsEmpty;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+/// All that a line of a plan may have: groups, a family with parents, recipes, mixtures.
+SmallCrowd all_kinds() {
+  SmallCrowd crowd;
+  crowd.heads = 6;
+  crowd.regions = 2;
+  crowd.count = 6;
+  crowd.levels = "basis";
+  crowd.bowl.materials = true;
+  crowd.more =
+      "groups: [{name: elders, share: 0.5}]\n"
+      "families: [{name: smith, members: 2, parents: {mother: bob, father: cyd}, "
+      "max_distance: 2 mm, min_distance: 0.3 mm}]\n"
+      "recipes: [{id: by_hand, target: ann, regions: {all: {weights: {bob: 1}}}}]\n";
+  return crowd;
+}
+
+class Planned : public ::testing::Test {
+ protected:
+  Planned() : folder_(all_kinds()) { folder_.folder().write("heads/bowl.mtl", "newmtl skin\n"); }
+  GenerateOptions options(Shard shard, PlanFrom from) const {
+    return {folder_.cache(), Replace::kRefuse, false, 0, shard, from};
+  }
+  void run_shard(Shard shard, PlanFrom from, const ConfigOverrides& overrides = {}) const {
+    generate(folder_.config(), overrides, options(shard, from));
+  }
+  void run_plan(const ConfigOverrides& overrides = {}) const {
+    plan(folder_.config(), overrides, options({}, PlanFrom::kFolderOrCasting));
+  }
+  std::optional<PlannedFaces> faces(const Shard& shard) const {
+    return planned_faces(load_job(folder_.config(), {}), {folder_.out()}, shard);
+  }
+
+  SmallCrowdFolder folder_;
+};
+
+TEST_F(Planned, ShardsOfTheFoldersPlanGiveWhatOneRunGives) {
+  run_shard({}, PlanFrom::kFolderOrCasting);
+  const auto whole = testing::crowd_files(folder_.out());
+  fs::remove_all(folder_.out());
+  run_plan();
+  for (const std::uint64_t shard : {3U, 1U, 2U}) run_shard({shard, 3}, PlanFrom::kFolder);
+  gather(folder_.out(), folder_.cache());
+  EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
+}
+
+TEST_F(Planned, FacesReadBackAreThoseThatWereCast) {
+  run_plan();
+  const Job job = load_job(folder_.config(), {});
+  const auto first = faces({1, 2}), second = faces({2, 2});
+  ASSERT_TRUE(first && second);
+  std::vector<CastFace> both;
+  for (std::size_t i = 0; i < first->faces.size(); ++i) {
+    both.push_back(first->faces[i]);
+    if (i < second->faces.size()) both.push_back(second->faces[i]);
+  }
+  EXPECT_EQ(format_plan(job, both), testing::read_text(folder_.out() / "plan.jsonl"));
+}
+
+TEST_F(Planned, AnotherPlanIsNotTaken) {
+  testing::expect_error(ExitCode::kMissingInput, {"planned.json", "crowdface plan"}, [&] {
+    run_shard({1, 2}, PlanFrom::kFolder);
+  });
+  EXPECT_FALSE(fs::exists(folder_.out()));
+  run_plan();
+  ASSERT_TRUE(faces({1, 2}).has_value());
+  const std::string plan = testing::read_text(folder_.out() / "plan.jsonl");
+  const std::string mark = testing::read_text(folder_.out() / "planned.json");
+  // One number of it altered, a line lost, or marked by others.
+  std::string altered = plan;
+  const std::size_t at = altered.find("\"iterations\":") + std::string("\"iterations\":").size();
+  altered[at] = altered[at] == '1' ? '2' : '1';
+  for (const std::string& text : {altered, plan.substr(0, plan.find('\n') + 1), std::string()}) {
+    folder_.folder().write("out/plan.jsonl", text);
+    EXPECT_FALSE(faces({1, 2}).has_value());
+  }
+  folder_.folder().write("out/plan.jsonl", plan);
+  for (const char* text : {"", "{}", "[1]", R"({"job":3,"files":4})"}) {
+    folder_.folder().write("out/planned.json", text);
+    EXPECT_FALSE(faces({1, 2}).has_value()) << text;
+  }
+  folder_.folder().write("out/planned.json", mark);
+  EXPECT_TRUE(faces({1, 2}).has_value());
+  // Heads that have changed since: the plan is none of theirs.
+  folder_.folder().write("heads/bob.obj", "# edited\n" + testing::read_text(folder_.head("bob")));
+  EXPECT_FALSE(faces({1, 2}).has_value());
+}
+
+// A shard without a plan of its own casts, as it always did.
+TEST_F(Planned, AShardCastsWhereThePlanIsAltered) {
+  run_plan();
+  const std::string plan = testing::read_text(folder_.out() / "plan.jsonl");
+  folder_.folder().write("out/plan.jsonl", plan.substr(0, plan.find('\n') + 1));
+  run_shard({1, 2}, PlanFrom::kFolderOrCasting);
+  EXPECT_EQ(testing::read_text(folder_.out() / "plan.jsonl"), plan);
+}
+
+}  // namespace
+}  // namespace crowdface
