@@ -18,7 +18,7 @@ namespace {
 struct Options : CommonOptions {
   ConfigOptions config;
   std::string port = "0", preview_vertices = "50000";
-  bool no_browser = false;
+  bool no_browser = false, benchmark = false;
 };
 
 void declare(CLI::App& command, Options& options) {
@@ -27,6 +27,8 @@ void declare(CLI::App& command, Options& options) {
              "The port on 127.0.0.1 to serve at; 0: any that is free");
   add_option(command, "--preview-vertices", options.preview_vertices, "N",
              "About how many vertices the page shows at most");
+  command.add_flag("--benchmark", options.benchmark,
+                   "Serve nothing: print how long full faces take after a change");
   command.add_flag("--no-browser", options.no_browser, "Open no browser, print the address only");
 }
 
@@ -47,6 +49,10 @@ void edit(const Options& options) {
   edited.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   edited.preview_vertices =
       whole_number("--preview-vertices", options.preview_vertices, 100, kMostVertices);
+  if (options.benchmark) {
+    print(benchmark_edit(options.config.config, options.config.overrides, edited));
+    return;
+  }
   crowdface::edit(options.config.config, options.config.overrides, edited,
                   [&](const std::string& address) {
                     print(concat(address, '\n'));

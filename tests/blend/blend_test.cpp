@@ -223,6 +223,22 @@ TEST_F(Blend, CubicTargetAloneGivesTheTarget) {
   EXPECT_EQ(blender(fits, one_).blend(alone), head(1)) << "to the bit";
 }
 
+TEST_F(Blend, AChangedFaceHasTheBitsOfOneMadeAnew) {
+  const std::vector<CubicFit> fits = cubic_fits(50);
+  const CrowdBlender blend = blender(fits, two_);
+  const RegionRecipe a = region({{0, 0.5}, {2, 0.5}}, 20, 1.1), b = region({{1, 1}}, 30);
+  std::vector<Recipe> steps = {recipe(0, {a, a}), recipe(0, {b, a}), recipe(0, {b, b}),
+                               recipe(1, {b, b}), recipe(1, {b, b})};
+  set_target(steps.back(), {{1, 0.75}, {2, 0.25}});
+  Positions face = blend.blend(steps.front());
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    const Positions before = face;
+    blend.change(steps[i - 1], steps[i], face);
+    EXPECT_EQ(face, blend.blend(steps[i])) << i;
+    EXPECT_NE(face, before) << i;
+  }
+}
+
 TEST_F(Blend, AFaceHasTheSameBitsAloneAndInAnyCompany) {
   const std::vector<CubicFit> fits = cubic_fits(50);
   const CrowdBlender blend = blender(fits, two_);

@@ -167,6 +167,29 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
   EXPECT_EQ(plan.code, 0) << plan.err;
 }
 
+TEST_F(EditCommandTest, GeneratesTheCrowdBesideThePage) {
+  const auto state = [&] { return Json::parse(get("api/generate")->body)["state"]; };
+  edit([&] {
+    EXPECT_EQ(state(), "idle");
+    EXPECT_EQ(post("api/generate", Json::object())->status, 202);
+    for (int i = 0; i < 600 && state() == "running"; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_EQ(state(), "done") << read_text(edited("generate.log"));
+  });
+  const Outcome verify = run_program(CROWDFACE_PROGRAM, {"verify", folder_.out()});
+  EXPECT_EQ(verify.code, 0) << verify.err;
+}
+
+TEST_F(EditCommandTest, BenchmarksWithoutServing) {
+  std::vector<std::string> benchmark = arguments();
+  benchmark.emplace_back("--benchmark");
+  const Outcome outcome = run_program(CROWDFACE_PROGRAM, benchmark);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, ::testing::HasSubstr("one region was moved"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.out()));
+}
+
 TEST_F(EditCommandTest, AnswersWhatIsWrongWithASentence) {
   edit([&] {
     for (const char* body :

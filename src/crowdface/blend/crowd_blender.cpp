@@ -12,6 +12,16 @@
 
 namespace crowdface {
 
+namespace {
+
+/// Whether two regions add the same to a face of the same target.
+bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
+  return a.weights == b.weights && a.iterations == b.iterations &&
+         a.extrapolation == b.extrapolation;
+}
+
+}  // namespace
+
 CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
                            const RegionWeights& regions)
     : faces_(faces), levels_(std::move(levels)), regions_(regions) {
@@ -98,10 +108,13 @@ CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recip
   return factors;
 }
 
-/// The block's values of all fields: #chunks by #fields; what is past its last vertex is any number.
-void CrowdBlender::pack(const Block& block, std::vector<Chunk>& packed) const {
+/// The block's values of the fields that are used: #chunks by #fields; what is past its last vertex, or
+/// of another field, is any number.
+void CrowdBlender::pack(const Block& block, const std::vector<bool>& used,
+                        std::vector<Chunk>& packed) const {
   packed.resize(kBlockChunks * fields_.size());
   for (std::size_t field = 0; field < fields_.size(); ++field) {
+    if (!used[field]) continue;
     std::size_t to = 0;
     for (const Run& run : block.runs) {
       const float* value = fields_[field] + std::size_t{3} * run.first;
@@ -171,8 +184,9 @@ void CrowdBlender::write(const Block& block, const Recipe& recipe, const BlockVa
   }
 }
 
-void CrowdBlender::blend(std::span<const Recipe* const> recipes,
-                         std::span<Positions> results) const {
+template <class Wanted>
+void CrowdBlender::blend(std::span<const Recipe* const> recipes, std::span<Positions> results,
+                         const Wanted& wanted) const {
   for (std::size_t f = 0; f < recipes.size(); ++f) {
     require_fit(faces_, regions_, *recipes[f]);
     results[f].resize(faces_.topology.vertex_count, 3);
@@ -183,6 +197,10 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
     const auto group = recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first));
     for (std::size_t k = 0; k < regions; ++k) all_factors.push_back(factors(group, k));
   }
+  std::vector<std::vector<bool>> used(regions, std::vector<bool>(fields_.size(), false));
+  for (std::size_t i = 0; i < all_factors.size(); ++i) {
+    for (const std::uint32_t field : all_factors[i].fields) used[i % regions][field] = true;
+  }
   constexpr std::ptrdiff_t kBlocksATask = 8;
   parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
     std::vector<Chunk> packed;
@@ -190,7 +208,12 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
     std::array<BlockValues, kChunkFaces> added;
     for (Index b = begin; b < end; ++b) {
       const Block& block = blocks_[static_cast<std::size_t>(b)];
-      pack(block, packed);
+      if (!wanted(block)) continue;
+      std::vector<bool> in_block(fields_.size(), false);
+      for (const std::uint32_t k : block.regions) {
+        for (std::size_t f = 0; f < in_block.size(); ++f) in_block[f] = in_block[f] || used[k][f];
+      }
+      pack(block, in_block, packed);
       spread_alpha(block, alpha);
       for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
         displacements(block, packed, alpha,
@@ -202,6 +225,22 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
       }
     }
     finish_writing();
+  });
+}
+
+void CrowdBlender::blend(std::span<const Recipe* const> recipes,
+                         std::span<Positions> results) const {
+  blend(recipes, results, [](const Block&) { return true; });
+}
+
+void CrowdBlender::change(const Recipe& before, const Recipe& after, Positions& face) const {
+  const Recipe* one = &after;
+  const bool same_target = before.target == after.target && before.mixture == after.mixture;
+  blend(std::span(&one, 1), std::span(&face, 1), [&](const Block& block) {
+    return !same_target ||
+           std::any_of(block.regions.begin(), block.regions.end(), [&](std::uint32_t k) {
+             return !blends_alike(before.regions[k], after.regions[k]);
+           });
   });
 }
 

@@ -43,6 +43,11 @@ class CrowdBlender {
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions blend(const Recipe& recipe) const;
 
+  /// Makes of the face of one recipe that of another, with the same bits as `blend`: only vertices of
+  /// regions that differ are computed.
+  /// \param face  #V by 3, what `blend` made of `before`
+  void change(const Recipe& before, const Recipe& after, Positions& face) const;
+
  private:
   /// Vertices whose values of all fields stay in a core's own cache while the faces pass over them.
   static constexpr std::size_t kBlockVertices = 128;
@@ -75,7 +80,11 @@ class CrowdBlender {
   void cut_into_blocks();
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
   Factors factors(std::span<const Recipe* const> recipes, std::size_t region) const;
-  void pack(const Block& block, std::vector<Chunk>& packed) const;
+  /// Blends at those of the blocks that are wanted.
+  template <class Wanted>
+  void blend(std::span<const Recipe* const> recipes, std::span<Positions> results,
+             const Wanted& wanted) const;
+  void pack(const Block& block, const std::vector<bool>& used, std::vector<Chunk>& packed) const;
   void spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const;
   void displacements(const Block& block, const std::vector<Chunk>& packed,
                      const std::vector<BlockValues>& alpha, std::span<const Factors> of_region,

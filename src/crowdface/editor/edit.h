@@ -23,4 +23,8 @@ struct EditOptions {
 void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started);
 
+/// Serves nothing and writes nothing: measures how long an editor of that job takes, see edit_benchmark.
+std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
+                           const EditOptions& options);
+
 }  // namespace crowdface

@@ -40,20 +40,29 @@ int status_of(const Error& error) {
 
 }  // namespace
 
-EditApi::EditApi(const EditSession& session, EditedFolder& folder, bool may_edit_config)
+EditApi::EditApi(const EditSession& session, EditedFolder& folder, GenerateRun& run,
+                 bool may_edit_config)
     : session_(session),
       may_edit_config_(may_edit_config),
       folder_(folder),
+      run_(run),
       pictures_(session.job()) {}
 
 const std::vector<EditApi::Route>& EditApi::routes() {
-  static const std::vector<Route> routes = {
-      {"GET", "api/job", &EditApi::job},          {"GET", "api/mesh", &EditApi::mesh},
-      {"GET", "api/heads/", &EditApi::head},      {"POST", "api/face", &EditApi::face},
-      {"POST", "api/draw", &EditApi::draw},       {"GET", "api/state", &EditApi::state},
-      {"PUT", "api/state", &EditApi::keep_state}, {"POST", "api/save", &EditApi::save},
-      {"POST", "api/picture", &EditApi::picture}, {"POST", "api/recipes", &EditApi::put_recipe},
-      {"POST", "api/review", &EditApi::review}};
+  static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
+                                            {"GET", "api/mesh", &EditApi::mesh},
+                                            {"GET", "api/heads/", &EditApi::head},
+                                            {"POST", "api/face", &EditApi::face},
+                                            {"POST", "api/draw", &EditApi::draw},
+                                            {"GET", "api/state", &EditApi::state},
+                                            {"PUT", "api/state", &EditApi::keep_state},
+                                            {"POST", "api/save", &EditApi::save},
+                                            {"POST", "api/picture", &EditApi::picture},
+                                            {"POST", "api/recipes", &EditApi::put_recipe},
+                                            {"GET", "api/generate", &EditApi::generate_progress},
+                                            {"POST", "api/generate", &EditApi::generate},
+                                            {"POST", "api/generate/stop", &EditApi::stop_generate},
+                                            {"POST", "api/review", &EditApi::review}};
   return routes;
 }
 

@@ -13,6 +13,7 @@
 #include "crowdface/editor/edit_pictures.h"
 #include "crowdface/editor/edit_session.h"
 #include "crowdface/editor/edited_folder.h"
+#include "crowdface/editor/generate_run.h"
 #include "crowdface/editor/local_server.h"
 
 namespace crowdface {
@@ -20,9 +21,9 @@ namespace crowdface {
 /// What the editor's page asks for, answered (docs/editor.md).
 class EditApi {
  public:
-  /// \param session, folder  must outlive this object
+  /// \param session, folder, run  must outlive this object
   /// \param may_edit_config  whether recipes may be put into the job's config: it is the user's own
-  EditApi(const EditSession& session, EditedFolder& folder, bool may_edit_config);
+  EditApi(const EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config);
 
   /// Never throws for what a request holds: mistakes are answers, {"error": sentence}.
   HttpAnswer answer(const HttpRequest& request);
@@ -48,6 +49,9 @@ class EditApi {
   HttpAnswer save(const HttpRequest& request, const std::string& rest);
   HttpAnswer picture(const HttpRequest& request, const std::string& rest);
   HttpAnswer put_recipe(const HttpRequest& request, const std::string& rest);
+  HttpAnswer generate(const HttpRequest& request, const std::string& rest);
+  HttpAnswer stop_generate(const HttpRequest& request, const std::string& rest);
+  HttpAnswer generate_progress(const HttpRequest& request, const std::string& rest);
   HttpAnswer review(const HttpRequest& request, const std::string& rest);
 
   // What a request's body holds. \throws UsageError with the key's name.
@@ -59,6 +63,7 @@ class EditApi {
   const EditSession& session_;
   bool may_edit_config_;
   EditedFolder& folder_;
+  GenerateRun& run_;
   EditPictures pictures_;
   std::mutex building_;                   ///< one face at a time, by all cores
   std::atomic<std::uint32_t> draws_ = 0;  ///< attempts so far, so that each draw is another

@@ -97,6 +97,29 @@ HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
   return json_answer(file_json(config.file));
 }
 
+HttpAnswer EditApi::generate(const HttpRequest&, const std::string&) {
+  run_.start();
+  return json_answer(Json::object(), 202);
+}
+
+HttpAnswer EditApi::stop_generate(const HttpRequest&, const std::string&) {
+  run_.stop();
+  return json_answer(Json::object());
+}
+
+HttpAnswer EditApi::generate_progress(const HttpRequest&, const std::string&) {
+  const GenerateRun::State state = run_.state();
+  const RunProgress progress = run_.progress();
+  std::string message = printable(progress.message);
+  if (state == GenerateRun::State::kDone)
+    message += "; start the editor again to open the new faces";
+  return json_answer({{"state", name_of(state)},
+                      {"done", progress.done},
+                      {"total", progress.total},
+                      {"eta_s", progress.seconds_left},
+                      {"message", message}});
+}
+
 HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
   constexpr std::size_t kLongestNote = 2000;
   const Json body = body_of(request);

@@ -97,10 +97,8 @@ std::vector<HeadLevels> EditSession::preview_levels() const {
 }
 
 Positions EditSession::build(const Recipe& recipe) const {
-  const Recipe* one = &recipe;
-  Positions face;
-  builder_.build(std::span(&one, 1), std::span(&face, 1));
-  return face;
+  const std::lock_guard lock(kept_mutex_);
+  return builder_.rebuild(recipe, kept_);
 }
 
 FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face) const {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ class EditSession {
   /// The positions of a head at the preview's vertices, its fields and their functions, likewise.
   std::string head(Index head) const;
 
-  /// Every point of a face, as it would be saved.
+  /// Every point of a face, as it would be saved. Quick where the face before it differs in few regions.
   Positions build(const Recipe& recipe) const;
   /// \param face  what `build` gave
   FaceMeasures measure(const CastFace& recipe, const Positions& face) const;
@@ -80,6 +81,8 @@ class EditSession {
   Prepared prepared_;
   std::optional<Prepared> fitted_;  ///< `levels: exact`: fields for the preview alone
   FaceBuilder builder_;
+  mutable std::mutex kept_mutex_;
+  mutable FaceBuilder::Kept kept_;
   std::shared_future<Judging> judging_;
   Casting casting_;
   PreviewMesh preview_;

@@ -151,7 +151,7 @@ Json EditSession::description() const {
       json["crowd"]["faces"].push_back(std::move(entry));
     }
   }
-  json["can_generate"] = false;
+  json["can_generate"] = true;
   return json;
 }
 

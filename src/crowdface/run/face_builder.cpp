@@ -2,6 +2,7 @@
 #include "crowdface/run/face_builder.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "crowdface/blend/blend.h"
 #include "crowdface/core/parallel.h"
@@ -72,9 +73,33 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
   require_whole(prepared_);
   parallel_for_each(static_cast<Index>(recipes.size()), [&](Index f) {
     const auto i = static_cast<std::size_t>(f);
-    if (keeps_contacts_) contacts_.bring_into(contact_ranges(*recipes[i]), results[i]);
-    if (follower_) follower_->follow(recipes[i]->target, results[i]);
+    finish(*recipes[i], results[i]);
   });
+}
+
+Positions FaceBuilder::rebuild(const Recipe& recipe, Kept& kept) const {
+  if (!blender_) {
+    const Recipe* one = &recipe;
+    Positions face;
+    build(std::span(&one, 1), std::span(&face, 1));
+    return face;
+  }
+  // What fails half-way leaves nothing to go on from.
+  if (const auto before = std::exchange(kept.recipe, std::nullopt)) {
+    blender_->change(*before, recipe, kept.blended);
+  } else {
+    kept.blended = blender_->blend(recipe);
+  }
+  require_whole(prepared_);
+  kept.recipe = recipe;
+  Positions face = kept.blended;
+  finish(recipe, face);
+  return face;
+}
+
+void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
+  if (keeps_contacts_) contacts_.bring_into(contact_ranges(recipe), face);
+  if (follower_) follower_->follow(recipe.target, face);
 }
 
 std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recipe) const {
