@@ -273,9 +273,11 @@ TEST(Generate, PlanWritesNoMeshesAndTheSamePlan) {
   const SmallCrowdFolder folder(SmallCrowd{});
   ConfigOverrides overrides;
   plan(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
-  const auto planned = crowd_files(folder.out());
-  EXPECT_EQ(planned.size(), 4U) << "config.yaml, plan.jsonl, crowd.csv, casting.json";
+  auto planned = crowd_files(folder.out());
+  EXPECT_EQ(planned.size(), 5U) << "config.yaml, plan.jsonl, crowd.csv, casting.json, planned.json";
   run(folder, "out");
+  EXPECT_EQ(planned.erase("planned.json"), 1U);  // only for shards
+  EXPECT_FALSE(crowd_files(folder.out()).contains("planned.json"));
   for (const auto& [name, bytes] : planned) EXPECT_EQ(bytes, crowd_files(folder.out()).at(name));
 }
 
