@@ -117,13 +117,18 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
 }
 
 /// No option and no argument means anything if it is empty, as `--shard "$PART"` is when nobody has set
-/// PART. (CLI11 takes it.)
-void refuse_empty_values(const CLI::App& program) {
+/// PART. (CLI11 takes it.) Nor with a line's end, by which a file's name could pass for a message.
+void refuse_senseless_values(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {
       for (const std::string& value : option->results()) {
-        if (!value.empty()) continue;
-        throw UsageError(concat(option->get_name(), ": expected a value, found an empty one"));
+        if (value.empty()) {
+          throw UsageError(concat(option->get_name(), ": expected a value, found an empty one"));
+        }
+        if (value.find_first_of("\r\n") != value.npos) {
+          throw UsageError(
+              concat(option->get_name(), ": expected a single line, found ", quoted(value)));
+        }
       }
     }
   }
@@ -172,7 +177,7 @@ int run_program(int argc, char** argv) {
     std::cerr << printable(problem.str());
     return failed ? static_cast<int>(ExitCode::kUsage) : run([] {});
   }
-  if (const int code = run([&] { refuse_empty_values(program); }); code != 0) return code;
+  if (const int code = run([&] { refuse_senseless_values(program); }); code != 0) return code;
   catch_interrupts();
   return run([&] {
     if (const char* set =
