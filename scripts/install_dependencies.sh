@@ -22,7 +22,7 @@ packages=(
   # OpenImageIO's CMake package insists on its command-line tools
   libopenimageio-dev openimageio-tools
   # the labels of contact sheets
-  fonts-dejavu-core
+  libfreetype-dev fonts-dejavu-core
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev libtinygltf-dev
 )

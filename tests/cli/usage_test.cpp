@@ -59,7 +59,8 @@ TEST(Usage, EmptyValuesAre64) {
   crowdface(64, {"synth", "-o", ""}, {"empty"});
   crowdface(64, {"generate", ""}, {"config", "empty"});
   crowdface(64, {"verify", ""}, {"empty"});
-  crowdface(64, {"check", "a\nerror: b.yaml"}, {R"(expected a single line, found "a\x0aerror: b.yaml")"});
+  crowdface(64, {"check", "a\nerror: b.yaml"},
+            {R"(expected a single line, found "a\x0aerror: b.yaml")"});
   EXPECT_FALSE(fs::exists(folder.out()));
 }
 

@@ -158,9 +158,10 @@ TEST(LabelStrip, AlignsWithinTheStrip) {
   EXPECT_TRUE(is_blank(label_strip("abc", 200, 20, style), 0, 100, style));
 }
 
-TEST(LabelStrip, AccentsAreLeftOutAndOtherLettersMarked) {
+TEST(LabelStrip, AccentsAndForeignLettersAreDrawnAndUnknownOnesMarked) {
   const LabelStyle style;
-  EXPECT_EQ(label_strip("Jos\xc3\xa9", 100, 20, style), label_strip("Jose", 100, 20, style));
+  EXPECT_NE(label_strip("Jos\xc3\xa9", 100, 20, style), label_strip("Jose", 100, 20, style));
+  EXPECT_NE(label_strip("\xd0\x96", 100, 20, style), label_strip("?", 100, 20, style));
   EXPECT_EQ(label_strip("a\xe4\xb8\xad", 100, 20, style), label_strip("a?", 100, 20, style));
   EXPECT_EQ(label_strip("a\xff", 100, 20, style), label_strip("a?", 100, 20, style));
   EXPECT_EQ(label_strip("a\tb", 100, 20, style), label_strip("a b", 100, 20, style));

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/validity/intersections.h"
 
+#include <algorithm>
+
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "crowdface/core/random.h"
 #include "crowdface/validity/skin_check.h"
 
 #include "support/meshes.h"
@@ -46,6 +50,10 @@ std::vector<TrianglePair> by_trying_all(const std::vector<Triangle>& triangles,
 
 Eigen::Vector3d flat(double x, double y) {
   return {x, y, 0.1 * x};
+}
+/// What is outside of it is above.
+Eigen::Vector3d domed(double x, double y) {
+  return {x, y, 0.02 * x * (24 - x)};
 }
 /// Bent over so that the far side comes down through the near one.
 Eigen::Vector3d bent(double x, double y) {
@@ -101,12 +109,72 @@ TEST(Intersections, NearPairsGrowWithTheMargin) {
 TEST(SkinCheck, CountsWhatTheTargetHasNot) {
   const Sheet sheet;
   const std::vector<Head> heads = {{"flat", sheet.lie(flat)}, {"bent", sheet.lie(bent)}};
-  const SkinCheck check(sheet.topology, sheet.components, heads, {0, 1});
+  const SkinCheck check(sheet.topology, sheet.components, heads, {0, 1}, {{{0, 0, 1}}, 1});
   EXPECT_EQ(check.compare(heads[0].positions, 0).intersecting, 0);
   EXPECT_GT(check.compare(heads[1].positions, 0).intersecting, 20);
   EXPECT_EQ(check.compare(heads[1].positions, 1).intersecting, 0) << "the target's own";
   EXPECT_EQ(check.compare(heads[0].positions, 0).local.flipped, 0);
   EXPECT_GT(check.compare(heads[1].positions, 0).local.flipped, 100);
+}
+
+/// Of the bent sheet, what is above the flat half: a viewer above sees its back.
+double area_of_flap(const Sheet& sheet, const Positions& positions) {
+  double area = 0;
+  for (const Triangle& triangle : sheet.triangles) {
+    const Eigen::Vector3d doubled = area_vector(positions, triangle);
+    const double height =
+        positions(triangle[0], 2) + positions(triangle[1], 2) + positions(triangle[2], 2);
+    if (doubled.z() < 0 && height > 0) area += 0.5 * doubled.norm();
+  }
+  return area;
+}
+
+TEST(SkinCheck, MeasuresSkinThatShowsItsBack) {
+  const Sheet sheet;
+  const std::vector<Head> heads = {{"domed", sheet.lie(domed)}, {"bent", sheet.lie(bent)}};
+  const double flap = area_of_flap(sheet, heads[1].positions);
+  ASSERT_GT(flap, 50);
+  ASSERT_LT(flap, 200);
+  const Viewing above{{{0, 0, 1}}, 10};
+  const SkinCheck check(sheet.topology, sheet.components, heads, {0, 1}, above);
+  EXPECT_EQ(check.compare(heads[0].positions, 0).exposed_mm2, 0);
+  EXPECT_NEAR(check.compare(heads[1].positions, 0).exposed_mm2, 100 * flap, 1e-6 * flap);
+  EXPECT_EQ(check.compare(heads[1].positions, 1).exposed_mm2, 0) << "the target's own";
+  const Viewing nobody{{}, 10};
+  const SkinCheck unseen(sheet.topology, sheet.components, heads, {0}, nobody);
+  EXPECT_EQ(unseen.compare(heads[1].positions, 0).exposed_mm2, 0);
+}
+
+TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
+  const Sheet sheet;
+  const Positions positions = sheet.lie(bent);
+  const TriangleScene scene(sheet.triangles, positions, 1e-4);
+  const auto crosses = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                           const Triangle& triangle) {
+    Eigen::Matrix3d edges;
+    const Eigen::Vector3d a = positions.row(triangle[0]).transpose();
+    edges << positions.row(triangle[1]).transpose() - a, positions.row(triangle[2]).transpose() - a,
+        -direction;
+    const Eigen::Vector3d solved = edges.inverse() * (origin - a);
+    return solved.x() >= 0 && solved.y() >= 0 && solved.x() + solved.y() <= 1 && solved.z() > 0;
+  };
+  int met = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const auto [u, v] = random_pair({1, i, "origin"});
+    const auto [p, q] = random_pair({1, i, "direction"});
+    const Eigen::Vector3d origin(26 * u - 1, 26 * v - 1, 6 * p - 2);
+    const Eigen::Vector3d direction(q - 0.5, p - 0.5, u - 0.5);
+    const bool expected =
+        std::any_of(sheet.triangles.begin(), sheet.triangles.end(),
+                    [&](const Triangle& triangle) { return crosses(origin, direction, triangle); });
+    EXPECT_EQ(scene.meets(origin, direction, ~0U), expected) << i;
+    met += expected ? 1 : 0;
+  }
+  EXPECT_GT(met, 50);
+  EXPECT_LT(met, 250);
+  const Eigen::Vector3d up(0, 0, 1);
+  const Eigen::Vector3d below(3.3, 7.4, -1);
+  EXPECT_TRUE(scene.meets(below, up, ~0U));
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ struct BelievabilityOptions {
   double max_flipped = 0.003;      ///< share of the skin's triangles turned over or collapsed
   double max_intersecting = 0.01;  ///< share that passes through others where the target's does not
   double max_gap_mm = 0.5;  ///< how much farther lips may part than any head's, see SkinContacts
+  double max_exposed_mm2 =
+      3;  ///< skin that may show its back beyond the target's, see exposed_back
 };
 
 }  // namespace crowdface

@@ -23,6 +23,8 @@ std::string_view name_of(Reason reason) {
       return "min_distance_to_rejected";
     case Reason::kGap:
       return "max_gap";
+    case Reason::kExposed:
+      return "max_exposed";
     case Reason::kFamily:
       break;
   }

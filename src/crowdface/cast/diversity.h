@@ -56,10 +56,11 @@ enum class Reason {
   kStretched,           ///< a part of the skin stretched too far
   kIntersecting,        ///< the skin passes through itself where the target's does not
   kGap,                 ///< skin that nearly touches in the heads parts farther than in any
+  kExposed,             ///< skin shows its back where it passes through other skin
   kFamily,              ///< among another family, or too far from its own
   kRejected,            ///< too like the face that a review rejected
 };
-constexpr std::size_t kReasonCount = 9;
+constexpr std::size_t kReasonCount = 10;
 /// "min_distance", "min_distance_to_faces", …: the config key that asks for it, where there is one.
 std::string_view name_of(Reason reason);
 

@@ -16,6 +16,7 @@ std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const Ski
     return Reason::kIntersecting;
   }
   if (skin.wider_mm > limits.max_gap_mm) return Reason::kGap;
+  if (skin.exposed_mm2 > limits.max_exposed_mm2) return Reason::kExposed;
   return std::nullopt;
 }
 

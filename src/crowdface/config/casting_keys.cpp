@@ -113,6 +113,7 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_flipped", &Believability::max_flipped, number(0, 1)),
       key("max_intersecting", &Believability::max_intersecting, number(0, 1)),
       key("max_gap", &Believability::max_gap_mm, length(kMaxDistance)),
+      key("max_exposed", &Believability::max_exposed_mm2, number(0, 1e6)),
       word_key("meshes", &Believability::meshes)
           .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertices > kMostJudged) return std::nullopt;

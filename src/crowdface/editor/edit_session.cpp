@@ -46,6 +46,11 @@ std::string sentence(Reason reason, const Config& config) {
           "more of the skin passes through other skin than "
           "believability.max_intersecting (",
           limits.max_intersecting, ")");
+    case Reason::kExposed:
+      return concat(
+          "skin that passes through other skin shows more of its back than "
+          "believability.max_exposed (",
+          limits.max_exposed_mm2, " mm²)");
     case Reason::kGap:
       return concat(
           "lips, or other skin that nearly touches, part by more than "

@@ -193,17 +193,20 @@ void require_size(int width, int height, int channels, std::size_t values) {
           " values");
 }
 
+/// Pixels of ours can be encoded, unless memory runs out.
+constexpr const char* kNotEncoded = "cannot be encoded (is there too little memory?): ";
+
 /// \param format  the writer's name in OpenImageIO.
 std::string encode(const std::string& format, const OIIO::ImageSpec& spec,
                    const OIIO::TypeDesc& type, const void* pixels) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   auto output = OIIO::ImageOutput::create(format);
-  if (!output) throw Error(ExitCode::kBug, concat("no writer of ", format, ": ", OIIO::geterror()));
+  if (!output) throw IoError(concat(format, ": ", kNotEncoded, OIIO::geterror()));
   output->set_ioproxy(&memory);
   if (!output->open("memory." + format, spec) || !output->write_image(type, pixels) ||
       !output->close()) {
-    throw Error(ExitCode::kBug, concat("encoding ", format, " failed: ", output->geterror()));
+    throw IoError(concat(format, ": ", kNotEncoded, output->geterror()));
   }
   return {bytes.begin(), bytes.end()};
 }

@@ -21,8 +21,8 @@ struct LabelStyle {
 };
 
 /// A strip of width_px by height_px with one line of text, never cut off.
-/// \param text  UTF-8. Accents are left out and characters beyond western letters become question
-///              marks: only ASCII can be drawn.
+/// \param text  UTF-8, drawn from left to right, a character after the other. Control characters
+///              become blanks; what the font has no letter for, and bytes that are no UTF-8, question marks.
 /// \throws MissingInput if the font DejaVu Sans is not installed.
 Rgb8Image label_strip(std::string_view text, int width_px, int height_px,
                       const LabelStyle& style = {});

@@ -113,6 +113,7 @@ std::string asked_of(const Config& config, Reason reason) {
     case Reason::kFamily:
       return "what keeps families together";
     case Reason::kGap:
+    case Reason::kExposed:
     case Reason::kStretched:
     case Reason::kFlipped:
     case Reason::kIntersecting:

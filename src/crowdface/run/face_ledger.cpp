@@ -51,11 +51,9 @@ std::string item_of(const CastFace& face) {
 }
 
 Json to_json(const SkinDefects& skin) {
-  return {{"compared", skin.local.compared},
-          {"flipped", skin.local.flipped},
-          {"stretch", skin.local.stretch},
-          {"intersecting", skin.intersecting},
-          {"wider_mm", skin.wider_mm}};
+  return {{"compared", skin.local.compared}, {"flipped", skin.local.flipped},
+          {"stretch", skin.local.stretch},   {"intersecting", skin.intersecting},
+          {"wider_mm", skin.wider_mm},       {"exposed_mm2", skin.exposed_mm2}};
 }
 
 /// The line's checksum was right, so it is what `to_json` made; a line of another program's version
@@ -68,6 +66,7 @@ SkinDefects skin_of(const std::string& note) {
   skin.local.stretch = json.at("stretch").get<double>();
   skin.intersecting = json.at("intersecting").get<Index>();
   skin.wider_mm = json.at("wider_mm").get<double>();
+  skin.exposed_mm2 = json.at("exposed_mm2").get<double>();
   return skin;
 }
 

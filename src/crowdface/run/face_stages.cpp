@@ -209,7 +209,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   if (skin_is_judged(config, inputs)) {
     std::set<Index> targets;
     for (const CastFace& face : crowd) targets.insert(face.recipe.target);
-    check_.emplace(skin_check(inputs, targets));
+    check_.emplace(skin_check(config, inputs, targets));
     standing += check_->memory_bytes();
     of_thread += check_->compare_bytes();
   }

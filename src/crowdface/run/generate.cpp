@@ -118,7 +118,8 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
   auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
   crowd->cast = timed(stages, "cast", [&] {
     MeshDefects defects;
-    if (candidates_are_built(job.config)) defects = mesh_defects(job.inputs, crowd->builder.get());
+    if (candidates_are_built(job.config))
+      defects = mesh_defects(job.config, job.inputs, crowd->builder.get());
     return cast(job.config, job.inputs, crowd->prepared, defects);
   });
   log_casting(crowd->cast, job.names.heads);

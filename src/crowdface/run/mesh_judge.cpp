@@ -7,8 +7,26 @@
 #include "crowdface/blend/blend.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+#include "crowdface/heads/named_parts.h"
 
 namespace crowdface {
+namespace {
+
+/// In front of the face and to its sides, at its height, above and below.
+Viewing viewing_of(const Config& config) {
+  const HeadAxes axes = head_axes(config);
+  Viewing viewing{{}, mm_per(config.faces.units)};
+  for (const double aside : {-1.5, -0.6, 0.0, 0.6, 1.5}) {
+    for (const double above : {-0.45, 0.0, 0.45}) {
+      viewing.directions.emplace_back(axes.front + aside * axes.side() + above * axes.up);
+    }
+  }
+  return viewing;
+}
+
+}  // namespace
+
 SkinDefects compare_with_target(const SkinCheck& check, const FaceSet& faces, const Recipe& recipe,
                                 const Positions& face) {
   if (recipe.mixture.empty()) return check.compare(face, recipe.target);
@@ -24,8 +42,8 @@ bool skin_is_judged(const Config& config, const Inputs& inputs) {
           inputs.faces.topology.face_count() <= kMostFaces);
 }
 
-SkinCheck skin_check(const Inputs& inputs, const std::set<Index>& targets) {
-  return {inputs.faces.topology, inputs.skin, inputs.faces.heads, targets};
+SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets) {
+  return {inputs.faces.topology, inputs.skin, inputs.faces.heads, targets, viewing_of(config)};
 }
 
 bool candidates_are_built(const Config& config) {
@@ -33,10 +51,10 @@ bool candidates_are_built(const Config& config) {
          config.believability.meshes == BelievabilityOptions::Meshes::kJudge;
 }
 
-MeshDefects mesh_defects(const Inputs& inputs, const FaceBuilder& builder) {
+MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceBuilder& builder) {
   std::set<Index> targets;
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
-  const auto check = std::make_shared<SkinCheck>(skin_check(inputs, targets));
+  const auto check = std::make_shared<SkinCheck>(skin_check(config, inputs, targets));
   return [&builder, check, &faces = inputs.faces](const Recipe& recipe) {
     const Recipe* one = &recipe;
     Positions face;

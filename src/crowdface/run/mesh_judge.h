@@ -16,7 +16,7 @@ namespace crowdface {
 bool skin_is_judged(const Config& config, const Inputs& inputs);
 
 /// Judges whole meshes against those of the targets.
-SkinCheck skin_check(const Inputs& inputs, const std::set<Index>& targets);
+SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets);
 
 /// What is wrong with the skin of a recipe's face against that of its target.
 SkinDefects compare_with_target(const SkinCheck& check, const FaceSet& faces, const Recipe& recipe,
@@ -26,7 +26,7 @@ SkinDefects compare_with_target(const SkinCheck& check, const FaceSet& faces, co
 bool candidates_are_built(const Config& config);
 
 /// Builds candidates and judges their meshes. \param builder  must outlive it.
-MeshDefects mesh_defects(const Inputs& inputs, const FaceBuilder& builder);
+MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceBuilder& builder);
 
 /// Warns of faces whose whole mesh goes beyond a limit that their samples kept. \return the warning.
 std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,

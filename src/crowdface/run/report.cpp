@@ -103,11 +103,10 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
     }
     if (files[i].skin) {
       const SkinDefects& skin = *files[i].skin;
-      face["skin"] = {{"triangles", skin.local.compared},
-                      {"flipped", skin.local.flipped},
-                      {"stretch", rounded(skin.local.stretch)},
-                      {"intersecting", skin.intersecting},
-                      {"wider_mm", rounded(skin.wider_mm)}};
+      face["skin"] = {
+          {"triangles", skin.local.compared},       {"flipped", skin.local.flipped},
+          {"stretch", rounded(skin.local.stretch)}, {"intersecting", skin.intersecting},
+          {"wider_mm", rounded(skin.wider_mm)},     {"exposed_mm2", rounded(skin.exposed_mm2)}};
     }
     faces.push_back(std::move(face));
   }

@@ -2,19 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
+#include "crowdface/validity/triangle_scene.h"
 #include "crowdface/validity/triangles.h"
 
 namespace crowdface {
 
-/// Two triangles by their numbers, the smaller first.
-using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
-
-/// Pairs of triangles without a common vertex whose boxes, grown by `margin` on all sides, overlap;
-/// ascending. The broad phase is Embree's (rtcCollide). Triangles at a vertex of more than a thousand
-/// are left out.
+/// Pairs of triangles whose boxes, grown by `margin` on all sides, overlap, see TriangleScene.
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin);
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "crowdface/validity/exposed_back.h"
 #include "crowdface/validity/intersections.h"
 
 namespace crowdface {
@@ -17,6 +18,13 @@ struct SkinDefects {
   /// How much farther skin that nearly touches is apart than in any head; measured by whoever knows
   /// where it touches.
   double wider_mm = 0;
+  double exposed_mm2 = 0;  ///< skin that shows its back, beyond the target's; see exposed_back
+};
+
+/// From where a face is looked at, and how large it is.
+struct Viewing {
+  std::vector<Eigen::Vector3d> directions;  ///< towards viewers, of any length but zero
+  double mm_per_unit = 1;
 };
 
 /// Judges whole meshes of one topology against their targets, from any thread.
@@ -25,7 +33,7 @@ class SkinCheck {
   /// \param heads    #V by 3 each.
   /// \param targets  heads that will be asked about.
   SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
-            const std::set<Index>& targets);
+            const std::set<Index>& targets, Viewing viewing);
 
   /// \param target  one of those named to the constructor.
   SkinDefects compare(const Positions& positions, Index target) const;
@@ -41,11 +49,14 @@ class SkinCheck {
   struct Target {
     TargetTriangles triangles;
     NewIntersections intersections;
+    double exposed;
   };
   Target prepared(const Positions& positions) const;
   SkinDefects compare(const Positions& positions, const Target& target) const;
 
-  std::vector<Triangle> triangles_;
+  std::vector<Triangle> triangles_;  ///< their backs to the inside
+  TriangleNeighbours neighbours_;
+  Viewing viewing_;
   std::map<Index, Target> targets_;
 };
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "crowdface/validity/triangle_scene.h"
+
+namespace crowdface {
+
+/// Which triangles have a vertex in common with which.
+class TriangleNeighbours {
+ public:
+  TriangleNeighbours(const std::vector<Triangle>& triangles, Index vertex_count);
+  /// Those at a vertex, ascending.
+  std::span<const std::uint32_t> around(std::uint32_t vertex) const;
+
+ private:
+  std::vector<std::uint32_t> offsets_;  ///< #V + 1
+  std::vector<std::uint32_t> triangles_;
+};
+
+/// How much of a skin shows its back to somebody in front of it, in the positions' unit squared: where skin
+/// passes through other skin, the lining of a nostril through its wing, say. Counted are triangles of
+/// whose back the middle is seen from one of the directions, as far as they hang together with a pair
+/// that intersects.
+/// \param intersecting  pairs of triangles that pass through each other.
+/// \param viewers       directions to where somebody looks from, of any length but zero.
+double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& triangles,
+                    const Positions& positions, const TriangleNeighbours& neighbours,
+                    const std::vector<TrianglePair>& intersecting,
+                    const std::vector<Eigen::Vector3d>& viewers);
+
+}  // namespace crowdface
