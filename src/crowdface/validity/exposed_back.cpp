@@ -2,6 +2,7 @@
 #include "crowdface/validity/exposed_back.h"
 
 #include <algorithm>
+#include <array>
 
 #include "crowdface/mesh/vector3.h"
 
@@ -10,6 +11,50 @@ namespace {
 
 /// What is seen at a flatter angle is hardly seen.
 constexpr double kFlattestCosine = 0.2;
+/// How far apart the points of a triangle are that are looked for, and how many there are along an edge.
+constexpr double kSpacingMm = 1;
+constexpr int kMostAlongEdge = 8;
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+Corners corners(const Positions& positions, const Triangle& triangle) {
+  return {row3(positions, triangle[0]), row3(positions, triangle[1]), row3(positions, triangle[2])};
+}
+
+int points_along_edge(const Corners& at, double mm_per_unit) {
+  const double longest =
+      std::max({length3(at[1] - at[0]), length3(at[2] - at[1]), length3(at[0] - at[2])});
+  return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMostAlongEdge);
+}
+
+/// Which share of a triangle shows its back, told at the middles of n² equal triangles that it is cut into.
+double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
+                     const Viewing& viewing) {
+  const Eigen::Vector3d normal = cross3(at[1] - at[0], at[2] - at[0]);
+  std::vector<Eigen::Vector3d> behind;
+  for (const Eigen::Vector3d& viewer : viewing.directions) {
+    if (-dot3(normal, viewer) > kFlattestCosine * length3(normal) * length3(viewer)) {
+      behind.push_back(viewer);
+    }
+  }
+  if (behind.empty()) return 0;
+  const int n = points_along_edge(at, viewing.mm_per_unit);
+  int shown = 0;
+  const auto look_at = [&](int thirds_b, int thirds_c) {
+    const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
+    const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
+    shown += std::any_of(behind.begin(), behind.end(), [&](const Eigen::Vector3d& viewer) {
+      return !scene.meets(point, viewer, triangle);
+    });
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      look_at(3 * i + 1, 3 * j + 1);
+      if (i + j < n - 1) look_at(3 * i + 2, 3 * j + 2);
+    }
+  }
+  return static_cast<double>(shown) / (n * n);
+}
 
 }  // namespace
 
@@ -31,8 +76,7 @@ std::span<const std::uint32_t> TriangleNeighbours::around(std::uint32_t vertex) 
 
 double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& triangles,
                     const Positions& positions, const TriangleNeighbours& neighbours,
-                    const std::vector<TrianglePair>& intersecting,
-                    const std::vector<Eigen::Vector3d>& viewers) {
+                    const std::vector<TrianglePair>& intersecting, const Viewing& viewing) {
   std::vector<bool> seen(triangles.size(), false);
   std::vector<std::uint32_t> waiting;
   const auto look_around = [&](std::uint32_t triangle) {
@@ -52,18 +96,9 @@ double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& tri
   while (!waiting.empty()) {
     const std::uint32_t t = waiting.back();
     waiting.pop_back();
-    const Eigen::Vector3d doubled = area_vector(positions, triangles[t]);
-    const double length = length3(doubled);
-    const Eigen::Vector3d middle =
-        (row3(positions, triangles[t][0]) + row3(positions, triangles[t][1]) +
-         row3(positions, triangles[t][2])) /
-        3.0;
-    const bool shows = std::any_of(viewers.begin(), viewers.end(), [&](const auto& viewer) {
-      return -dot3(doubled, viewer) > kFlattestCosine * length * length3(viewer) &&
-             !scene.meets(middle, viewer, t);
-    });
-    if (!shows) continue;
-    exposed += 0.5 * length;
+    const double share = exposed_share(scene, corners(positions, triangles[t]), t, viewing);
+    if (share == 0) continue;
+    exposed += 0.5 * share * length3(area_vector(positions, triangles[t]));
     look_around(t);
   }
   return exposed;

@@ -20,15 +20,18 @@ class TriangleNeighbours {
   std::vector<std::uint32_t> triangles_;
 };
 
-/// How much of a skin shows its back to somebody in front of it, in the positions' unit squared: where skin
-/// passes through other skin, the lining of a nostril through its wing, say. Counted are triangles of
-/// whose back the middle is seen from one of the directions, as far as they hang together with a pair
-/// that intersects.
+/// From where a face is looked at, and how large it is.
+struct Viewing {
+  std::vector<Eigen::Vector3d> directions;  ///< towards viewers, of any length but zero
+  double mm_per_unit = 1;
+};
+
+/// How much of a skin shows its back to somebody who looks at it, in the positions' unit squared: where skin
+/// passes through other skin, the lining of a nostril through its wing, say. Counted is what hangs
+/// together with triangles that intersect others, at points a millimetre apart.
 /// \param intersecting  pairs of triangles that pass through each other.
-/// \param viewers       directions to where somebody looks from, of any length but zero.
 double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& triangles,
                     const Positions& positions, const TriangleNeighbours& neighbours,
-                    const std::vector<TrianglePair>& intersecting,
-                    const std::vector<Eigen::Vector3d>& viewers);
+                    const std::vector<TrianglePair>& intersecting, const Viewing& viewing);
 
 }  // namespace crowdface

@@ -35,12 +35,11 @@ struct Crossing {
 };
 
 Crossing crossing_of(const std::vector<Triangle>& triangles, const Positions& positions,
-                     const TriangleNeighbours& neighbours,
-                     const std::vector<Eigen::Vector3d>& viewers) {
+                     const TriangleNeighbours& neighbours, const Viewing& viewing) {
   if (triangles.empty()) return {{}, 0};
   const TriangleScene scene(triangles, positions, margin_of(positions));
   std::vector<TrianglePair> pairs = intersecting(triangles, positions, scene.near_pairs());
-  const double exposed = exposed_back(scene, triangles, positions, neighbours, pairs, viewers);
+  const double exposed = exposed_back(scene, triangles, positions, neighbours, pairs, viewing);
   return {std::move(pairs), exposed};
 }
 
@@ -59,7 +58,7 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
 }
 
 SkinCheck::Target SkinCheck::prepared(const Positions& positions) const {
-  const Crossing crossing = crossing_of(triangles_, positions, neighbours_, viewing_.directions);
+  const Crossing crossing = crossing_of(triangles_, positions, neighbours_, viewing_);
   return {TargetTriangles(triangles_, positions),
           NewIntersections(triangles_, positions.rows(), crossing.pairs), crossing.exposed};
 }
@@ -75,7 +74,7 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Positions& targ
 SkinDefects SkinCheck::compare(const Positions& positions, const Target& target) const {
   SkinDefects defects;
   defects.local = target.triangles.compare(positions);
-  const Crossing crossing = crossing_of(triangles_, positions, neighbours_, viewing_.directions);
+  const Crossing crossing = crossing_of(triangles_, positions, neighbours_, viewing_);
   defects.intersecting = target.intersections.count(crossing.pairs);
   defects.exposed_mm2 = std::max(0.0, crossing.exposed - target.exposed) * viewing_.mm_per_unit *
                         viewing_.mm_per_unit;

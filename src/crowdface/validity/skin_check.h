@@ -21,12 +21,6 @@ struct SkinDefects {
   double exposed_mm2 = 0;  ///< skin that shows its back, beyond the target's; see exposed_back
 };
 
-/// From where a face is looked at, and how large it is.
-struct Viewing {
-  std::vector<Eigen::Vector3d> directions;  ///< towards viewers, of any length but zero
-  double mm_per_unit = 1;
-};
-
 /// Judges whole meshes of one topology against their targets, from any thread.
 class SkinCheck {
  public:
