@@ -255,6 +255,52 @@ if (job.textures) {
 await page.keyboard.press('Escape');
 await page.keyboard.press('f');
 
+// Paint a region's mask; the face follows, and nothing is saved that the config would not make.
+if (await editor('editor.job.can_paint')) {
+  const share = () => page.evaluate(() => {
+    const { mesh } = window.crowdface.editor.view;
+    const count = window.crowdface.editor.job.regions.length;
+    let sum = 0;
+    for (let v = 0; v < mesh.vertices; v += 1) sum += mesh.alpha[count * v];
+    return sum;
+  });
+  const painted = async (act) => {
+    const old = await share();
+    await act();
+    await page.waitForFunction(() => !window.crowdface.editor.painting.sending);
+    await settled();
+    return (await share()) - old;
+  };
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('f');
+  await page.keyboard.press('m');
+  const placeBefore = await editor('editor.view.place()');
+  const more = await painted(() => drag(canvas, 60, 90));
+  assert.ok(more > 5, `a stroke adds ${more} vertices' worth`);
+  assert.deepEqual(await editor('editor.view.place()'), placeBefore, 'the brush does not turn the view');
+  const sums = await page.evaluate(() => {
+    const { editor: it } = window.crowdface;
+    const count = it.job.regions.length;
+    let most = 0;
+    for (let v = 0; v < it.view.mesh.vertices; v += 1) {
+      if (it.view.mesh.part[v]) continue;
+      const sum = it.view.mesh.alpha.slice(count * v, count * v + count).reduce((a, b) => a + b, 0);
+      most = Math.max(most, Math.abs(sum - 1));
+    }
+    return most;
+  });
+  assert.ok(sums < 1e-5, `sums of masks are one, to ${sums}`);
+  assert.ok((await previewError()) < 0.1, 'the program blends with what is painted');
+  await settled();
+  await take('painting');
+  await page.getByRole('button', { name: 'Save masks' }).click();
+  await page.waitForFunction(() => /regions: \{mask/.test(document.querySelector('.message').textContent));
+  const less = await painted(() => page.getByRole('button', { name: 'Undo stroke' }).click());
+  assert.ok(Math.abs(less + more) < 1e-3, 'a whole stroke is taken back');
+  await page.keyboard.press('Escape');
+  await settled();
+}
+
 // By keyboard alone: from the top to the first head, the heads, the controllers and the cards.
 await page.locator('.toolbar select').first().focus();
 const reached = new Set();

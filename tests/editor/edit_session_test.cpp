@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edit_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -13,6 +14,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/editor/recipe_json.h"
+#include "crowdface/editor/region_painting.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/synth/synthetic_head.h"
@@ -272,6 +274,82 @@ TEST(EditSession, FacesLikeAnotherAreNearerToItTheSmallerTheAmount) {
   };
   EXPECT_GT(far(0.1), 0);
   EXPECT_LT(far(0.1), far(1));
+}
+
+Json stroke_on(const EditSession& session, std::string_view mode) {
+  Json stroke = {{"region", "top"}, {"mode", mode},   {"radius_mm", 25}, {"strength", 1},
+                 {"falloff", 0.5},  {"mirror", true}, {"begin", true}};
+  stroke["points"] = {
+      {{"triangle", session.preview().triangles.size() / 6}, {"u", 0.3}, {"v", 0.3}}};
+  return stroke;
+}
+
+TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
+  Editor editor("basis");
+  EditSession& session = *editor.session;
+  const CastFace face = editor.face(some_recipe());
+  const Positions before = session.build(face.recipe);
+  RegionPainting painting(session);
+  const std::vector<float> masks = painting.masks();
+  painting.stroke(stroke_on(session, "paint"));
+  EXPECT_TRUE(painting.painted());
+  const std::vector<float> painted = painting.masks();
+  ASSERT_EQ(painted.size(), masks.size());
+  double more = 0;
+  for (std::size_t i = 0; i < painted.size(); i += 3) {
+    const float sum = painted[i] + painted[i + 1] + painted[i + 2];
+    EXPECT_NEAR(sum, sum == 0 ? 0 : 1, 1e-6);
+    more += painted[i] - masks[i];
+  }
+  EXPECT_NE(more, 0);
+  EXPECT_EQ(session.build(face.recipe), before) << "not before it is applied";
+  painting.apply();
+  EXPECT_NE(session.build(face.recipe), before);
+  EXPECT_LT(preview_error_mm(editor, face), 0.1);
+  painting.undo();
+  painting.apply();
+  EXPECT_FALSE(painting.painted());
+  EXPECT_EQ(painting.masks(), masks);
+  EXPECT_EQ(session.build(face.recipe), before);
+}
+
+TEST(RegionPainting, ImagesReadBackAsWhatIsPainted) {
+  Editor editor("basis");
+  EditSession& session = *editor.session;
+  RegionPainting painting(session);
+  painting.stroke(stroke_on(session, "paint"));
+  painting.apply();
+  const auto files = painting.save(editor.folder.path());
+  const FaceSet& faces = session.job().inputs.faces;
+  const RegionWeights read =
+      region_weights(faces.topology, faces.uvs, {files.begin(), files.end()}, 3);
+  const RegionWeights::Alpha& alpha = session.masks().alpha;
+  double sum = 0, most = 0;
+  Index skin = 0;
+  for (Index v = 0; v < alpha.rows(); ++v) {
+    if (alpha.row(v).isZero(0)) continue;
+    const double apart = (read.alpha.row(v) - alpha.row(v)).cwiseAbs().maxCoeff();
+    sum += apart;
+    most = std::max(most, apart);
+    ++skin;
+  }
+  EXPECT_LT(sum / static_cast<double>(skin), 0.01) << "at most " << most;
+}
+
+TEST(RegionPainting, RefusesWhatItCannotRead) {
+  Editor editor("basis");
+  RegionPainting painting(*editor.session);
+  const Json good = stroke_on(*editor.session, "smooth");
+  for (const auto& [key, value] : std::map<std::string, Json>{{"region", "chin"},
+                                                              {"mode", "wipe"},
+                                                              {"points", Json::array()},
+                                                              {"radius_mm", 0},
+                                                              {"strength", 2}}) {
+    Json bad = good;
+    bad[key] = value;
+    testing::expect_error(ExitCode::kUsage, {key}, [&] { painting.stroke(bad); });
+  }
+  testing::expect_error(ExitCode::kUsage, {"nothing is painted"}, [&] { painting.undo(); });
 }
 
 }  // namespace

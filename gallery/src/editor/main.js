@@ -251,8 +251,8 @@ class Editor {
 
   // -- masks --
 
-  async offerPainting() {
-    this.painting = await openPainting(this);
+  offerPainting() {
+    this.painting = openPainting(this);
     if (!this.painting) return;
     this.shelf.node.prepend(this.painting.node);
     this.viewTools.offerPainting();
@@ -262,12 +262,6 @@ class Editor {
     this.view.setMasks(alpha);
     this.exactOf = null;
     this.refresh();
-  }
-
-  /// Regions have come or gone: all is read again, steps are kept.
-  async reopen() {
-    await this.keepNow(false);
-    location.reload();
   }
 
   // -- documents --
@@ -422,7 +416,7 @@ class Editor {
       history: this.history.toJson(mostKept), kept, look: { ...look, place: this.view.place() },
       linked: [...this.linked], locked: [...this.locked],
     };
-    return put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
+    put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
   }
 
   // -- heads --
@@ -445,7 +439,7 @@ class Editor {
     this.exactOf = null;
     this.ready = true;
     this.refresh();
-    await this.offerPainting();
+    this.offerPainting();
   }
 
   // -- keys --

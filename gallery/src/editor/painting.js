@@ -3,22 +3,21 @@
 // stroke. The program measures along the surface; the page tells where the brush was.
 import { Mesh, MeshBasicMaterial, Ray, RingGeometry, Vector2, Vector3 } from 'three';
 import { el } from '../dom.js';
-import { getJson, post, postForBinary } from './api.js';
+import { post, postForBinary } from './api.js';
 import { hitTriangle } from './hit.js';
 
 const pause = 30; // ms between points of a stroke
 
 export class Painting {
-  /// \param editor  job, view, attempt, say, refresh, setShow, masksChanged(alpha), reopen().
-  /// \param told    GET api/masks: regions, bands.
-  constructor(editor, told) {
-    Object.assign(this, { editor, on: false, waiting: [], region: editor.job.regions[0].name, mode: 'grow' });
+  /// \param editor  job, view, attempt, say, refresh, setShow, masksChanged(alpha).
+  constructor(editor) {
+    Object.assign(this, { editor, on: false, waiting: [], region: editor.job.regions[0].name, mode: 'paint' });
     this.ring = new Mesh(new RingGeometry(0.97, 1, 48), new MeshBasicMaterial({
       color: 0xffffff, transparent: true, opacity: 0.9, depthTest: false, toneMapped: false,
     }));
     this.ring.visible = false;
     editor.view.group.add(this.ring);
-    this.node = this.panel(told);
+    this.node = this.panel();
     const { node } = editor.view;
     node.addEventListener('pointerdown', (event) => this.down(event), { capture: true });
     node.addEventListener('pointermove', (event) => this.move(event));
@@ -26,7 +25,7 @@ export class Painting {
     node.addEventListener('pointerleave', () => this.showRing(null));
   }
 
-  panel(told) {
+  panel() {
     const slider = (text, low, high, step, value) => {
       const input = el('input', { type: 'range', min: low, max: high, step, value, 'aria-label': text });
       const number = el('span', {}, String(value));
@@ -42,13 +41,8 @@ export class Painting {
       dot.style.background = region.colour;
       return el('button', { 'data-region': region.name, onclick: () => this.choose({ region: region.name }) }, dot, region.name);
     });
-    this.modeButtons = [['grow', 'Paint'], ['erase', 'Erase'], ['smooth', 'Smooth']].map(([mode, text]) =>
+    this.modeButtons = [['paint', 'Paint'], ['erase', 'Erase'], ['smooth', 'Smooth'], ['grow', 'Grow']].map(([mode, text]) =>
       el('button', { 'data-mode': mode, onclick: () => this.choose({ mode }) }, text));
-    const bands = (told.bands ?? []).map((band) => {
-      const input = el('input', { type: 'checkbox', value: band, checked: ['brow', 'nose', 'mouth'].includes(band) });
-      return el('label', {}, input, ` ${band}`);
-    });
-    const added = el('input', { type: 'text', placeholder: 'new region', 'aria-label': 'Name of a new region', maxlength: 64 });
     const ask = (text, act, title = '') => el('button', { title, onclick: () => this.editor.attempt(act) }, text);
     const node = el('section', { class: 'painting', hidden: true, 'aria-label': 'Masks' },
       el('header', {}, el('h2', {}, 'Masks'), el('span', { class: 'grow' }),
@@ -59,11 +53,6 @@ export class Painting {
       el('div', { class: 'choices' }, el('span', { class: 'group', role: 'group', 'aria-label': 'Brush' }, this.modeButtons),
         el('label', {}, this.mirror, ' mirror')),
       this.radius.node, this.strength.node, this.falloff.node,
-      el('div', { class: 'choices' }, bands, ask('Propose', () => this.changedRegions('masks/propose', {
-        bands: bands.map((label) => label.firstChild).filter((box) => box.checked).map((box) => box.value),
-      }), 'Bands from the mean head’s own shape, in place of all regions')),
-      el('div', { class: 'choices' }, added, ask('Add', () => this.changedRegions('masks/regions', { add: added.value })),
-        ask('Remove this region', () => this.changedRegions('masks/regions', { remove: this.region }))),
       el('p', { class: 'muted' }, 'Paint on the head; drag beside it to turn it. Space paints in the middle of the view.'));
     this.choose = (change) => {
       Object.assign(this, change);
@@ -175,18 +164,14 @@ export class Painting {
     await this.editor.attempt(async () => this.editor.masksChanged((await answer).alpha));
   }
 
-  async changedRegions(path, body) {
-    await post(path, body);
-    await this.editor.reopen();
-  }
-
+  /// Images in the layout of the textures, which a config names.
   async save() {
-    const { file } = await post('masks/save', {});
-    this.editor.say(`Masks saved: ${file}`);
+    const { files } = await post('masks/save', {});
+    this.editor.say(`Saved. In the config: regions: {mask: ${files.length === 1 ? files[0] : `[${files.join(', ')}]`}}`);
   }
 }
 
 /// The panel, or nothing where the program paints no masks.
-export async function openPainting(editor) {
-  return editor.job.can_paint ? new Painting(editor, await getJson('masks')) : null;
+export function openPainting(editor) {
+  return editor.job.can_paint ? new Painting(editor) : null;
 }

@@ -52,7 +52,7 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
   Job job = load_edited_job(given, overrides, options.cache);
   const std::filesystem::path path = make_edited_folder(job.config);
   EditorLock lock(path);
-  const EditSession session(std::move(job), options.cache, options.preview_vertices);
+  EditSession session(std::move(job), options.cache, options.preview_vertices);
   EditedFolder folder(session.job(), path);
   std::error_code ignored;
   GenerateRun run(generate_arguments(session.job().config, overrides, options.cache),

@@ -40,13 +40,13 @@ int status_of(const Error& error) {
 
 }  // namespace
 
-EditApi::EditApi(const EditSession& session, EditedFolder& folder, GenerateRun& run,
-                 bool may_edit_config)
+EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config)
     : session_(session),
       may_edit_config_(may_edit_config),
       folder_(folder),
       run_(run),
-      pictures_(session.job()) {}
+      pictures_(session.job()),
+      painting_(session) {}
 
 const std::vector<EditApi::Route>& EditApi::routes() {
   static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
@@ -62,7 +62,10 @@ const std::vector<EditApi::Route>& EditApi::routes() {
                                             {"GET", "api/generate", &EditApi::generate_progress},
                                             {"POST", "api/generate", &EditApi::generate},
                                             {"POST", "api/generate/stop", &EditApi::stop_generate},
-                                            {"POST", "api/review", &EditApi::review}};
+                                            {"POST", "api/review", &EditApi::review},
+                                            {"POST", "api/masks/stroke", &EditApi::paint_masks},
+                                            {"POST", "api/masks/undo", &EditApi::undo_masks},
+                                            {"POST", "api/masks/save", &EditApi::save_masks}};
   return routes;
 }
 
@@ -94,6 +97,8 @@ HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
 }
 
 HttpAnswer EditApi::mesh(const HttpRequest&, const std::string&) {
+  const std::lock_guard lock(building_);
+  painting_.apply();
   return binary_answer(session_.mesh());
 }
 
@@ -173,6 +178,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   if (!page.empty()) note_turn(page, turn);
   const std::lock_guard lock(building_);
   if (!page.empty() && overtaken(page, turn)) return refusal(409, "overtaken by a newer request");
+  painting_.apply();
   const auto begin = std::chrono::steady_clock::now();
   const Positions positions = session_.build(face.recipe);
   BinaryAnswer answer;

@@ -15,6 +15,7 @@
 #include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/generate_run.h"
 #include "crowdface/editor/local_server.h"
+#include "crowdface/editor/region_painting.h"
 
 namespace crowdface {
 
@@ -23,7 +24,7 @@ class EditApi {
  public:
   /// \param session, folder, run  must outlive this object
   /// \param may_edit_config  whether recipes may be put into the job's config: it is the user's own
-  EditApi(const EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config);
+  EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config);
 
   /// Never throws for what a request holds: mistakes are answers, {"error": sentence}.
   HttpAnswer answer(const HttpRequest& request);
@@ -54,6 +55,12 @@ class EditApi {
   HttpAnswer generate_progress(const HttpRequest& request, const std::string& rest);
   HttpAnswer review(const HttpRequest& request, const std::string& rest);
 
+  HttpAnswer paint_masks(const HttpRequest& request, const std::string& rest);
+  HttpAnswer undo_masks(const HttpRequest& request, const std::string& rest);
+  HttpAnswer save_masks(const HttpRequest& request, const std::string& rest);
+  HttpAnswer painted_masks() const;
+  void require_masks_of_config() const;
+
   // What a request's body holds. \throws UsageError with the key's name.
   std::vector<std::size_t> regions_in(const Json& body, const std::string& key) const;
   CastFace face_of(const Json& body, const std::string& key = "recipe") const;
@@ -65,6 +72,7 @@ class EditApi {
   EditedFolder& folder_;
   GenerateRun& run_;
   EditPictures pictures_;
+  RegionPainting painting_;               ///< under `building_`
   std::mutex building_;                   ///< one face at a time, by all cores
   std::atomic<std::uint32_t> draws_ = 0;  ///< attempts so far, so that each draw is another
   std::mutex turns_mutex_;

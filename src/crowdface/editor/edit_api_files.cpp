@@ -65,6 +65,8 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
     throw UsageError(concat("format: expected obj, ply, glb or npy, found ", quoted(name)));
   }
   const std::lock_guard lock(building_);
+  require_masks_of_config();
+  painting_.apply();
   return json_answer(
       file_json(folder_.save(face, *format, session_.build(face.recipe), pictures_.textures())));
 }
@@ -77,6 +79,7 @@ HttpAnswer EditApi::picture(const HttpRequest& request, const std::string&) {
   const auto size =
       body.contains("size") ? static_cast<int>(number_in(body, "size", kLeast, kMost)) : 1024;
   const std::lock_guard lock(building_);
+  painting_.apply();
   std::string png = pictures_.picture(face.recipe, session_.build(face.recipe), view, size);
   folder_.save_picture(face.id, png);
   return {200, "image/png", std::move(png)};
@@ -93,6 +96,7 @@ HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
   const HandRecipe recipe =
       hand_recipe_of_json(body.contains("recipe") ? body["recipe"] : Json(), config);
   const std::lock_guard lock(building_);
+  require_masks_of_config();
   crowdface::put_recipe(recipe, config);
   return json_answer(file_json(config.file));
 }

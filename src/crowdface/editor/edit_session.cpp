@@ -106,6 +106,12 @@ Positions EditSession::build(const Recipe& recipe) const {
   return builder_.rebuild(recipe, kept_);
 }
 
+void EditSession::use_masks(const RegionWeights& masks) {
+  const std::lock_guard lock(kept_mutex_);
+  builder_.use_masks(job_.config, masks);
+  kept_ = {};
+}
+
 FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face) const {
   const Judging& judging = judging_.get();
   const FaceJudge& judge = judging.judge;

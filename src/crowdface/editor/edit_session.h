@@ -53,6 +53,12 @@ class EditSession {
   /// The positions of a head at the preview's vertices, its fields and their functions, likewise.
   std::string head(Index head) const;
 
+  /// The masks that faces are blended with: zero at parts that are no skin.
+  const RegionWeights& masks() const { return builder_.regions(); }
+  /// Faces are blended with other masks from now on; distances, warnings and what is drawn go by the
+  /// config's. Not while another thread builds or reads masks.
+  void use_masks(const RegionWeights& masks);
+
   /// Every point of a face, as it would be saved. Quick where the face before it differs in few regions.
   Positions build(const Recipe& recipe) const;
   /// \param face  what `build` gave

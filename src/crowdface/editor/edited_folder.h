@@ -25,6 +25,8 @@ class EditedFolder {
   /// \param path  see make_edited_folder
   EditedFolder(const Job& job, std::filesystem::path path);
 
+  const std::filesystem::path& path() const { return path_; }
+
   /// What the page last kept, as it gave it; empty: nothing yet.
   std::string state() const;
   void keep_state(std::string_view text);

@@ -45,21 +45,25 @@ std::vector<std::vector<double>> masks_at(const SkinContacts& contacts,
 FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared)
     : inputs_(inputs),
       prepared_(prepared),
-      regions_(inputs.regions),
       contacts_(inputs.faces, inputs.adjacency, vertices_of(inputs.skin, inputs.skin.largest())),
-      contact_masks_(masks_at(contacts_, inputs.regions)),
       keeps_contacts_(config.blending.contacts == Contacts::kAuto),
       mm_per_unit_(mm_per(config.faces.units)) {
+  use_masks(config, inputs.regions);
+  if (!inputs.parts.parts.empty()) {
+    follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
+  }
+}
+
+void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) {
+  regions_ = regions;
+  contact_masks_ = masks_at(contacts_, regions);
   if (config.parts.shape == PartShape::kTarget) {
-    for (const Part& part : inputs.parts.parts) {
+    for (const Part& part : inputs_.parts.parts) {
       for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
     }
   }
   if (config.smoothing.levels != Levels::kExact) {
-    blender_.emplace(inputs.faces, head_levels(config, prepared), regions_);
-  }
-  if (!inputs.parts.parts.empty()) {
-    follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
+    blender_.emplace(inputs_.faces, head_levels(config, prepared_), regions_);
   }
 }
 

@@ -33,6 +33,10 @@ class FaceBuilder {
   /// \param kept  what the last call left there; empty at first.
   Positions rebuild(const Recipe& recipe, Kept& kept) const;
 
+  /// Faces are blended with these masks from now on, in place of the inputs'. What `rebuild` kept is of no
+  /// use afterwards.
+  void use_masks(const Config& config, const RegionWeights& regions);
+
   /// The masks that faces are blended with: zero at vertices that parts put elsewhere.
   const RegionWeights& regions() const { return regions_; }
 
