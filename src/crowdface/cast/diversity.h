@@ -60,7 +60,7 @@ enum class Reason {
   kFamily,              ///< among another family, or too far from its own
   kRejected,            ///< too like the face that a review rejected
 };
-constexpr std::size_t kReasonCount = 10;
+constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;
 /// "min_distance", "min_distance_to_faces", …: the config key that asks for it, where there is one.
 std::string_view name_of(Reason reason);
 
