@@ -2,12 +2,14 @@
 #include <memory>
 
 #include "crowdface/config/input_files.h"
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/pictures/crowd_renders.h"
+#include "crowdface/run/output_check.h"
 #include "crowdface/run/pipeline.h"
 #include "crowdface/smooth/level_size.h"
 
@@ -16,6 +18,15 @@
 
 namespace crowdface::cli {
 namespace {
+
+/// Tells what `generate` would say of the output folder.
+void look_at_output(const Job& job) {
+  try {
+    check_output(job, Replace::kRefuse);
+  } catch (const Error& error) {
+    log_warning(concat("generate would refuse this: ", error.what()));
+  }
+}
 
 void describe(const Job& job) {
   const Inputs& inputs = job.inputs;
@@ -76,6 +87,7 @@ Run add_check(CLI::App& program) {
       [](const Options& options) {
         const Job job =
             load_job(options.config.config, options.config.overrides, options.config.cache_path());
+        look_at_output(job);
         describe(job);
         if (!options.masks.empty()) write_masks(job, options.masks);
       });

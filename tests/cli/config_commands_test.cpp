@@ -136,7 +136,11 @@ TEST(Init, TakesTheMaskAndTheTagsBesideTheHeads) {
   crowdface(0, {"init", (folder / "heads").string(), "-o", config}, {"regions.png"});
   crowdface(0, {"check", config}, {"is fine", "top, middle, bottom"});
   EXPECT_THAT(read_text(config), ::testing::ContainsRegex("synth_02: \\[(fe)?male, [a-z]+\\]"));
-  crowdface(0, {"check", config, "--set", "faces.units=m"}, {"28 cm", "units"});
+  crowdface(65, {"check", config, "--set", "faces.units=in"}, {"set units: cm", "align: none"});
+  crowdface(65, {"check", config, "--set", "faces.up=+Z", "--set", "faces.front=-Y"},
+            {"set up: +Y and front: +Z"});
+  crowdface(0, {"check", config, "--set", "faces.units=m", "--set", "faces.align=none"},
+            {"is fine"});
   for (const char* input : {"heads/tags.yaml", "heads/regions.png"}) {
     crowdface(64, {"init", (folder / "heads").string(), "-o", (folder / input).string(), "--force"},
               {"is an input"});

@@ -30,13 +30,5 @@ TEST(FirstDifference, NamesCounts) {
               HasSubstr("expected 2 faces, found 1"));
 }
 
-TEST(FirstDifference, SeesTextureIndices) {
-  Topology a = make_topology(3, {{0, 1, 2}}), b = a;
-  a.corner_uvs = {0, 1, 2};
-  EXPECT_THAT(first_difference(a, b), HasSubstr("texture coordinates 1 2 3, found none"));
-  b.corner_uvs = {0, 2, 1};
-  EXPECT_THAT(first_difference(a, b), HasSubstr("texture coordinates 1 2 3, found 1 3 2"));
-}
-
 }  // namespace
 }  // namespace crowdface

@@ -238,6 +238,17 @@ TEST_F(MaskFiles, MissingTilesAreAllNamed) {
   }
 }
 
+TEST_F(MaskFiles, TilesThatNobodyNeedsMayLack) {
+  write("m.1001.png", {0, 255, 0});
+  const Strip strip({{0.5, 0.5}, {1.5, 0.5}, {0.5, 0.7}});
+  const std::vector<MaskSource> masks = {MaskSource(path("m.<UDIM>.png"))};
+  const auto weights = region_weights(strip.topology, strip.uvs, masks, 3, {true, false, true});
+  EXPECT_EQ(weights.uncovered_vertices, 0);
+  EXPECT_EQ(weights.alpha(0, 1), 1);
+  EXPECT_EQ(weights.alpha(1, 2), 1) << "the last region";
+  EXPECT_THROW(region_weights(strip.topology, strip.uvs, masks, 3, {false, true, false}), Error);
+}
+
 TEST_F(MaskFiles, TilesMustAgreeInChannels) {
   write("m.1001.png", {255, 0, 0, 255});  // alpha does not count
   write("m.1002.png", {0, 255, 0});

@@ -18,6 +18,7 @@ constexpr double kMostDegrees = 6;
 constexpr double kMostShift = 0.06;
 constexpr double kMostScale = 1.3;
 constexpr double kOtherUnit = 5;  // times as large: no head of people, but one in another unit
+constexpr double kMostTurn = 45;  // degrees: what is carried over then is no detail
 constexpr Index kPoints = 2000;
 
 /// Evenly chosen vertices of the skin.
@@ -115,6 +116,12 @@ std::vector<std::string> align_heads(FaceSet& faces, const Components& component
                                 ": expected heads in one unit, found ",
                                 format_fixed(poses[h].scale, 2),
                                 " times the size of the others (faces.align: none takes it)"));
+    }
+    if (align == Align::kCheck && poses[h].angle_degrees > kMostTurn) {
+      throw InvalidInput(concat("head ", faces.heads[h].name, " is turned by ",
+                                format_fixed(poses[h].angle_degrees, 1),
+                                " degrees against the others: faces.align: rigid turns it back "
+                                "(none takes it as it is)"));
     }
     warnings.push_back(concat(
         "head ", faces.heads[h].name, " does not stand in one frame with the others: turned by ",

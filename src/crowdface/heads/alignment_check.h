@@ -22,6 +22,7 @@ std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& compone
 
 /// Warnings about heads that are turned, moved or scaled against the others, which would enter as
 /// detail. `check`: as found; `rigid`: heads are moved onto the first head first.
+/// \throws InvalidInput if a head is in another unit, or (`check`) turned by more than 45 degrees.
 std::vector<std::string> align_heads(FaceSet& faces, const Components& components, Align align);
 
 }  // namespace crowdface

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <span>
+#include <utility>
 
+#include "crowdface/core/length_units.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
@@ -13,6 +16,7 @@
 #include "crowdface/heads/load_shapes.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
+#include "crowdface/paint/face_marks.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -39,15 +43,27 @@ void check_masks(const std::vector<std::string>& files, Problems& problems) {
   }
 }
 
-/// The first texture coordinate that differs from the first head's; empty if none does.
-std::string uv_difference(const TextureCoordinates& expected, const TextureCoordinates& found) {
-  if (expected.rows() != found.rows()) {
-    return concat("expected ", expected.rows(), " texture coordinates, found ", found.rows());
-  }
-  for (Index i = 0; i < expected.rows(); ++i) {
-    if ((expected.row(i) - found.row(i)).cwiseAbs().maxCoeff() > kUvTolerance) {
-      return concat("texture coordinate ", i + 1, ": expected ", expected(i, 0), " ",
-                    expected(i, 1), ", found ", found(i, 0), " ", found(i, 1));
+/// The first corner that has another place in the texture, whatever rows the places stand in: programs
+/// number them anew when they write a file. Empty if there is none.
+std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found) {
+  const auto text = [](const TextureCoordinates& uvs, std::uint32_t row) {
+    return row == kNoIndex ? std::string("none") : concat(uvs(row, 0), ' ', uvs(row, 1));
+  };
+  for (Index f = 0; f < expected.topology.face_count(); ++f) {
+    const auto [begin, end] = expected.topology.corners(f);
+    for (std::uint32_t c = begin; c < end; ++c) {
+      const std::uint32_t a =
+          expected.topology.corner_uvs.empty() ? kNoIndex : expected.topology.corner_uvs[c];
+      const std::uint32_t b =
+          found.topology.corner_uvs.empty() ? kNoIndex : found.topology.corner_uvs[c];
+      if (a == kNoIndex && b == kNoIndex) continue;
+      if (a != kNoIndex && b != kNoIndex &&
+          (expected.uvs.row(a) - found.uvs.row(b)).cwiseAbs().maxCoeff() <= kUvTolerance) {
+        continue;
+      }
+      return concat("face ", f + 1, ", corner ", c - begin + 1,
+                    ": expected the texture coordinate ", text(expected.uvs, a), ", found ",
+                    text(found.uvs, b));
     }
   }
   return {};
@@ -56,8 +72,9 @@ std::string uv_difference(const TextureCoordinates& expected, const TextureCoord
 void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) {
   for (const HeadFile& head : heads) {
     if (head.mesh == heads[0].mesh) continue;
-    std::string difference = first_difference(heads[0].mesh->topology, head.mesh->topology);
-    if (difference.empty()) difference = uv_difference(heads[0].mesh->uvs, head.mesh->uvs);
+    const HeadMesh &first = *heads[0].mesh, &mesh = *head.mesh;
+    std::string difference = first_difference(first.topology, mesh.topology);
+    if (difference.empty()) difference = first_uv_difference(first, mesh);
     if (difference.empty()) continue;
     problems.add(ExitCode::kBadData, concat(head.file.path.string(), ": not the same mesh as ",
                                             heads[0].file.path.string(), ": ", difference));
@@ -88,15 +105,75 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
   return sum / static_cast<double>(heads.size()) * mm_per(config.faces.units);
 }
 
-/// A warning if the first head is of no size that heads have, with or without shoulders.
-std::optional<std::string> odd_height(const Config& config, const Inputs& inputs) {
-  constexpr double kLeastMm = 80, kMostMm = 1200;
+/// The mean head, of whose parts those that follow are no skin.
+HeadShape shape_of(const Inputs& inputs) {
+  HeadShape head{mean_head(inputs.faces), {}, {}};
+  for (const std::uint32_t c : inputs.skin.of_vertex) {
+    head.skin.push_back(c == inputs.skin.largest());
+  }
+  return head;
+}
+
+/// \throws InvalidInput if the heads look another way than the config says, or are of a size that no
+/// heads have: then everything that is measured would be wrong.
+void check_stance(const Config& config, const Inputs& inputs) {
+  if (config.faces.align == Align::kNone) return;
+  const HeadShape head = shape_of(inputs);
+  const Topology& topology = inputs.faces.topology;
+  const Bearing asked{config.faces.up, config.faces.front};
+  auto marks = find_face_marks(topology, head, axes_of(asked));
+  if (!marks) {
+    const auto found = find_bearing(topology, head);
+    if (!found) return;
+    throw InvalidInput(concat(
+        "the heads look along ", name_of(found->front), " with ", name_of(found->up),
+        " up, and not as faces.front ", name_of(asked.front), " and faces.up ", name_of(asked.up),
+        " say: set up: ", name_of(found->up), " and front: ", name_of(found->front),
+        " (faces.align: none takes them as they are)"));
+  }
+  constexpr double kLeastMm = 35, kMostMm = 120;  // of people, from a child's 45 mm to some 85
+  const double mm = marks->face() * mm_per(config.faces.units);
+  if (mm >= kLeastMm && mm <= kMostMm) return;
   const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
-  const double units = up.maxCoeff() - up.minCoeff(), mm = units * mm_per(config.faces.units);
-  if (!(mm > 0) || (mm >= kLeastMm && mm <= kMostMm)) return std::nullopt;
-  return concat("the first head is ", format_fixed(units, 2), " units high, with faces.units ",
-                name_of(config.faces.units), " ", format_fixed(mm / 10, 1),
-                " cm: a head is some 28 cm high. All sizes rest on faces.units and faces.up");
+  const double units = up.maxCoeff() - up.minCoeff();
+  std::string fitting;
+  for (const LengthUnit unit : kLengthUnits) {
+    const double other = marks->face() * mm_per(unit);
+    if (other >= kLeastMm && other <= kMostMm) fitting = concat(": set units: ", name_of(unit));
+  }
+  throw InvalidInput(concat("the first head is ", format_fixed(units, 2),
+                            " units high, with faces.units ", name_of(config.faces.units), " ",
+                            format_fixed(units * mm_per(config.faces.units) / 10, 1), " cm, and ",
+                            format_fixed(mm, 0),
+                            " mm from the eyes to the mouth; of people that is some 65 mm", fitting,
+                            " (faces.align: none takes any size)"));
+}
+
+/// A warning for each mask that is one image where the skin lies in several tiles.
+std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs) {
+  std::set<std::pair<double, double>> tiles;
+  const Topology& topology = inputs.faces.topology;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto uvs = topology.face_uvs(f);
+    if (uvs.empty() || inputs.skin.of_vertex[topology.face(f)[0]] != inputs.skin.largest())
+      continue;
+    Eigen::RowVector2d middle(0, 0);
+    for (const std::uint32_t uv : uvs) {
+      if (uv != kNoIndex) {
+        middle += inputs.faces.uvs.row(uv) / static_cast<double>(uvs.size());
+      }
+    }
+    tiles.emplace(std::floor(middle.x()), std::floor(middle.y()));
+  }
+  std::vector<std::string> warnings;
+  for (const std::string& mask : config.regions.mask) {
+    if (tiles.size() < 2 || MaskSource(mask).tiled()) continue;
+    warnings.push_back(concat("mask ", mask, " is one image, but the skin's texture has ",
+                              tiles.size(),
+                              " tiles: beyond the first its edge goes on; with <UDIM> "
+                              "in its name each tile has an image of its own"));
+  }
+  return warnings;
 }
 
 /// A warning if single precision, in which meshes are written, keeps no hundredth of a millimetre where
@@ -121,12 +198,16 @@ std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
   return std::max<std::uint64_t>(level, 1);
 }
 
-RegionWeights load_regions(const Config& config, const FaceSet& faces) {
+/// Parts that follow the skin need no mask.
+RegionWeights load_regions(const Config& config, const Inputs& inputs) {
+  const FaceSet& faces = inputs.faces;
   const auto names = config.region_names();
   if (config.regions.names.empty()) return whole_head(faces.topology);
+  std::vector<bool> skin;
+  for (const std::uint32_t c : inputs.skin.of_vertex) skin.push_back(c == inputs.skin.largest());
   return region_weights(faces.topology, faces.uvs,
                         {config.regions.mask.begin(), config.regions.mask.end()},
-                        static_cast<Index>(names.size()));
+                        static_cast<Index>(names.size()), skin);
 }
 
 template <class T>
@@ -241,11 +322,19 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
     problems.add(error);
     return std::nullopt;
   }
-  if (auto text = odd_height(config, inputs)) warn(inputs, std::move(*text));
+  const std::size_t before = problems.size();
+  find_named_parts(config, inputs, problems);
+  try {
+    check_stance(config, inputs);
+  } catch (const Error& error) {
+    problems.add(error);
+  }
+  if (problems.size() > before) return std::nullopt;
+  for (std::string& text : lone_masks(config, inputs)) warn(inputs, std::move(text));
   if (auto text = far_from_origin(config, inputs)) warn(inputs, std::move(*text));
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {
-    inputs.regions = load_regions(config, inputs.faces);
+    inputs.regions = load_regions(config, inputs);
     if (config.distance.mask) {
       inputs.distance_mask =
           mask_values(inputs.faces.topology, inputs.faces.uvs, MaskSource(*config.distance.mask));
@@ -261,9 +350,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
                         config.region_names().back()));
   }
   compute_digests(inputs);
-  const std::size_t before = problems.size();
   read_textures(config, inputs, problems);
-  find_named_parts(config, inputs, problems);
   load_shapes(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;
   return inputs;

@@ -73,11 +73,6 @@ std::string first_difference(const Topology& expected, const Topology& found) {
       return concat("face ", f + 1, ": expected vertices ", list_from_one(a), ", found ",
                     list_from_one(b));
     }
-    const auto ua = expected.face_uvs(f), ub = found.face_uvs(f);
-    if (!std::ranges::equal(ua, ub)) {
-      return concat("face ", f + 1, ": expected texture coordinates ", list_from_one(ua),
-                    ", found ", ub.empty() ? std::string("none") : list_from_one(ub));
-    }
   }
   if (expected.face_count() != found.face_count()) {
     return concat("expected ", expected.face_count(), " faces, found ", found.face_count());

@@ -31,15 +31,20 @@ struct LoadedMask {
   std::map<int, LoadedTile> tiles;  ///< a single picture stands as kFirstTile
 
   std::size_t channels() const { return tiles.empty() ? 0 : tiles.begin()->second.channels.size(); }
+  /// Zero where no image is needed and none is there.
   double at(const UvSample& sample, std::size_t channel) const {
-    const LoadedTile& tile = tiles.at(tiled ? sample.tile : kFirstTile);
+    const auto found = tiles.find(tiled ? sample.tile : kFirstTile);
+    if (found == tiles.end()) return 0;
+    const LoadedTile& tile = found->second;
     const int number = tiled ? sample.tile - kFirstTile : 0;
     const int column = number % 10, row = number / 10;
     return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
 };
 
-LoadedMask load(const MaskSource& source, const std::set<int>& used, Problems& problems) {
+/// \param needed  those of the used tiles that must be there.
+LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::set<int>& needed,
+                Problems& problems) {
   LoadedMask mask;
   mask.tiled = source.tiled();
   for (const int tile : mask.tiled ? used : std::set<int>{kFirstTile}) {
@@ -50,7 +55,7 @@ LoadedMask load(const MaskSource& source, const std::set<int>& used, Problems& p
     } catch (const MissingInput& error) {
       if (!mask.tiled) {
         problems.add(error);
-      } else {
+      } else if (needed.contains(tile)) {
         problems.add(ExitCode::kMissingInput, concat("mask ", source.path(), ": tile ", tile,
                                                      " is used by texture coordinates, but ",
                                                      source.file_of(tile), " cannot be found"));
@@ -128,16 +133,25 @@ RegionWeights whole_head(const Topology& topology) {
 }
 
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
-                             const std::vector<MaskSource>& masks, Index regions) {
+                             const std::vector<MaskSource>& masks, Index regions,
+                             const std::vector<bool>& needed) {
   require(regions >= 1, "region: weights of ", regions, " regions");
   if (masks.empty() && regions == 1) return whole_head(topology);
   const bool tiled = std::any_of(masks.begin(), masks.end(), [](auto& m) { return m.tiled(); });
   const UvSamples samples = gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne);
   const std::set<int> used = tiles_of(samples);
+  const auto is_needed = [&](Index v) {
+    return needed.empty() || needed[static_cast<std::size_t>(v)];
+  };
+  std::set<int> needed_tiles;
+  for (Index v = 0; v < topology.vertex_count; ++v) {
+    if (!is_needed(v)) continue;
+    for (const UvSample& sample : samples.of(v)) needed_tiles.insert(sample.tile);
+  }
   std::vector<LoadedMask> loaded;
   loaded.reserve(masks.size());
   Problems problems;
-  for (const MaskSource& mask : masks) loaded.push_back(load(mask, used, problems));
+  for (const MaskSource& mask : masks) loaded.push_back(load(mask, used, needed_tiles, problems));
   problems.throw_if_any();
   check_channels(masks, loaded, regions);
 
@@ -147,7 +161,7 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
     const auto places = samples.of(i);
     if (!places.empty() && normalised_mean(loaded, places, weights.alpha.row(i))) return;
     weights.alpha(i, regions - 1) = 1;
-    uncovered[static_cast<std::size_t>(i)] = places.empty() ? 0 : 1;
+    uncovered[static_cast<std::size_t>(i)] = places.empty() || !is_needed(i) ? 0 : 1;
   });
   weights.uncovered_vertices = std::count(uncovered.begin(), uncovered.end(), 1);
   return weights;
@@ -158,7 +172,8 @@ std::vector<double> mask_values(const Topology& topology, const TextureCoordinat
   const UvSamples samples =
       gather_uv_samples(topology, uvs, mask.tiled() ? Tiles::kUdim : Tiles::kOne);
   Problems problems;
-  const LoadedMask loaded = load(mask, tiles_of(samples), problems);
+  const std::set<int> used = tiles_of(samples);
+  const LoadedMask loaded = load(mask, used, used, problems);
   problems.throw_if_any();
   check_channels({mask}, {loaded}, 1);
   std::vector<double> values(static_cast<std::size_t>(topology.vertex_count), 0.0);

@@ -30,11 +30,14 @@ RegionWeights whole_head(const Topology& topology);
 /// scaled to sum to one; where that is zero, and for vertices in no face, the last region.
 ///
 /// \param masks    may be empty if there is one region.
+/// \param needed   #V, or empty for all: of a tile that none of these vertices lies in there need be no
+///                 image; vertices that lie nowhere else go to the last region.
 /// \throws MissingInput if an image or a tile that some texture coordinate lies in is missing, all
 ///         of them named; InvalidInput if an image cannot be used, channels do not suffice, a whole
 ///         image is left over, tiles differ in channels, or texture coordinates lack.
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
-                             const std::vector<MaskSource>& masks, Index regions);
+                             const std::vector<MaskSource>& masks, Index regions,
+                             const std::vector<bool>& needed = {});
 
 /// The first channel of one mask at every vertex, looked up in the same way but not scaled; zero for
 /// vertices in no face. \throws as region_weights.
