@@ -130,7 +130,7 @@ std::optional<fs::path> gallery_page_folder() {
 }
 
 std::optional<fs::path> find_gallery_page() {
-  const auto folder = gallery_page_folder();
+  auto folder = gallery_page_folder();
   if (!folder) return std::nullopt;
   std::error_code error;
   for (const std::string_view file : kGalleryPageFiles) {

@@ -37,7 +37,7 @@ std::vector<fs::path> font_folders() {
 }
 
 fs::path find_font() {
-  const fs::path usual = fs::path("/usr/share/fonts/truetype/dejavu") / kFontFile;
+  fs::path usual = fs::path("/usr/share/fonts/truetype/dejavu") / kFontFile;
   if (fs::exists(usual)) return usual;
   for (const fs::path& folder : font_folders()) {
     if (!fs::is_directory(folder)) continue;
