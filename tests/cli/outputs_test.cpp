@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where commands write, and what they never write over.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
@@ -172,12 +174,13 @@ TEST_F(Outputs, WhatCannotBeWrittenIsToldBeforeTheWork) {
 
 // The config in the crowd's folder could not be read again, nor the crowd gathered.
 TEST_F(Outputs, PathsThatNoConfigCanHoldAreRefused) {
-  for (const char* name : {"h\xe4ut", "two\nlines"}) {
+  for (const auto& [name, why] :
+       {std::pair{"h\xe4ut", "UTF-8"}, std::pair{"two\nlines", "a single line"}}) {
     fs::create_directory(folder_ / name);
     fs::copy(folder_ / "heads", folder_ / name, fs::copy_options::recursive);
     before_ = all();
     crowdface(64, {"plan", folder_.config().string(), "--out", at(name)}, {"expected"});
-    crowdface(64, {"init", at(name), "-o", at("new.yaml")}, {"UTF-8"});
+    crowdface(64, {"init", at(name), "-o", at("new.yaml")}, {why});
     expect_nothing_changed();
   }
 }

@@ -234,6 +234,7 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  max_flipped: 0.003\n"
             "  max_intersecting: 0.01\n"
             "  max_gap: 0.5 mm\n"
+            "  max_exposed: 3\n"
             "  meshes: auto\n"
             "recipes: []\n"
             "families: []\n"
