@@ -36,7 +36,7 @@ expect_error 'src/crowdface/mesh/b.h:1: mesh (floor 1) includes smooth (floor 2)
 echo '#include "crowdface/plane/a.h"' >"$tree/src/crowdface/mesh/b.h"
 expect_error 'src/crowdface/mesh/b.h:1: mesh (floor 1) includes plane (floor 1)'
 echo '#include "crowdface/crowdface.h"' >"$tree/src/crowdface/mesh/b.h"
-expect_error 'src/crowdface/mesh/b.h:1: mesh (floor 1) includes crowdface (floor 10)'
+expect_error 'src/crowdface/mesh/b.h:1: mesh (floor 1) includes crowdface (floor 11)'
 rm "$tree/src/crowdface/mesh/b.h"
 echo '#include "crowdface/core/a.h"' >"$tree/src/crowdface/thing/a.cpp"
 expect_error 'module thing has no floor'
