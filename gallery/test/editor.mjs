@@ -17,6 +17,7 @@ const browser = await chromium.launch({
 });
 const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true });
 const page = await context.newPage();
+page.setDefaultTimeout(120000); // a busy machine is no fault
 const problems = [];
 page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
 page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
@@ -41,7 +42,7 @@ const steps = () => editor('editor.history.past.length');
 const settled = () => page.waitForFunction(() => {
   const { editor: it } = window.crowdface;
   return it.ready && !it.pending && it.exactOf === it.document;
-}, null, { timeout: 60000 });
+}, null, { timeout: 120000 });
 const farthest = (a, b) => a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i])), 0);
 const frames = () => editor('editor.view.frames');
 
@@ -215,7 +216,7 @@ if (!process.env.MOCK) {
   assert.ok(same(drawn.regions[region], held), 'a locked region stays');
 }
 await page.keyboard.press('l');
-await page.waitForFunction(() => document.querySelectorAll('.picks .card img').length === 6, null, { timeout: 60000 });
+await page.waitForFunction(() => document.querySelectorAll('.picks .card img').length === 6, null, { timeout: 120000 });
 await settled();
 await take('six');
 await page.locator('.picks .card button').nth(2).click();
@@ -355,7 +356,7 @@ await settled();
 await page.getByLabel('Format of the mesh').selectOption('obj');
 await page.keyboard.press('Escape');
 await page.keyboard.press('Control+s');
-await page.waitForFunction(() => /^Saved: /.test(document.querySelector('.message').textContent), null, { timeout: 60000 });
+await page.waitForFunction(() => /^Saved: /.test(document.querySelector('.message').textContent), null, { timeout: 120000 });
 const file = (await page.locator('.message').innerText()).replace('Saved: ', '');
 const saved = await editor('editor.wire()');
 await take('saved');
@@ -365,7 +366,7 @@ assert.match((await download).suggestedFilename(), /^made_by_hand_.*\.png$/);
 
 // Put it under the config's recipes, and say about a face of the crowd what a review says.
 const said = (pattern) => page.waitForFunction(
-  (text) => new RegExp(text).test(document.querySelector('.message').textContent), pattern, { timeout: 30000 });
+  (text) => new RegExp(text).test(document.querySelector('.message').textContent), pattern, { timeout: 120000 });
 await page.getByRole('button', { name: 'Put back' }).click();
 await page.getByRole('button', { name: 'Put it under recipes' }).click();
 await said('made_by_hand stands under recipes');
