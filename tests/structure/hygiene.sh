@@ -32,7 +32,7 @@ awk '
 
 # Written in pieces, so that this file does not match itself.
 places='(^|[^[:alnum:]_.~}$<>/-])/(home|root|User''s|work|mnt|srv|data)/[[:alnum:]]'
-found=$(printf '%s\0' "${files[@]}" | xargs -0 grep -HnIE --no-messages "$places" || true)
+found=$(printf '%s\0' "${files[@]}" | xargs -0 grep -HnaoE --no-messages "$places.*" | cut -c1-200 || true)
 if [ -n "$found" ]; then
   echo "expected no absolute path of a machine, found:"
   echo "$found"

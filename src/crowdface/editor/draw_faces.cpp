@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "crowdface/cast/ageing.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
@@ -15,18 +16,6 @@ double between(double a, double b, double share) {
   return a + share * (b - a);
 }
 
-std::vector<SourceWeight> between(const std::vector<SourceWeight>& a,
-                                  const std::vector<SourceWeight>& b, double share) {
-  std::map<Index, double> sums;
-  for (const SourceWeight& source : a) sums[source.head] += (1 - share) * source.weight;
-  for (const SourceWeight& source : b) sums[source.head] += share * source.weight;
-  std::vector<SourceWeight> weights;
-  for (const auto& [head, weight] : sums) {
-    if (weight != 0) weights.push_back({head, weight});
-  }
-  return weights;
-}
-
 RegionRecipe between(const RegionRecipe& a, const RegionRecipe& b, double share, Index target,
                      const Casting& casting) {
   RegionRecipe region;
@@ -35,7 +24,7 @@ RegionRecipe between(const RegionRecipe& a, const RegionRecipe& b, double share,
     region.weights = weights_at(casting.anchors, target, casting.sampling.sources, *region.position,
                                 casting.normalization, casting.sampling.max_sources);
   } else {
-    region.weights = between(a.weights, b.weights, share);
+    region.weights = mixed_weights(a.weights, b.weights, share);
   }
   region.smoothness = between(a.smoothness, b.smoothness, share);
   region.iterations = iterations_of(region.smoothness, casting.scale);
