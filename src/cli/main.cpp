@@ -56,34 +56,39 @@ bool is_lack_of_resources(const std::exception& error) {
   return false;
 }
 
+constexpr const char* kOutOfMemory = "out of memory; fewer threads (--threads) need less";
+
+/// Says what went wrong. A library that got no memory may have told of it as of a broken file.
+int fail(ExitCode code, std::string_view message) {
+  log_error(message);
+  if (!memory_ran_out()) return static_cast<int>(code);
+  if (message != kOutOfMemory) log_error(kOutOfMemory);
+  return static_cast<int>(ExitCode::kIoError);
+}
+
 /// The one place where errors become messages and exit codes.
 int run(const Run& command) {
   try {
     command();
+    if (memory_ran_out()) throw std::bad_alloc();
     if (const auto failed = log_failure()) {
       throw IoError(concat("the log is not whole: ", *failed));
     }
     if (!std::cout.flush()) throw IoError("standard output: writing failed");
     return static_cast<int>(ExitCode::kDone);
   } catch (const Error& error) {
-    log_error(error.what());
-    return static_cast<int>(error.code());
+    return fail(error.code(), error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    log_error(error.what());
-    return static_cast<int>(ExitCode::kIoError);
+    return fail(ExitCode::kIoError, error.what());
   } catch (const std::system_error& error) {
-    log_error(concat(kLack, error.what()));
-    return static_cast<int>(ExitCode::kIoError);
+    return fail(ExitCode::kIoError, concat(kLack, error.what()));
   } catch (const std::bad_alloc&) {
-    log_error("out of memory; fewer threads (--threads) need less");
-    return static_cast<int>(ExitCode::kIoError);
+    return fail(ExitCode::kIoError, kOutOfMemory);
   } catch (const std::exception& error) {
     if (is_lack_of_resources(error)) {
-      log_error(concat(kLack, error.what()));
-      return static_cast<int>(ExitCode::kIoError);
+      return fail(ExitCode::kIoError, concat(kLack, error.what()));
     }
-    log_error(concat("internal error, please report it: ", error.what()));
-    return static_cast<int>(ExitCode::kBug);
+    return fail(ExitCode::kBug, concat("internal error, please report it: ", error.what()));
   }
 }
 
@@ -150,6 +155,7 @@ int run_program(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   give_back_large_blocks();
+  watch_for_lack_of_memory();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
   program.set_version_flag("--version", std::string("crowdface ") + kVersion);

@@ -2,6 +2,7 @@
 #include "crowdface/core/memory.h"
 
 #include <cstdlib>
+#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -57,6 +58,17 @@ TEST(Memory, LargeBlocksGoBackEvenAfterLargerOnesWereFreed) {
   EXPECT_EQ(mapped(), before);
 }
 #endif
+
+// A run said that it was done although a library had caught this and drawn a sheet without letters.
+TEST(MemoryRanOut, KnowsWhatSomebodyElseCaught) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer's operator new ends the program";
+#endif
+  watch_for_lack_of_memory();
+  EXPECT_FALSE(memory_ran_out());
+  EXPECT_THROW(::operator delete(::operator new (std::size_t{1} << 62)), std::bad_alloc);
+  EXPECT_TRUE(memory_ran_out());
+}
 
 }  // namespace
 }  // namespace crowdface

@@ -54,6 +54,10 @@ TEST_P(LibraryCall, ThatFailsIsToldOrDoesNoHarm) {
     const Outcome outcome = run(concat(at));
     const std::string what =
         concat(GetParam(), " number ", at, " of ", *calls, ": ", outcome.code, ' ', outcome.err);
+    // The C library itself ends a program that it cannot register a thread's destructor for.
+    if (outcome.err.find("failed to register TLS destructor: out of memory") != std::string::npos) {
+      continue;
+    }
     EXPECT_TRUE(outcome.code == 0 || outcome.code == 73 || outcome.code == 74) << what;
     if (outcome.code == 0) {
       EXPECT_THAT(differing_files(whole, crowd_files(folder_.out())), ::testing::IsEmpty()) << what;
@@ -64,7 +68,8 @@ TEST_P(LibraryCall, ThatFailsIsToldOrDoesNoHarm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, LibraryCall,
-                         ::testing::Values("malloc", "mmap", "opendir", "readdir", "fstat",
+                         ::testing::Values("malloc", "calloc", "realloc", "posix_memalign",
+                                           "aligned_alloc", "mmap", "opendir", "readdir", "fstat",
                                            "pthread_create"),
                          [](const auto& kind) { return kind.param; });
 

@@ -19,6 +19,9 @@
 #include <unistd.h>
 
 extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* __libc_calloc(std::size_t count, std::size_t size);
+extern "C" void* __libc_realloc(void* memory, std::size_t size);
+extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 namespace {
 
@@ -70,6 +73,24 @@ sighandler_t signal(int number, sighandler_t handler) {
 
 void* malloc(std::size_t size) {
   return fails("malloc", ENOMEM) ? nullptr : __libc_malloc(size);
+}
+
+void* calloc(std::size_t count, std::size_t size) {
+  return fails("calloc", ENOMEM) ? nullptr : __libc_calloc(count, size);
+}
+
+void* realloc(void* memory, std::size_t size) {
+  return fails("realloc", ENOMEM) ? nullptr : __libc_realloc(memory, size);
+}
+
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+  void* const got = fails("posix_memalign", ENOMEM) ? nullptr : __libc_memalign(alignment, size);
+  if (got != nullptr) *memory = got;
+  return got != nullptr ? 0 : ENOMEM;
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  return fails("aligned_alloc", ENOMEM) ? nullptr : __libc_memalign(alignment, size);
 }
 
 void* mmap(void* at, std::size_t size, int protection, int flags, int fd, off_t offset) noexcept {

@@ -2,7 +2,9 @@
 #include "crowdface/core/memory.h"
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
+#include <new>
 
 #include <malloc.h>
 #include <sys/resource.h>
@@ -21,6 +23,13 @@ std::optional<std::uint64_t> group_limit(const char* file) {
   return parse_unsigned(text);  // "max" is no number: no limit
 }
 
+std::atomic<bool> ran_out = false;
+
+[[noreturn]] void note_lack_of_memory() {
+  ran_out = true;
+  throw std::bad_alloc();
+}
+
 }  // namespace
 
 std::uint64_t machine_memory() {
@@ -37,6 +46,14 @@ void give_back_large_blocks() {
   // glibc raises this by itself whenever such a block is freed, up to 32 MiB; once set it stays.
   constexpr int kLarge = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);  // NOLINT(concurrency-mt-unsafe): before any thread
+}
+
+void watch_for_lack_of_memory() {
+  std::set_new_handler(note_lack_of_memory);
+}
+
+bool memory_ran_out() {
+  return ran_out;
 }
 
 std::uint64_t peak_memory() {

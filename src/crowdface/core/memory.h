@@ -19,6 +19,11 @@ std::uint64_t peak_memory();
 /// stays, and leaves holes that no later block fits in. For programs, at their start.
 void give_back_large_blocks();
 
+/// From now on `memory_ran_out` knows of every `new` that failed, whoever called it: libraries catch
+/// what it throws and go on with less than they should have made. For programs, at their start.
+void watch_for_lack_of_memory();
+bool memory_ran_out();
+
 /// "4 GiB", "512 MiB", "3 GB" as bytes; nothing if it is no such size.
 std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
