@@ -62,8 +62,10 @@ void synth(const Options& options) {
     mask = beside ? fs::path(options.mask) : output_file(options.mask);
   }
   using Parts = SyntheticHeads::Parts;
+  using Scalp = SyntheticHeads::Scalp;
   const SyntheticHeads heads(static_cast<Index>(vertices),
-                             options.skin_only ? Parts::kSkin : Parts::kEyesAndTeeth);
+                             options.skin_only ? Parts::kSkin : Parts::kEyesAndTeeth,
+                             options.textures.empty() ? Scalp::kBare : Scalp::kHaired);
   std::vector<MaterialRange> materials;
   if (!options.skin_only) {
     for (const auto& piece : heads.pieces()) materials.push_back({piece.name, piece.first_face});
@@ -118,7 +120,8 @@ void declare(CLI::App& command, Options& options) {
   add_option(command, "--mask", options.mask, "FILE",
              "Where the region mask goes (default: DIR/regions.png)");
   add_option(command, "--textures", options.textures, "SIZE",
-             "Paint each head's skin, pictures of this side in texels: NAME_albedo.png, NAME.mtl");
+             "Give each head hair and paint it, pictures of this side in texels: NAME_albedo.png, "
+             "NAME.mtl");
   command.add_flag("--skin-only", options.skin_only,
                    "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
   command.add_flag("--tags", options.tags,

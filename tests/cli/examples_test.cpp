@@ -22,7 +22,7 @@ class Examples : public ::testing::Test {
     const fs::path heads = folder_ / "out/demo_heads";
     crowdface(
         0,
-        {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "8", "--textures", "64"},
+        {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "12", "--textures", "64"},
         {});
     crowdface(0,
               {"synth", "-o", (folder_ / "out/brief_heads").string(), "--vertices", "5000",

@@ -31,7 +31,7 @@ Material material_of(SurfaceKind kind) {
     case SurfaceKind::kHidden:
       break;
   }
-  return {{0.47F, 0.385F, 0.335F}, {0.30F, 0.19F, 0.14F}, 0.46F, 0.035F};
+  return {{0.47F, 0.385F, 0.335F}, {0.30F, 0.19F, 0.14F}, 0.48F, 0.03F};
 }
 
 struct Lamp {
@@ -84,6 +84,12 @@ float highlight(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye,
   return n_l * facets * fresnel / (shadowing * masking) * std::numbers::pi_v<float>;
 }
 
+/// What is darker than any skin is painted hair, which scatters what falls on it.
+float skin_gloss(const Light& albedo) {
+  constexpr float kDarkestSkin = 0.055F;
+  return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
+}
+
 /// Light that bounces inside a crevice is not lost: it comes out in the surface's colour (fit by
 /// Jimenez et al. 2016, "Practical realtime strategies for accurate indirect occlusion").
 Light with_bounces(float visible, const Light& albedo) {
@@ -123,7 +129,8 @@ bool faces_key(const ShadePoint& point) {
 
 Light shade(const ShadePoint& point) {
   const Studio& lamps = studio();
-  const Material material = material_of(point.kind);
+  Material material = material_of(point.kind);
+  if (point.kind == SurfaceKind::kSkin) material.reflectance *= skin_gloss(point.albedo);
   const Eigen::Vector3f& n = point.normal;
   const Light open = with_bounces(point.sky, point.albedo);
 

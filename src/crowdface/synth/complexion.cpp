@@ -61,11 +61,14 @@ Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
   look.freckles = look.tone < 0.35 ? smooth_step(0.55, 1, unit("synth/freckles")) : 0;
   look.age_spots = smooth_step(48, 75, person.age) * unit("synth/spots");
   look.brows = (male ? 0.9 : 0.75) + 0.2 * (unit("synth/brow_density") - 0.5);
-  look.brow_width = (male ? 1.15 : 0.85) + 0.3 * (unit("synth/brow_width") - 0.5);
+  look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
   if (male) {
     const double kind = unit("synth/beard");
     look.beard = kind < 0.45 ? 0.2 : kind < 0.8 ? 0.55 : 1;
     look.receding = smooth_step(28, 80, person.age + 45 * (unit("synth/receding") - 0.5));
+  } else {
+    look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
+    look.made_up = 0.2 + 0.8 * unit("synth/made_up");
   }
   return look;
 }

@@ -22,8 +22,10 @@ struct Complexion {
   double age_spots = 0;  ///< 0 … 1
   double brows = 1;      ///< how dense they are
   double brow_width = 1;
-  double beard = 0;     ///< 0 none, 0.2 shaven, 0.6 stubble, 1 a short beard
-  double receding = 0;  ///< 0 a full hairline … 1 bald on top
+  double brow_arch = 0;  ///< cm by which they rise further than a straight man's
+  double beard = 0;      ///< 0 none, 0.2 shaven, 0.6 stubble, 1 a short beard
+  double receding = 0;   ///< 0 a full hairline … 1 bald on top
+  double made_up = 0;    ///< 0 … 1: colour on lips and lids, dark lashes
 };
 
 /// Of five successive heads (from 5k on) each has a tone of another fifth.

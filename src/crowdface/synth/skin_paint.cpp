@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "crowdface/core/smooth_step.h"
+#include "crowdface/synth/knots.h"
 
 namespace crowdface::synth {
 namespace {
@@ -26,25 +27,6 @@ void tint(ScreenColour& colour, const ScreenColour& factor, double amount) {
 
 void cover(ScreenColour& colour, const ScreenColour& with, double amount) {
   colour += amount * (with - colour);
-}
-
-/// A value at x between knots (ascending), run through straight.
-template <std::size_t N>
-double between(const std::array<Vector2d, N>& knots, double x) {
-  if (x <= knots[0].x()) return knots[0].y();
-  for (std::size_t i = 1; i < N; ++i) {
-    if (x > knots[i].x()) continue;
-    const double t = (x - knots[i - 1].x()) / (knots[i].x() - knots[i - 1].x());
-    return knots[i - 1].y() + t * (knots[i].y() - knots[i - 1].y());
-  }
-  return knots[N - 1].y();
-}
-
-/// Around the head: 0 ahead, 1 at the side, 2 behind.
-double around_head(const Vector3d& p) {
-  const double x = std::abs(p.x()), z = std::abs(p.z());
-  const double quarter = x / std::max(x + z, 1e-9);
-  return p.z() >= 0 ? quarter : 2 - quarter;
 }
 
 /// How far below the line between the lips a mouth reaches at |x|, and how far above.
@@ -90,7 +72,8 @@ SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index)
       spots_(noise(5, 0.34)),
       hairs_(noise(6, 0.045)),
       tufts_(noise(7, 0.3)),
-      hairline_(noise(8, 0.5)) {}
+      hairline_(noise(8, 0.5)),
+      hair_(seed, index) {}
 
 ScreenColour SkinPaint::bare_skin(const Vector& p) const {
   ScreenColour colour = look_.skin;
@@ -103,7 +86,8 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
   const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
                      0.7 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
-  tint(colour, {1.02, 0.84, 0.83}, look_.ruddy * std::min(1.0, red) * (1 + 0.35 * mottle));
+  const double blood = std::min(1.0, look_.ruddy + 0.25 * look_.made_up);
+  tint(colour, {1.02, 0.84, 0.83}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
   // Lines and hollows keep their colour from the sun and hold shade.
   const double hollow = std::clamp(-relief_.folds(p) / 0.09, 0.0, 1.0);
   tint(colour, {0.84, 0.76, 0.74}, hollow);
@@ -127,10 +111,10 @@ void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
   const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
   if (amount <= 0) return;
-  const bool male = person_.male > 0;
   ScreenColour lips = colour;
-  const double pale = 0.25 * std::max(0.0, person_.aged()) + (male ? 0.2 : 0.0);
+  const double pale = 0.25 * std::max(0.0, person_.aged()) + (person_.male > 0 ? 0.35 : 0.0);
   tint(lips, {0.92, 0.70, 0.71}, 1 - pale);
+  tint(lips, {0.95, 0.66, 0.70}, look_.made_up);
   tint(lips, ScreenColour::Constant(0.84), look_.tone);
   // Upper lips lie in their own shade.
   if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.93, 0.90, 0.90}, 1);
@@ -141,14 +125,16 @@ void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) 
   const Vector& p = place.skin.position;
   const double tired = 0.45 + 0.25 * std::max(0.0, person_.aged());
   tint(colour, {0.87, 0.82, 0.86}, tired * patch(p, {2.9, -1.35}, {2.1, 0.95}));
-  tint(colour, {0.90, 0.82, 0.82}, 0.6 * patch(p, {3.1, 0.55}, {2.3, 1.1}));
+  const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
+  tint(colour, {0.90, 0.82, 0.82}, 0.6 * lids);
+  tint(colour, {0.76, 0.68, 0.70}, 0.7 * look_.made_up * lids);
   if (place.eye <= 0) return;
   // Lashes stand so close that from afar they are a line; the lid's inner edge is moist.
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
   const double lashes =
       smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye) * smooth_step(1.12, 1.03, place.eye);
-  const ScreenColour dark = 0.45 * look_.hair + 0.02;
-  cover(colour, dark, lashes * (upper ? (person_.male > 0 ? 0.75 : 0.95) : 0.35));
+  const ScreenColour dark = (0.45 - 0.25 * look_.made_up) * look_.hair + 0.02;
+  cover(colour, dark, lashes * (upper ? 0.75 + 0.25 * look_.made_up : 0.3 + 0.4 * look_.made_up));
   cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * look_.tone),
         0.8 * smooth_step(1.05, 1.15, place.eye));
 }
@@ -158,17 +144,13 @@ void SkinPaint::paint_openings(const SkinPlace& place, ScreenColour& colour) con
   cover(colour, ScreenColour(0.22, 0.09, 0.07), smooth_step(0.98, 1.35, place.nostril));
 }
 
-/// Short hair: light and dark, drawn out downwards.
-double SkinPaint::strands(const Vector& p) const {
-  return hairs_.at({p.x(), 0.3 * p.y(), p.z()});
-}
-
 double SkinPaint::brow_cover(const Vector& p) const {
   if (p.z() < 3) return 0;
   // An arch over each eye, thickest towards the nose.
   const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
   if (t < -0.1 || t > 1.1) return 0;
-  const double arch = 1.75 + 1.05 * t * (1 - t) * 2.2 * (0.7 + 0.6 * t);
+  const double arch = 1.75 + 1.05 * t * (1 - t) * 2.2 * (0.7 + 0.6 * t) +
+                      look_.brow_arch * (0.4 + 3.2 * t * t * (1 - t));
   const double half = look_.brow_width * (0.40 - 0.22 * t * t);
   const double off = std::abs(p.y() - arch) / half;
   const double ends = smooth_step(-0.08, 0.14, t) * smooth_step(1.06, 0.72, t);
@@ -181,12 +163,11 @@ double SkinPaint::brow_cover(const Vector& p) const {
 }
 
 double SkinPaint::beard_cover(const Vector& p, double strand) const {
-  if (look_.beard <= 0 || p.z() < -0.5) return 0;
   const double x = std::abs(p.x());
   // Down from the sideburn, along the cheek, to the corner of the moustache.
   static const std::array<Vector2d, 5> edge = {
       {{0, -5.0}, {1.6, -5.15}, {3.1, -6.6}, {5.2, -5.0}, {6.6, -1.2}}};
-  const double over = p.y() - between(edge, x);
+  const double over = p.y() - between_knots(edge, x);
   if (over > 1.5 || p.y() < -15) return 0;
   const double wander = 0.35 * hairline_.at(p);
   const double below = smooth_step(0.5, -0.7, over + wander + 0.3 * strand);
@@ -198,24 +179,17 @@ double SkinPaint::beard_cover(const Vector& p, double strand) const {
   return below * neck * back * off_lips * (1 - bare);
 }
 
-double SkinPaint::scalp_cover(const Vector& p, double strand) const {
-  // Height of the hairline, by the way around the head.
-  const double away = look_.receding;
-  const std::array<Vector2d, 9> line = {{{0.0, 7.6 + 3.2 * away},
-                                         {0.25, 7.5 + 4.2 * away},
-                                         {0.42, 6.6 + 3.0 * away},
-                                         {0.55, 5.0 + 0.6 * away},
-                                         {0.68, 1.6},
-                                         {0.80, 0.6},
-                                         {0.92, 2.4},
-                                         {1.15, 2.0},
-                                         {1.35, -6.0}}};
-  const double above = p.y() - between(line, around_head(p));
-  if (above < -1) return 0;
-  const double edge = smooth_step(-0.2, 1.0, above + 0.25 * hairline_.at(p) + 0.45 * strand);
-  // Bald heads thin out from the crown.
-  const double crown = smooth_step(6.5, 11.5, p.y()) * smooth_step(-9, -4, p.z());
-  return edge * (1 - smooth_step(0.45, 0.9, away) * crown);
+void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
+  if (look_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
+  // Short hair: light and dark, drawn out downwards.
+  const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
+  const double beard = beard_cover(p, strand);
+  if (beard <= 0) return;
+  // Hair in the skin lends it a cool shade before it shows.
+  tint(colour, {0.84, 0.86, 0.90}, 0.8 * beard * std::min(1.0, 1.6 * look_.beard));
+  const double grown = smooth_step(0.3, 1.0, look_.beard);
+  const double dense = grown * (0.70 + 0.10 * tufts_.at(p) + 0.30 * strand);
+  cover(colour, 0.9 * look_.hair, beard * std::clamp(dense, 0.0, 0.92));
 }
 
 ScreenColour SkinPaint::at(const SkinPlace& place) const {
@@ -226,19 +200,12 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
   paint_lips(place, colour);
   paint_openings(place, colour);
 
-  const double strand = strands(p);
-  const double beard = beard_cover(p, strand);
-  if (beard > 0) {
-    // Hair in the skin lends it a cool shade before it shows.
-    tint(colour, {0.84, 0.86, 0.90}, 0.8 * beard * std::min(1.0, 1.6 * look_.beard));
-    const double grown = smooth_step(0.3, 1.0, look_.beard);
-    const double dense = grown * (0.70 + 0.10 * tufts_.at(p) + 0.30 * strand);
-    cover(colour, 0.9 * look_.hair, beard * std::clamp(dense, 0.0, 0.92));
-  }
+  paint_beard(p, colour);
   const bool ear = place.skin.relief < 0.5;
-  if (!ear) {
-    cover(colour, look_.hair * (1 + 0.12 * strand),
-          scalp_cover(p, strand) * std::clamp(0.90 + 0.06 * strand, 0.0, 0.96));
+  if (!ear && hair_.reaches(p)) {
+    const double lock = hair_.strand(p);
+    cover(colour, look_.hair * (1 + (0.24 - 0.16 * look_.hair.mean()) * lock),
+          hair_.cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
   }
   cover(colour, 0.85 * look_.hair, brow_cover(p));
   return colour.max(0.0).min(1.0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "crowdface/synth/complexion.h"
+#include "crowdface/synth/hair.h"
 #include "crowdface/synth/noise.h"
 #include "crowdface/synth/relief.h"
 #include "crowdface/synth/skin_atlas.h"
@@ -23,10 +24,9 @@ class SkinPaint {
   void paint_lips(const SkinPlace& place, ScreenColour& colour) const;
   void paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const;
   void paint_openings(const SkinPlace& place, ScreenColour& colour) const;
-  double strands(const Vector& p) const;
+  void paint_beard(const Vector& p, ScreenColour& colour) const;
   double brow_cover(const Vector& p) const;
   double beard_cover(const Vector& p, double strand) const;
-  double scalp_cover(const Vector& p, double strand) const;
   SmoothNoise noise(std::uint64_t lane, double spacing) const;
 
   std::uint64_t seed_, index_;
@@ -34,6 +34,7 @@ class SkinPaint {
   Complexion look_;
   Relief relief_;
   SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_;
+  Hair hair_;
 };
 
 }  // namespace crowdface::synth

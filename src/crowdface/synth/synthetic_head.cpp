@@ -6,6 +6,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "crowdface/synth/hair.h"
 #include "crowdface/synth/identity.h"
 #include "crowdface/synth/layout.h"
 #include "crowdface/synth/loose_parts.h"
@@ -26,12 +27,15 @@ struct SyntheticHeads::State {
   std::vector<synth::Address> addresses;
   std::vector<synth::SkinPoint> mean;
   double edge_cm = 0;
+  Scalp scalp = Scalp::kBare;
   std::optional<synth::LooseParts> loose;
 };
 
-SyntheticHeads::SyntheticHeads(Index vertices, Parts parts) : state_(std::make_unique<State>()) {
+SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp)
+    : state_(std::make_unique<State>()) {
   require(vertices >= kFewest && vertices <= kMost, "synthetic heads of ", vertices, " vertices");
   // The smallest layout, 5,000 vertices, has edges of 5 mm.
+  state_->scalp = scalp;
   const auto edge_of = [](Index count) {
     return 0.5 * std::sqrt(5000.0 / static_cast<double>(count));
   };
@@ -81,10 +85,14 @@ const TextureCoordinates& SyntheticHeads::uvs() const {
 Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) const {
   const synth::Identity identity(seed, index);
   const synth::Relief relief(identity, state_->edge_cm);
+  const synth::Hair hair(seed, index);
+  const bool haired = state_->scalp == Scalp::kHaired;
   Positions out(state_->topology.vertex_count, 3);
   parallel_for_each(state_->mean.size(), kBlock, [&](std::size_t i) {
     const synth::SkinPoint& mean = state_->mean[i];
-    const Eigen::Vector3d fine = mean.position + relief.height(mean) * mean.normal;
+    double height = relief.height(mean);
+    if (haired && mean.relief > 0.5) height += hair.thickness(mean.position);
+    const Eigen::Vector3d fine = mean.position + height * mean.normal;
     out.row(static_cast<Index>(i)) = identity.deform(fine).transpose();
   });
   if (state_->loose) {

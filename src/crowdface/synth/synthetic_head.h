@@ -19,9 +19,13 @@ class SyntheticHeads {
     kSkin,          ///< eyes are cut into the skin, as sculptors do
     kEyesAndTeeth,  ///< two eyeballs and two rows of teeth are components of their own
   };
+  enum class Scalp {
+    kBare,    ///< skin alone
+    kHaired,  ///< hair as a layer on it, in the style that fits the painted one (SyntheticSkins)
+  };
   /// \param vertices  wanted number, 5,000 … 1,200,000; nearest the layout can give, within 10 %.
   /// \throws BrokenPrecondition outside that range.
-  explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin);
+  explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin, Scalp scalp = Scalp::kBare);
   ~SyntheticHeads();
 
   /// A component's name and the first of its faces, ascending.
