@@ -26,11 +26,11 @@ class LibraryCall : public ::testing::TestWithParam<std::string> {
   /// The program on the small crowd, anew, with the call of that number failing.
   Outcome run(const std::string& fail_at) const {
     fs::remove_all(folder_.out());
-    return run_program(
-        "/usr/bin/env",
-        {"LD_PRELOAD=" CROWDFACE_LIBRARY_FAULTS, "FAULT_CALL=" + GetParam(), "FAULT_AT=" + fail_at,
-         "FAULT_COUNT=" + count_file().string(), CROWDFACE_PROGRAM, "generate", "-q",
-         folder_.config().string(), "--cache", folder_.cache().string(), "--threads", "2"});
+    return run_program("/usr/bin/env",
+                       {concat("LD_PRELOAD=", CROWDFACE_LIBRARY_FAULTS), "FAULT_CALL=" + GetParam(),
+                        "FAULT_AT=" + fail_at, "FAULT_COUNT=" + count_file().string(),
+                        CROWDFACE_PROGRAM, "generate", "-q", folder_.config().string(), "--cache",
+                        folder_.cache().string(), "--threads", "2"});
   }
   static constexpr const char* kNever = "18446744073709551615";
   fs::path count_file() const { return folder_ / "count"; }

@@ -41,8 +41,12 @@ Function* next(Function*, const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
 }
 
+const char* variable(const char* name) {
+  return std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets one
+}
+
 void tell_count() {
-  const char* file = std::getenv("FAULT_COUNT");
+  const char* file = variable("FAULT_COUNT");
   if (file == nullptr) return;
   char text[32];
   const int length = std::snprintf(text, sizeof text, "%lu\n", seen.load());
@@ -60,8 +64,8 @@ extern "C" {
 sighandler_t signal(int number, sighandler_t handler) {
   static auto* const real = next(&signal, "signal");
   if (!begun) {
-    kind = std::getenv("FAULT_CALL");
-    const char* at = std::getenv("FAULT_AT");
+    kind = variable("FAULT_CALL");
+    const char* at = variable("FAULT_AT");
     fail_at = at != nullptr ? std::strtoul(at, nullptr, 10) : ~0UL;
     if (kind != nullptr) {
       std::atexit(tell_count);
@@ -95,6 +99,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
 
 void* mmap(void* at, std::size_t size, int protection, int flags, int fd, off_t offset) noexcept {
   if (fails("mmap", ENOMEM)) return MAP_FAILED;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): that is what the call returns
   return reinterpret_cast<void*>(::syscall(SYS_mmap, at, size, protection, flags, fd, offset));
 }
 
