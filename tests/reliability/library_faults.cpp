@@ -18,10 +18,12 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+// NOLINTBEGIN(readability-identifier-naming): the C library's own names
 extern "C" void* __libc_malloc(std::size_t size);
 extern "C" void* __libc_calloc(std::size_t count, std::size_t size);
 extern "C" void* __libc_realloc(void* memory, std::size_t size);
 extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);
+// NOLINTEND(readability-identifier-naming)
 
 namespace {
 
