@@ -107,5 +107,65 @@ BENCHMARK(BM_BlendCrowd)
     ->Args({15, 10, 6})
     ->Args({15, 10, 12});
 
+/// Weights of `count` heads that follow each other, from one that depends on face, region and band.
+std::vector<SourceWeight> neighbours(Index heads, Index count, std::uint64_t face, Index region,
+                                     Index band) {
+  const auto first = static_cast<Index>(
+      random_between({face, static_cast<std::uint64_t>(region), "first", 0}, 0, 1) *
+      static_cast<double>(heads));
+  std::vector<SourceWeight> weights;
+  for (Index i = 0; i < count; ++i) {
+    weights.push_back({(first + band * count + i) % heads, 1 / static_cast<double>(count)});
+  }
+  return normalized_weights(std::move(weights));
+}
+
+/// The same crowd with one band and with three, by turns: `lend` heads lend to each.
+void BM_BlendBands(benchmark::State& state) {
+  const Index heads = state.range(0), rank = state.range(1), lend = state.range(3);
+  const auto faces = static_cast<std::size_t>(state.range(2));
+  Crowd crowd(heads, rank, bench::size(1'200'000, 2'000), faces);
+  std::vector<Recipe> banded = crowd.recipes;
+  std::vector<const Recipe*> pointers;
+  for (std::size_t f = 0; f < faces; ++f) {
+    for (Index k = 0; k < 3; ++k) {
+      RegionRecipe& one = crowd.recipes[f].regions[static_cast<std::size_t>(k)];
+      one.weights = neighbours(heads, lend, f, k, 0);
+      RegionRecipe& three = banded[f].regions[static_cast<std::size_t>(k)];
+      three = one;
+      for (Index b = 1; b < 3; ++b) {
+        BandRecipe& band = three.finer.emplace_back(one);
+        band.iterations = b == 1 ? 20 : 3;
+        band.weights = neighbours(heads, lend, f, k, b);
+        band.extrapolation = 1.1;
+      }
+    }
+    pointers.push_back(&banded[f]);
+  }
+  const CrowdBlender blender(crowd.faces, crowd.levels, crowd.regions);
+  std::vector<Positions> results(faces);
+  double one_band = HUGE_VAL, three_bands = HUGE_VAL;
+  const auto timed = [&](const std::vector<const Recipe*>& recipes, double& least) {
+    const auto start = std::chrono::steady_clock::now();
+    blender.blend(recipes, results);
+    least = std::min(
+        least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  };
+  for (auto _ : state) {
+    timed(crowd.pointers, one_band);
+    timed(pointers, three_bands);
+  }
+  state.counters["ms_a_face"] = 1e3 * three_bands / static_cast<double>(faces);
+  state.counters["ratio_to_one_band"] = three_bands / one_band;
+}
+BENCHMARK(BM_BlendBands)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(5)
+    ->ArgNames({"heads", "rank", "faces", "lend"})
+    ->Args({16, 4, 32, 16})
+    ->Args({16, 4, 32, 4})
+    ->Args({16, 4, 1, 4});
+
 }  // namespace
 }  // namespace crowdface

@@ -73,7 +73,45 @@ class Blend : public ::testing::Test {
   }
   static RegionRecipe region(std::vector<SourceWeight> weights, std::uint64_t iterations,
                              double extrapolation = 1) {
-    return {std::nullopt, std::move(weights), 0, iterations, extrapolation};
+    return {{std::nullopt, std::move(weights), 0, iterations, extrapolation}, {}};
+  }
+
+  /// Bands from coarse to fine, each with whom, where it begins, and how strong.
+  static RegionRecipe bands(const std::vector<RegionRecipe>& each) {
+    RegionRecipe result = each.front();
+    for (std::size_t b = 1; b < each.size(); ++b) result.finer.push_back(each[b]);
+    return result;
+  }
+  /// Σ_k α_k [ S_{L_k1} B + Σ_b e_kb Σ_i ω̂_kbi (S_{L_k,b+1} C_i − S_{L_kb} C_i) ], term by term.
+  template <class Level>
+  Positions term_by_term(const Recipe& recipe, const RegionWeights& regions,
+                         const Level& level_of) const {
+    Positions sum = Positions::Zero(head(0).rows(), 3);
+    for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+      const RegionRecipe& r = recipe.regions[k];
+      Positions face = Positions::Zero(head(0).rows(), 3);
+      for (const SourceWeight& part : target_shares(recipe)) {
+        face += part.weight * level_of(static_cast<std::size_t>(part.head), r.iterations);
+      }
+      for (std::size_t b = 0; b <= r.finer.size(); ++b) {
+        const BandRecipe& band = b == 0 ? r : r.finer[b - 1];
+        for (const SourceWeight& source : band.weights) {
+          const auto h = static_cast<std::size_t>(source.head);
+          const Positions end = b < r.finer.size() ? level_of(h, r.finer[b].iterations) : head(h);
+          face += band.extrapolation * source.weight * (end - level_of(h, band.iterations));
+        }
+      }
+      for (Index v = 0; v < sum.rows(); ++v) {
+        sum.row(v) += regions.alpha(v, static_cast<Index>(k)) * face.row(v);
+      }
+    }
+    return sum;
+  }
+  /// Three bands in one region, two in the other.
+  Recipe banded() const {
+    return recipe(0, {bands({region({{0, 0.3}, {1, 0.7}}, 40, 0.9), region({{2, 1}}, 9, 1.3),
+                             region({{1, 0.5}, {2, 0.5}}, 2, -0.5)}),
+                      bands({region({{1, 1}}, 25, 1.2), region({{0, 0.6}, {2, 0.4}}, 4)})});
   }
 
   FaceSet faces_;
@@ -92,6 +130,79 @@ TEST_F(Blend, TargetAloneGivesTheTargetToTheBit) {
       EXPECT_EQ(blend_exact(faces_, filter(boundary), two_, alone), head(1)) << l;
     }
   }
+}
+
+TEST_F(Blend, BandsAreTheSumOfTheirDifferences) {
+  for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
+    for (const Boundary boundary : {Boundary::kFixed, Boundary::kFree}) {
+      const SmoothingOperator w = smoothing(boundary, kind);
+      const auto exact = [&](std::size_t h, std::uint64_t l) { return level(w, head(h), l); };
+      EXPECT_LT(difference(blend_exact(faces_, filter(boundary, kind), two_, banded()),
+                           term_by_term(banded(), two_, exact)),
+                1e-7);
+      Recipe mixture = banded();
+      set_target(mixture, {{0, 0.25}, {2, 0.75}});
+      EXPECT_LT(difference(blend_exact(faces_, filter(boundary, kind), two_, mixture),
+                           term_by_term(mixture, two_, exact)),
+                1e-7);
+    }
+  }
+}
+
+TEST_F(Blend, BandsOfFittedLevelsAreTheSumOfTheirDifferences) {
+  const auto fits = cubic_fits(60);
+  const auto fitted = [&](std::size_t h, std::uint64_t l) -> Positions {
+    Positions at = head(h);
+    const auto basis = cubic_basis(l, fits[h].max_level);
+    for (std::size_t p = 0; p < basis.size(); ++p) {
+      for (Index i = 0; i < at.size(); ++i) {
+        at.data()[i] +=
+            basis[p] * static_cast<double>(fits[h].fields[p * static_cast<std::size_t>(at.size()) +
+                                                          static_cast<std::size_t>(i)]);
+      }
+    }
+    return at;
+  };
+  EXPECT_LT(difference(blender(fits, two_).blend(banded()), term_by_term(banded(), two_, fitted)),
+            1e-4);
+}
+
+TEST_F(Blend, BandsThatAreAlikeAreOneBand) {
+  const auto like = [&](std::uint64_t l) { return region({{0, 0.5}, {2, 0.5}}, l, 1.2); };
+  const Recipe one = recipe(1, {like(40)});
+  const Recipe three = recipe(1, {bands({like(40), like(9), like(2)})});
+  const auto fits = cubic_fits(60);
+  EXPECT_EQ(blender(fits, one_).blend(three), blender(fits, one_).blend(one));
+  EXPECT_LT(difference(blend_exact(faces_, filter(), one_, three),
+                       blend_exact(faces_, filter(), one_, one)),
+            1e-12);
+}
+
+TEST_F(Blend, ABandWithoutWidthAddsNothing) {
+  const Recipe two = recipe(1, {bands({region({{0, 1}}, 20, 1.1), region({{2, 1}}, 6)})});
+  Recipe more = two;
+  more.regions[0].finer.insert(more.regions[0].finer.begin(), region({{1, 1}}, 6, 2));
+  const auto fits = cubic_fits(60);
+  EXPECT_LT(difference(blender(fits, one_).blend(more), blender(fits, one_).blend(two)), 1e-5);
+  more.regions[0].finer.push_back(region({{1, 1}}, 0, 3));  // a cubic is not exact at level 0
+  EXPECT_LT(difference(blend_exact(faces_, filter(), one_, more),
+                       blend_exact(faces_, filter(), one_, two)),
+            1e-12);
+}
+
+TEST_F(Blend, ABandBeginsNoHigherThanTheCoarserOne) {
+  const Recipe wrong = recipe(0, {bands({region({{1, 1}}, 5), region({{2, 1}}, 6)})});
+  EXPECT_THROW(blend_exact(faces_, filter(), one_, wrong), BrokenPrecondition);
+}
+
+TEST_F(Blend, ChangingOneBandGivesTheBitsOfBlending) {
+  const auto fits = cubic_fits(60);
+  const CrowdBlender all = blender(fits, two_);
+  Recipe after = banded();
+  after.regions[1].finer[0].weights = {{1, 1}};
+  Positions face = all.blend(banded());
+  all.change(banded(), after, face);
+  EXPECT_EQ(face, all.blend(after));
 }
 
 TEST_F(Blend, LevelZeroGivesTheTargetToTheBit) {

@@ -93,6 +93,117 @@ TEST(Ageing, CanBeTakenBack) {
   }
 }
 
+/// Three bands; the skin comes from two heads only and ages, the build does not.
+Casting banded_example() {
+  Casting casting = example();
+  auto& bands = casting.sampling.bands;
+  const auto from = [](double fraction) {
+    return SmoothnessDistribution{SmoothnessDistribution::Unit::kFraction, {fraction, fraction}};
+  };
+  bands = {{"build", {}, {}, 0}, {"features", {}, {}, 0.5}, {"skin", {}, {{1, 4}}, 1}};
+  for (BandSampling& band : bands) band.regions.resize(2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    bands[1].regions[k].smoothness = from(0.1);
+    bands[1].regions[k].extrapolation = {1.2, 1.2};
+    bands[2].regions[k].smoothness = from(0.01);
+  }
+  return casting;
+}
+
+TEST(Bands, AreDrawnApartAndTheFirstAsWithoutOthers) {
+  const Casting casting = banded_example();
+  std::set<double> places;
+  for (std::uint64_t index = 1; index <= 50; ++index) {
+    const CastFace face = draw_any_face(casting, index);
+    const CastFace alone = draw_any_face(example(), index);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const RegionRecipe& region = face.recipe.regions[k];
+      EXPECT_EQ(region.position, alone.recipe.regions[k].position);
+      EXPECT_EQ(region.weights, alone.recipe.regions[k].weights);
+      EXPECT_EQ(region.iterations, alone.recipe.regions[k].iterations);
+      ASSERT_EQ(region.finer.size(), 2U);
+      EXPECT_EQ(region.finer[0].iterations, 100U);
+      EXPECT_EQ(region.finer[0].extrapolation, 1.2);
+      EXPECT_EQ(region.finer[1].iterations, 10U);
+      for (std::size_t b = 0; b < 3; ++b) {
+        const PlanePoint& at = *band_of(region, b).position;
+        places.insert(at.x() + 10 * at.y());
+      }
+      for (const SourceWeight& source : region.finer[1].weights) {
+        EXPECT_TRUE(source.head == 1 || source.head == 4 || source.head == face.recipe.target);
+      }
+    }
+  }
+  EXPECT_EQ(places.size(), 300U) << "each has a place of its own";
+}
+
+TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
+  const Casting casting = banded_example();
+  HandRecipe hand;
+  hand.id = "mine";
+  hand.target = 2;
+  hand.regions.resize(2);
+  hand.regions[0].weights = {{0, 1}, {3, 1}};
+  hand.regions[0].extrapolation = Range{0.7, 0.7};
+  hand.regions[0].bands.resize(3);
+  hand.regions[0].bands[2].weights = {{1, 1}};
+  const RegionRecipe region = draw_hand_recipe(casting, hand).recipe.regions[0];
+  const std::vector<SourceWeight> halves = {{0, 0.5}, {3, 0.5}};
+  EXPECT_EQ(region.weights, halves);
+  EXPECT_EQ(region.finer[0].weights, halves);
+  EXPECT_EQ(region.finer[1].weights, (std::vector<SourceWeight>{{1, 1}}));
+  for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(band_of(region, b).extrapolation, 0.7);
+}
+
+TEST(Bands, BeginNoHigherThanTheBandBefore) {
+  const Casting casting = banded_example();
+  HandRecipe hand;
+  hand.id = "mine";
+  hand.regions.resize(2);
+  hand.regions[0].smoothness =
+      SmoothnessDistribution{SmoothnessDistribution::Unit::kFraction, {0.05, 0.05}};
+  const RegionRecipe region = draw_hand_recipe(casting, hand).recipe.regions[0];
+  EXPECT_EQ(region.iterations, 50U);
+  EXPECT_EQ(region.finer[0].iterations, 50U);
+  EXPECT_EQ(region.finer[1].iterations, 10U);
+}
+
+TEST(Bands, AgeActsOnThoseThatCarryIt) {
+  Casting casting = banded_example();
+  casting.sampling.old_heads = {1};
+  const CastFace young = draw_any_face(casting, 7);
+  CastFace old = young;
+  apply_age(old, 0.8, casting.sampling);
+  const auto share_of_old = [](const BandRecipe& band) {
+    double share = 0;
+    for (const SourceWeight& source : band.weights) share += source.head == 1 ? source.weight : 0;
+    return share;
+  };
+  for (std::size_t k = 0; k < 2; ++k) {
+    const RegionRecipe &before = young.recipe.regions[k], &after = old.recipe.regions[k];
+    EXPECT_EQ(after.weights, before.weights);
+    EXPECT_EQ(after.position, before.position);
+    for (std::size_t b = 1; b < 3; ++b) {
+      const double share = b == 1 ? 0.4 : 0.8;
+      EXPECT_NEAR(share_of_old(band_of(after, b)),
+                  share + (1 - share) * share_of_old(band_of(before, b)), 1e-12);
+      EXPECT_FALSE(band_of(after, b).position);
+    }
+  }
+  take_back_age(old, casting.sampling);
+  EXPECT_FALSE(old.age);
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      const BandRecipe &a = band_of(old.recipe.regions[k], b),
+                       &c = band_of(young.recipe.regions[k], b);
+      ASSERT_EQ(a.weights.size(), c.weights.size());
+      for (std::size_t i = 0; i < a.weights.size(); ++i) {
+        EXPECT_NEAR(a.weights[i].weight, c.weights[i].weight, 1e-9);
+      }
+    }
+  }
+}
+
 /// Hand-written recipes, then the first draw of each face.
 std::vector<CastFace> draw_crowd(const Casting& casting) {
   std::vector<CastFace> crowd;

@@ -147,6 +147,32 @@ TEST_F(FaceSpaceTest, DistancesAreThoseOfWholeMeshes) {
   }
 }
 
+TEST_F(FaceSpaceTest, DistancesOfBandsAreThoseOfWholeMeshes) {
+  std::vector<Recipe> faces = crowd(12);
+  const FaceSpace space(
+      sample_heads(faces_, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit), weights_, 3);
+  std::vector<FaceSpace::Point> points;
+  std::vector<Positions> as_built, unit;
+  for (std::size_t f = 0; f + 2 < faces.size(); f += 3) {
+    RegionRecipe& region = faces[f].regions[0];
+    for (std::size_t b = 1; b < 3; ++b) {
+      BandRecipe& band = region.finer.emplace_back(faces[f + b].regions[0]);
+      band.iterations = band_of(region, b - 1).iterations / 10;
+    }
+    points.push_back(space.point(faces[f]));
+    as_built.push_back(blend_exact(faces_, *filter_, regions_, faces[f]));
+    for (std::size_t b = 0; b < 3; ++b) band_of(region, b).extrapolation = 1;
+    unit.push_back(blend_exact(faces_, *filter_, regions_, faces[f]));
+  }
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const double expected =
+          std::min(mesh_distance(as_built[a], as_built[b]), mesh_distance(unit[a], unit[b]));
+      EXPECT_NEAR(FaceSpace::distance(points[a], points[b]), expected, 0.02 * expected);
+    }
+  }
+}
+
 TEST_F(FaceSpaceTest, DistancesOfHeadsAreThoseOfWholeMeshes) {
   const Eigen::MatrixXd distances = space_->head_distances();
   ASSERT_EQ(distances.rows(), 4);

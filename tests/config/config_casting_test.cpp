@@ -102,6 +102,82 @@ TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {
   refused("families: [{name: k, members: 1, group: nobody}]\n", "no group is called \"nobody\"");
 }
 
+/// Three bands over three regions.
+const std::string kDetail =
+    "sampling: {max_sources: 2, bands: {build: 240 mm, features: {smoothness: {default: 60 mm, "
+    "top: "
+    "[30 mm, 40 mm]}, extrapolation: [0.9, 1.1]}, skin: {smoothness: 8 mm, sources: [bob, cyd], "
+    "position: {distribution: uniform}, ageing: 0.5}}}\n";
+
+TEST_F(ConfigTest, BandsAreReadAndWritten) {
+  std::ofstream(folder_ / "review.yaml")
+      << "schema: 1\nfaces: {mob_0001: {lock: [top]}, mob_0002: {lock: [skin, mid/build]}}\n";
+  const auto config = read(
+      kBands + kDetail +
+      "groups: [{name: worn, sources: [ann], bands: {skin: {sources: [cyd]}}}]\n"
+      "recipes: [{id: mine, regions: {all: {weights: {ann: 1}, bands: {skin: {weights: {bob: 1}, "
+      "iterations: 20}}}}}]\n"
+      "families: [{name: kin, members: 1, parents: {mother: ann, father: bob}, inherit: {build: "
+      "mother, low: father, low/skin: mother}}]\nreview: review.yaml\n");
+  ASSERT_TRUE(config) << told();
+  const SamplingOptions& sampling = config->sampling;
+  ASSERT_EQ(band_count(sampling), 3U);
+  EXPECT_EQ(sampling.bands[0].name, "build");
+  EXPECT_EQ(smoothness_of(sampling, 1, 0).range, (Range{240, 240}));
+  EXPECT_EQ(smoothness_of(sampling, 0, 1).range, (Range{30, 40}));
+  EXPECT_EQ(smoothness_of(sampling, 2, 1).range, (Range{60, 60}));
+  EXPECT_EQ(sampling.bands[1].regions[2].extrapolation, (Range{0.9, 1.1}));
+  EXPECT_FALSE(sampling.bands[1].regions[2].position);
+  EXPECT_EQ(sampling.bands[2].regions[2].position->kind, PositionDistribution::Kind::kUniform);
+  EXPECT_THAT(sources_of(sampling, 1), ElementsAre(0, 1, 2));
+  EXPECT_THAT(sources_of(sampling, 2), ElementsAre(1, 2));
+  EXPECT_EQ(sampling.bands[0].ageing, 0) << "the build does not age";
+  EXPECT_EQ(sampling.bands[1].ageing, 1);
+  EXPECT_EQ(sampling.bands[2].ageing, 0.5);
+  EXPECT_THAT(sources_of(config->groups[0].sampling, 1), ElementsAre(0));
+  EXPECT_THAT(sources_of(config->groups[0].sampling, 2), ElementsAre(2));
+  EXPECT_EQ(config->groups[0].sampling.bands[2].ageing, 0.5);
+  const HandRecipe::Region& top = config->recipes[0].regions[0];
+  EXPECT_EQ(top.weights[0].head, 0);
+  ASSERT_EQ(top.bands.size(), 3U);
+  EXPECT_TRUE(top.bands[0].weights.empty());
+  EXPECT_EQ(top.bands[2].weights[0].head, 1);
+  EXPECT_THAT(config->families[0].inherit, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
+  EXPECT_THAT(config->review.reviews[0][0].locked, ElementsAre(0, 1, 2));
+  EXPECT_THAT(config->review.reviews[0][1].locked, ElementsAre(2, 3, 5, 8));
+
+  const std::string written = effective_config(*config, folder_);
+  const auto again = read(written);
+  ASSERT_TRUE(again) << told() << written;
+  EXPECT_EQ(effective_config(*again, folder_), written);
+  EXPECT_EQ(again->families[0].inherit, config->families[0].inherit);
+  EXPECT_THAT(sources_of(again->groups[0].sampling, 2), ElementsAre(2));
+}
+
+TEST_F(ConfigTest, BandsThatCannotBeMeantAreRefused) {
+  const auto refused = [&](const std::string& more, const std::string& phrase) {
+    problems_ = Problems();
+    EXPECT_FALSE(read(kBands + more)) << more;
+    EXPECT_THAT(told(), HasSubstr(phrase)) << more;
+  };
+  refused("sampling: {bands: 3}\n", "a mapping from bands to sizes");
+  refused("sampling: {bands: {top: 8 mm}}\n", "\"top\" means something else");
+  refused("sampling: {bands: {a/b: 8 mm}}\n", "is no name");
+  refused("sampling: {bands: {build: {}, skin: {sources: all}}}\n", "smoothness: missing");
+  refused("sampling: {bands: {skin: {smoothness: 900 mm}}}\n", "up to smoothing.max_size");
+  refused("sampling: {bands: {skin: {smoothnes: 8 mm}}}\n", "did you mean \"smoothness\"");
+  refused("sampling: {bands: {a: 0.9, b: 0.5, c: 0.3, d: 0.2, e: 0.1}}\n", "at most 4 bands");
+  refused("groups: [{name: g, bands: {skin: 8 mm}}]\n", "no band of sampling.bands is called");
+  refused("recipes: [{id: a, regions: {all: {bands: {skin: {}}}}}]\n", "there are no bands");
+  refused(kDetail + "recipes: [{id: a, regions: {all: {bands: {skinn: {}}}}}]\n", "\"skin\"");
+  refused(kDetail +
+              "recipes: [{id: a, regions: {all: {bands: {skin: {weights: {ann: 1}, position: "
+              "[0, 0]}}}}}]\n",
+          "either position or weights");
+  std::ofstream(folder_ / "review.yaml") << "schema: 1\nfaces: {mob_0001: {lock: [top/skn]}}\n";
+  refused(kDetail + "review: review.yaml\n", "no region or band is called \"top/skn\"");
+}
+
 TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
   const auto refused = [&](const std::string& more, const std::string& phrase) {
     problems_ = Problems();

@@ -21,8 +21,8 @@ CastFace example() {
   face.index = 7;
   face.recipe.target = 2;
   face.recipe.regions = {
-      {PlanePoint(0.1, -1.0 / 3), {{0, 1.0 / 3}, {2, 2.0 / 3}}, 0.45, 9000, 1.1},
-      {std::nullopt, {{1, 1.0}}, 0, 0, -0.30000000000000004},
+      {{PlanePoint(0.1, -1.0 / 3), {{0, 1.0 / 3}, {2, 2.0 / 3}}, 0.45, 9000, 1.1}, {}},
+      {{std::nullopt, {{1, 1.0}}, 0, 0, -0.30000000000000004}, {}},
   };
   face.notes.nearest = Nearest{1, 2.41239, "mob_0003", 1.00004};
   return face;
@@ -128,6 +128,65 @@ TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
     testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", field},
                           [&, &text = line] { parse_recipe(text, kNames, "plan.jsonl:12"); });
   }
+}
+
+const PlanNames kBandNames = {{"ann", "bob", "cyd"}, {"top", "low"}, {"build", "skin"}};
+
+CastFace banded() {
+  CastFace face = example();
+  face.parents = {"ann", "bob"};
+  face.inherits = {"mother", "father", "father", "mother"};
+  face.recipe.regions[0].finer = {{PlanePoint(0.5, 0.25), {{1, 1.0}}, 0.1, 2000, 0.8}};
+  face.recipe.regions[1].finer = {{std::nullopt, {{0, 0.5}, {2, 0.5}}, 0, 0, 1}};
+  return face;
+}
+
+TEST(PlanFile, BandsAreReadBackToTheBit) {
+  const std::string line = format_recipe(banded(), kBandNames, kSettings);
+  EXPECT_NE(line.find(R"("extrapolation":1.1,"bands":{"skin":{"position":[0.5,0.25],)"
+                      R"("weights":{"bob":1.0},"smoothness":0.1,"iterations":2000,)"
+                      R"("extrapolation":0.8}}},"low")"),
+            line.npos)
+      << line;
+  EXPECT_NE(line.find(R"("inherits":{"top":{"build":"mother","skin":"father"},)"
+                      R"("low":{"build":"father","skin":"mother"}})"),
+            line.npos)
+      << line;
+  const CastFace back = parse_recipe(line, kBandNames, "plan:1").face;
+  EXPECT_EQ(format_recipe(back, kBandNames, kSettings), line);
+  ASSERT_EQ(back.recipe.regions[0].finer.size(), 1U);
+  EXPECT_EQ(back.recipe.regions[0].finer[0].iterations, 2000U);
+  EXPECT_EQ(back.inherits, banded().inherits);
+}
+
+TEST(PlanFile, BandsThatCannotBeAreRefusedWithTheirPlace) {
+  const std::string good = format_recipe(banded(), kBandNames, kSettings);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string line = good;
+    return line.replace(line.find(from), from.size(), to);
+  };
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {with("\"skin\":{\"position\"", "\"fur\":{\"position\""), "skin: expected a value"},
+      {with("\"iterations\":2000", "\"iterations\":9001"), "skin.iterations: expected at most"},
+      {with("{\"bob\":1.0},\"smoothness\":0.1", "{\"bob\":1.0},\"smoothness\":2"), "smoothness"},
+      {with("\"bands\":{", "\"bands\":7,\"other\":{"), "bands: expected an object of 1 bands"},
+  };
+  for (const auto& [line, field] : cases) {
+    testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", field},
+                          [&, &text = line] { parse_recipe(text, kBandNames, "plan.jsonl:12"); });
+  }
+  testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", "bands: expected an object of 0"},
+                        [&] { parse_recipe(good, kNames, "plan.jsonl:12"); });
+}
+
+TEST(PlanFile, TableHasTheFinerBandsLast) {
+  const std::string table = format_csv({banded()}, kBandNames);
+  EXPECT_NE(table.find("group,mixture,top_skin_position_x,top_skin_position_y,top_skin_weights,"
+                       "top_skin_smoothness,top_skin_iterations,top_skin_extrapolation,"
+                       "low_skin_position_x,"),
+            table.npos)
+      << table;
+  EXPECT_TRUE(table.ends_with(",0.5,0.25,bob:1,0.1,2000,0.8,,,ann:0.5;cyd:0.5,0,0,1\r\n")) << table;
 }
 
 TEST(PlanFile, FileErrorsNameTheLine) {

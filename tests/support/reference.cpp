@@ -73,7 +73,6 @@ Points blend_with(const Heads& heads, const nlohmann::json& line, const Smoothed
   for (std::size_t k = 0; k < heads.regions.size(); ++k) {
     const nlohmann::json& region = line.at("regions").at(heads.regions[k]);
     const auto level = region.at("iterations").get<std::uint64_t>();
-    const auto e = region.at("extrapolation").get<double>();
     Points face(result.size(), Point{0, 0, 0});
     for (const auto& [name, share] : mixture.items()) {  // B^L, of a mixture Σ τ_h B_h^L
       const Points flat = smoothed(name, level);
@@ -81,11 +80,21 @@ Points blend_with(const Heads& heads, const nlohmann::json& line, const Smoothed
         face[i] = face[i] + share.get<double>() * flat[i];
       }
     }
-    for (const auto& [name, weight] : region.at("weights").items()) {
-      const Points& source = heads.positions.at(name);
-      const Points flat = smoothed(name, level);  // C^L
-      for (std::size_t i = 0; i < face.size(); ++i) {
-        face[i] = face[i] + e * weight.get<double>() * (source[i] - flat[i]);
+    std::vector<nlohmann::json> bands = {region};  // the finer ones in the order of their names
+    if (region.contains("bands")) {
+      for (const auto& [name, band] : region.at("bands").items()) bands.push_back(band);
+    }
+    for (std::size_t b = 0; b < bands.size(); ++b) {
+      const auto begin = bands[b].at("iterations").get<std::uint64_t>();
+      const auto e = bands[b].at("extrapolation").get<double>();
+      for (const auto& [name, weight] : bands[b].at("weights").items()) {
+        const Points fine = b + 1 < bands.size()
+                                ? smoothed(name, bands[b + 1].at("iterations").get<std::uint64_t>())
+                                : heads.positions.at(name);
+        const Points coarse = smoothed(name, begin);  // C^L
+        for (std::size_t i = 0; i < face.size(); ++i) {
+          face[i] = face[i] + e * weight.get<double>() * (fine[i] - coarse[i]);
+        }
       }
     }
     for (std::size_t i = 0; i < face.size(); ++i) {

@@ -11,19 +11,41 @@ const Positions& positions_of(const FaceSet& faces, Index head) {
   return faces.heads[static_cast<std::size_t>(head)].positions;
 }
 
-/// D_k = B − e_k Σ_i ω̂_ki C_i, side by side for all regions: #V by 3·regions.
-Columns target_less_sources(const FaceSet& faces, const Recipe& recipe, const Positions& target) {
-  Columns difference(target.rows(), 3 * static_cast<Index>(recipe.regions.size()));
+/// A level that a region smooths: of region k its band b.
+struct SmoothedBand {
+  Index region = 0;
+  const BandRecipe* band = nullptr;
+  bool first = false;  ///< of its region
+};
+
+std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
+  std::vector<SmoothedBand> bands;
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    for (std::size_t b = 0; b < band_count(recipe.regions[k]); ++b) {
+      bands.push_back({static_cast<Index>(k), &band_of(recipe.regions[k], b), b == 0});
+    }
+  }
+  return bands;
+}
+
+/// G_kb of level_shares, side by side for all bands of all regions: #V by 3·bands. With one band a
+/// region that is D_k = B − e_k Σ_i ω̂_ki C_i.
+Columns coarser_less_finer(const FaceSet& faces, const std::vector<SmoothedBand>& bands,
+                           const Positions& target) {
+  Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));
   parallel_blocks(target.rows(), kRowBlock, [&](Index begin, Index end) {
-    for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-      const RegionRecipe& region = recipe.regions[k];
-      auto columns = difference.block(begin, 3 * static_cast<Index>(k), end - begin, 3);
-      columns.setZero();
-      for (const SourceWeight& source : region.weights) {
-        columns +=
+    Positions coarser;
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      const BandRecipe& band = *bands[i].band;
+      if (bands[i].first) coarser = target.middleRows(begin, end - begin);
+      Positions mean = Positions::Zero(end - begin, 3);
+      for (const SourceWeight& source : band.weights) {
+        mean +=
             source.weight * positions_of(faces, source.head).middleRows(begin, end - begin);  // C̄_k
       }
-      columns = target.middleRows(begin, end - begin) - region.extrapolation * columns;
+      mean *= band.extrapolation;
+      difference.block(begin, 3 * static_cast<Index>(i), end - begin, 3) = coarser - mean;
+      coarser.swap(mean);
     }
   });
   return difference;
@@ -38,30 +60,32 @@ Positions target_positions(const FaceSet& faces, const Recipe& recipe) {
 
 void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results) {
+  std::vector<std::vector<SmoothedBand>> bands;
   std::vector<Columns> differences;
   std::vector<FilterInput<double>> inputs;
   for (std::size_t f = 0; f < recipes.size(); ++f) {
     const Recipe* recipe = recipes[f];
     require_fit(faces, regions, *recipe);
     results[f] = target_positions(faces, *recipe);
-    differences.push_back(target_less_sources(faces, *recipe, results[f]));
-    for (std::size_t k = 0; k < recipe->regions.size(); ++k) {
-      inputs.push_back({filter.rows_of<double>(differences.back(), static_cast<Index>(k)),
-                        {power_series(filter.kind(), recipe->regions[k].iterations)}});
+    bands.push_back(bands_of(*recipe));
+    differences.push_back(coarser_less_finer(faces, bands.back(), results[f]));
+    for (std::size_t b = 0; b < bands[f].size(); ++b) {
+      inputs.push_back({filter.rows_of<double>(differences.back(), static_cast<Index>(b)),
+                        {power_series(filter.kind(), bands[f][b].band->iterations)}});
     }
   }
   const auto smoothed = filter.run<double>(inputs);
-  const Index region_count = regions.alpha.cols();
-  for (std::size_t f = 0; f < recipes.size(); ++f) {
-    const auto* of_face = smoothed.data() + f * static_cast<std::size_t>(region_count);
+  const auto* of_face = smoothed.data();
+  for (std::size_t f = 0; f < recipes.size(); of_face += bands[f].size(), ++f) {
     parallel_blocks(results[f].rows(), kRowBlock, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
         const std::size_t row = filter.row_of_vertex()[static_cast<std::size_t>(i)];
-        for (Index k = 0; k < region_count; ++k) {
-          const double alpha = regions.alpha(i, k);
-          const double* level = of_face[k].front()[row].value;
+        for (std::size_t b = 0; b < bands[f].size(); ++b) {
+          const double alpha = regions.alpha(i, bands[f][b].region);
+          const double* level = of_face[b].front()[row].value;
+          const Index column = 3 * static_cast<Index>(b);
           for (Index c = 0; c < 3; ++c) {
-            results[f](i, c) += alpha * (level[c] - differences[f](i, 3 * k + c));  // Eq. 7
+            results[f](i, c) += alpha * (level[c] - differences[f](i, column + c));  // Eq. 7
           }
         }
       }

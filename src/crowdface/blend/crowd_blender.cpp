@@ -14,10 +14,18 @@ namespace crowdface {
 
 namespace {
 
-/// Whether two regions add the same to a face of the same target.
-bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
+bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
   return a.weights == b.weights && a.iterations == b.iterations &&
          a.extrapolation == b.extrapolation;
+}
+
+/// Whether two regions add the same to a face of the same target.
+bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
+  if (band_count(a) != band_count(b)) return false;
+  for (std::size_t i = 0; i < band_count(a); ++i) {
+    if (!blends_alike(band_of(a, i), band_of(b, i))) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -65,29 +73,26 @@ void CrowdBlender::cut_into_blocks() {
 }
 
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
-  const RegionRecipe& r = recipe.regions[region];
-  // Where a head is both target and source the shares are added first, so that the target blended
-  // with itself leaves no trace.
-  std::vector<double> shares(levels_.size(), 0.0);
-  for (const SourceWeight& part : target_shares(recipe)) {
-    shares[static_cast<std::size_t>(part.head)] = part.weight;  // B̃^L − B
-  }
-  for (const SourceWeight& source : r.weights) {
-    shares[static_cast<std::size_t>(source.head)] -= r.extrapolation * source.weight;  // D̃, Eq. 5
-  }
-  std::vector<float> result;
-  result.reserve(fields_.size());
-  for (std::size_t h = 0; h < shares.size(); ++h) {
-    const auto rank = static_cast<std::size_t>(levels_[h].rank);
-    if (shares[h] == 0) {
-      result.insert(result.end(), rank, 0.0F);
-      continue;
+  std::vector<double> sums(fields_.size(), 0.0);
+  for (const LevelShares& at : level_shares(recipe, region)) {
+    // Where a head is both target and source, or lends to two bands alike, the shares are added
+    // first, so that the target blended with itself leaves no trace.
+    std::vector<double> shares(levels_.size(), 0.0);
+    for (const SourceWeight& part : at.shares) {
+      shares[static_cast<std::size_t>(part.head)] += part.weight;
     }
-    for (const double function : levels_[h].functions(r.iterations)) {
-      result.push_back(static_cast<float>(shares[h] * function));
+    std::size_t first = 0;
+    for (std::size_t h = 0; h < shares.size(); ++h) {
+      if (shares[h] != 0) {
+        std::size_t f = first;
+        for (const double function : levels_[h].functions(at.level)) {
+          sums[f++] += shares[h] * function;  // Eq. 5
+        }
+      }
+      first += static_cast<std::size_t>(levels_[h].rank);
     }
   }
-  return result;
+  return {sums.begin(), sums.end()};
 }
 
 CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recipes,

@@ -24,9 +24,10 @@ struct HeadLevels {
 
 /// Builds faces from fitted levels (Eqs. 5–7 with S̃), many at once:
 ///
-///     A = B + Σ_k α_k Σ_h s_kh Σ_p φ_hp(L_k) c_hp,   s_kh = τ_h − e_k ω̂_kh
+///     A = B + Σ_k α_k Σ_h Σ_p [ Σ_L s_kLh φ_hp(L) ] c_hp
 ///
-/// since C − S̃_L C = −Σ_p φ_p c_p(C). For M faces that is, for the vertices of a region, a product of
+/// with the shares s_kLh of level_shares (of one band: s_kh = τ_h − e_k ω̂_kh at L_k), since
+/// C − S̃_L C = −Σ_p φ_p c_p(C). For M faces that is, for the vertices of a region, a product of
 /// all heads' fields with a matrix of M columns of coefficients: what the fields cost to read is
 /// shared by the faces. A face has the same bits alone and in any company, on any number of threads
 /// and with any instruction set; one that adds nothing (the target with itself) keeps the target's.

@@ -28,6 +28,38 @@ void keep_largest(std::vector<SourceWeight>& weights, std::size_t count) {
 
 }  // namespace
 
+std::size_t band_count(const RegionRecipe& region) {
+  return 1 + region.finer.size();
+}
+
+BandRecipe& band_of(RegionRecipe& region, std::size_t band) {
+  if (band == 0) return region;
+  return region.finer[band - 1];
+}
+
+const BandRecipe& band_of(const RegionRecipe& region, std::size_t band) {
+  if (band == 0) return region;
+  return region.finer[band - 1];
+}
+
+std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
+                                      Extrapolation extrapolation) {
+  const RegionRecipe& bands = recipe.regions[region];
+  std::vector<LevelShares> levels;
+  std::vector<SourceWeight> coarser = target_shares(recipe);  // B, then e_{b−1} C̄_{b−1}
+  for (std::size_t b = 0; b < band_count(bands); ++b) {
+    const BandRecipe& band = band_of(bands, b);
+    const double e = extrapolation == Extrapolation::kNone ? 1 : band.extrapolation;
+    LevelShares& level = levels.emplace_back(LevelShares{band.iterations, std::move(coarser)});
+    coarser.clear();
+    for (const SourceWeight& source : band.weights) {
+      level.shares.push_back({source.head, -e * source.weight});
+      coarser.push_back({source.head, e * source.weight});
+    }
+  }
+  return levels;
+}
+
 std::vector<SourceWeight> target_shares(const Recipe& recipe) {
   if (recipe.mixture.empty()) return {{recipe.target, 1}};
   return recipe.mixture;

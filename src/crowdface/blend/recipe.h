@@ -18,14 +18,26 @@ struct SourceWeight {
   bool operator==(const SourceWeight&) const = default;
 };
 
-/// What a recipe says about one region: all that Eq. 7 needs.
-struct RegionRecipe {
+/// A band of detail: whose it is, how strong, and at which level it begins. It ends where the next
+/// finer one begins, the last one at level 0.
+struct BandRecipe {
   std::optional<PlanePoint> position;  ///< m_k, if the weights come from one
   std::vector<SourceWeight> weights;   ///< ω̂_ki, ascending heads, none zero
   double smoothness = 0;               ///< L_k/L_max
   std::uint64_t iterations = 0;        ///< L_k
   double extrapolation = 1;            ///< e_k, the factor of Fig. 6
 };
+
+/// What a recipe says about one region: its coarsest band, all that Eq. 7 needs, and those finer.
+struct RegionRecipe : BandRecipe {
+  std::vector<BandRecipe>
+      finer;  ///< coarse to fine; none begins at a higher level than the one before
+};
+
+std::size_t band_count(const RegionRecipe& region);
+/// Band number `band`, from 0, the coarsest.
+BandRecipe& band_of(RegionRecipe& region, std::size_t band);
+const BandRecipe& band_of(const RegionRecipe& region, std::size_t band);
 
 /// What determines a face: with the face set and the regions it gives the mesh to the bit.
 struct Recipe {
@@ -35,6 +47,26 @@ struct Recipe {
   /// the target alone. As Eq. 2 is linear in B, so is all that is computed from it.
   std::vector<SourceWeight> mixture = {};
 };
+
+/// The heads that a region smooths to one level, see level_shares.
+struct LevelShares {
+  std::uint64_t level = 0;
+  std::vector<SourceWeight> shares;  ///< s_h in the order they are added; a head may stand twice
+};
+
+/// Whether extrapolation factors count, or are taken as 1.
+enum class Extrapolation { kAsGiven, kNone };
+
+/// What a region adds to B, by levels. With bands b = 1 … n that begin at L_1 ≥ … ≥ L_n and end at the
+/// next, L_{n+1} = 0, and C̄_b = Σ_i ω̂_bi C_i,
+///
+///     S_{L_1} B + Σ_b e_b (S_{L_{b+1}} − S_{L_b}) C̄_b = B + Σ_b (S_{L_b} − 1) G_b,
+///     G_1 = B − e_1 C̄_1,   G_b = e_{b−1} C̄_{b−1} − e_b C̄_b
+///
+/// so that bands of the same weights and factor are one band, and one band is Eq. 7.
+/// \return  for each band its L_b and the heads in G_b.
+std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
+                                      Extrapolation extrapolation = Extrapolation::kAsGiven);
 
 /// The τ_h of B: those of a mixture, or 1 for the target.
 std::vector<SourceWeight> target_shares(const Recipe& recipe);

@@ -18,7 +18,12 @@ void require_fit(const FaceSet& faces, const RegionWeights& regions, const Recip
   require_head(recipe.target);
   for (const SourceWeight& part : recipe.mixture) require_head(part.head);
   for (const RegionRecipe& region : recipe.regions) {
-    for (const SourceWeight& source : region.weights) require_head(source.head);
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      const BandRecipe& band = band_of(region, b);
+      for (const SourceWeight& source : band.weights) require_head(source.head);
+      require(b == 0 || band.iterations <= band_of(region, b - 1).iterations,
+              "blend: a band that begins at a higher level than the coarser one before it");
+    }
   }
 }
 

@@ -8,6 +8,14 @@
 #include "crowdface/core/require.h"
 
 namespace crowdface {
+namespace {
+
+/// What an age takes of a band's weights.
+double share_of(double age, const SamplingOptions& sampling, std::size_t band) {
+  return std::abs(age) * (sampling.bands.empty() ? 1 : sampling.bands[band].ageing);
+}
+
+}  // namespace
 
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
                                         const std::vector<SourceWeight>& b, double t) {
@@ -28,26 +36,37 @@ void apply_age(CastFace& face, double age, const SamplingOptions& sampling) {
   std::vector<SourceWeight> along;
   for (const Index head : heads) along.push_back({head, 1 / static_cast<double>(heads.size())});
   for (RegionRecipe& region : face.recipe.regions) {
-    region.weights = mixed_weights(region.weights, along, age > 0 ? age : -age);
-    region.position.reset();
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      const double share = share_of(age, sampling, b);
+      if (share == 0) continue;
+      BandRecipe& band = band_of(region, b);
+      band.weights = mixed_weights(band.weights, along, share);
+      band.position.reset();
+    }
   }
   face.age = age;
 }
 
 void take_back_age(CastFace& face, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
-  const double share = std::abs(face.age.value_or(0));
-  if (share == 0 || share > 1 - kRounding) return;
+  if (face.age.value_or(0) == 0) return;
   const std::vector<Index>& heads = *face.age > 0 ? sampling.old_heads : sampling.young_heads;
-  const double each = share / static_cast<double>(heads.size());
+  bool known = true;
   for (RegionRecipe& region : face.recipe.regions) {
-    for (SourceWeight& source : region.weights) {
-      const bool aged = std::binary_search(heads.begin(), heads.end(), source.head);
-      source.weight = (source.weight - (aged ? each : 0)) / (1 - share);
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      const double share = share_of(*face.age, sampling, b);
+      known = known && share <= 1 - kRounding;
+      if (share == 0 || share > 1 - kRounding) continue;
+      const double each = share / static_cast<double>(heads.size());
+      std::vector<SourceWeight>& weights = band_of(region, b).weights;
+      for (SourceWeight& source : weights) {
+        const bool aged = std::binary_search(heads.begin(), heads.end(), source.head);
+        source.weight = (source.weight - (aged ? each : 0)) / (1 - share);
+      }
+      std::erase_if(weights, [](const SourceWeight& s) { return s.weight < kRounding; });
     }
-    std::erase_if(region.weights, [](const SourceWeight& s) { return s.weight < kRounding; });
   }
-  face.age.reset();
+  if (known) face.age.reset();
 }
 
 }  // namespace crowdface

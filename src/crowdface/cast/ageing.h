@@ -8,8 +8,8 @@ namespace crowdface {
 
 /// Moves a face along the detail of heads tagged old (age above 0) or young (below 0), as the paper
 /// does when it carries an older person's detail over to a younger one (Fig. 2): in every region a
-/// share |age| of the weights goes to those heads, evenly, and what was there keeps the rest. The
-/// weights no longer come from a position then, so there is none.
+/// share |age| of the weights goes to those heads, evenly, and what was there keeps the rest; of bands
+/// each takes its `ageing` of that. The weights no longer come from a position then, so there is none.
 /// \throws BrokenPrecondition if no head is tagged so.
 void apply_age(CastFace& face, double age, const SamplingOptions& sampling);
 

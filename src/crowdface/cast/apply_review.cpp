@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "crowdface/cast/band_order.h"
 #include "crowdface/cast/crowd_statistics.h"
 #include "crowdface/cast/face_search.h"
 #include "crowdface/cast/quotas.h"
@@ -141,8 +142,10 @@ class Redrawing {
     }
     if (family == nullptr && mark.locked.empty()) return {half_median_mm_};
     double free = 1;
-    for (const std::size_t region : mark.locked) {
-      free -= judge_.space().region_share(static_cast<Index>(region));
+    const std::size_t bands = band_count(casting_.sampling);
+    for (const std::size_t part : mark.locked) {
+      free -= judge_.space().region_share(static_cast<Index>(part / bands)) /
+              static_cast<double>(bands);
     }
     const double all =
         family == nullptr ? half_median_mm_ : std::min(half_median_mm_, 0.5 * widest(own));
@@ -173,7 +176,7 @@ class Redrawing {
     return draw_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
-  /// A region can only stay as it is on the same target.
+  /// A part can only stay as it is on the same target.
   CastFace with_locked(CastFace face, const CastFace& old, const ReviewMark& mark) const {
     if (mark.locked.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {
@@ -183,9 +186,12 @@ class Redrawing {
     }
     face.recipe.target = old.recipe.target;
     face.recipe.mixture = old.recipe.mixture;
-    for (const std::size_t region : mark.locked) {
-      face.recipe.regions[region] = old.recipe.regions[region];
+    const std::size_t bands = band_count(casting_.sampling);
+    for (const std::size_t part : mark.locked) {
+      band_of(face.recipe.regions[part / bands], part % bands) =
+          band_of(old.recipe.regions[part / bands], part % bands);
     }
+    for (RegionRecipe& region : face.recipe.regions) keep_order(region);
     return face;
   }
 

@@ -34,7 +34,7 @@ struct CastFace {
   Recipe recipe;
   std::optional<double> age;          ///< −1 … 1, if it was moved along old or young detail
   std::vector<std::string> parents;   ///< of a family with parents: mother and father, heads or ids
-  std::vector<std::string> inherits;  ///< with parents: #regions, whose detail
+  std::vector<std::string> inherits;  ///< with parents: #regions by #bands, whose detail
   double mother_share = 0;            ///< of the large forms, where these are inherited
   CastingNotes notes;
 };

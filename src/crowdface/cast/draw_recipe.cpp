@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crowdface/cast/ageing.h"
+#include "crowdface/cast/band_order.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
@@ -107,7 +108,7 @@ PlanePoint draw_position(const Casting& casting, const PositionDistribution& dis
 }
 
 void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScale& scale,
-                     const FaceDraws& draws, const std::string& region, RegionRecipe& recipe) {
+                     const FaceDraws& draws, const std::string& region, BandRecipe& recipe) {
   const double drawn = draws.in(distribution.range, "smoothness", region);
   switch (distribution.unit) {
     case SmoothnessDistribution::Unit::kFraction:
@@ -126,45 +127,86 @@ void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScal
   recipe.smoothness = static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
 }
 
-void take_position(const Casting& casting, const SamplingOptions& sampling, Index target,
-                   const PlanePoint& position, RegionRecipe& recipe) {
-  recipe.position = position;
-  recipe.weights = weights_at(casting.anchors, target, sampling.sources, position,
-                              casting.normalization, sampling.max_sources);
-}
-
-double largest_weight(const RegionRecipe& region) {
+double largest_weight(const BandRecipe& band) {
   double largest = 0;
-  for (const SourceWeight& source : region.weights) largest = std::max(largest, source.weight);
+  for (const SourceWeight& source : band.weights) largest = std::max(largest, source.weight);
   return largest;
 }
 
-/// Draws what `hand` leaves open of region k; a sampled face leaves everything open.
-RegionRecipe draw_region(const Casting& casting, const SamplingOptions& all, std::size_t k,
-                         Index target, const FaceDraws& draws, const HandRecipe::Region& hand) {
-  const RegionSampling& sampling = all.regions[k];
-  const std::string& name = casting.region_names[k];
-  const auto drawn_position = [&](std::uint32_t retry) {
-    return draw_position(casting, sampling.position, all.sources, target, draws, name, retry);
+/// What a band is drawn from, where its own values go before those of its region.
+struct BandDraw {
+  std::string name;  ///< of its region, and of the band but for the first
+  std::size_t band = 0;
+  RegionSampling sampling;
+  HandRecipe::Band hand;
+};
+
+BandDraw band_draw(const Casting& casting, const SamplingOptions& all, std::size_t k, std::size_t b,
+                   const HandRecipe::Region& region) {
+  BandDraw draw{casting.region_names[k], b, all.regions[k], {}};
+  if (!all.bands.empty()) {
+    const BandSampling& band = all.bands[b];
+    const BandSampling::Region& own = band.regions[k];
+    draw.sampling.position = own.position.value_or(draw.sampling.position);
+    draw.sampling.smoothness = own.smoothness.value_or(draw.sampling.smoothness);
+    draw.sampling.extrapolation = own.extrapolation.value_or(draw.sampling.extrapolation);
+    if (b > 0) draw.name += concat('/', band.name);
+  }
+  if (!region.bands.empty()) draw.hand = region.bands[b];
+  HandRecipe::Band& hand = draw.hand;
+  if (!hand.position && hand.weights.empty()) {
+    hand.position = region.position;
+    hand.weights = region.weights;
+  }
+  if (!hand.smoothness && b == 0) hand.smoothness = region.smoothness;
+  if (!hand.extrapolation) hand.extrapolation = region.extrapolation;
+  return draw;
+}
+
+/// Draws what a hand-written recipe leaves open of a band; a sampled face leaves everything open.
+BandRecipe draw_band(const Casting& casting, const SamplingOptions& all, Index target,
+                     const FaceDraws& draws, const BandDraw& draw) {
+  const std::vector<Index>& sources = sources_of(all, draw.band);
+  const HandRecipe::Band& hand = draw.hand;
+  BandRecipe recipe;
+  const auto take = [&](const PlanePoint& position) {
+    recipe.position = position;
+    recipe.weights = weights_at(casting.anchors, target, sources, position, casting.normalization,
+                                all.max_sources);
   };
-  RegionRecipe recipe;
+  const auto take_drawn = [&](std::uint32_t retry) {
+    take(draw_position(casting, draw.sampling.position, sources, target, draws, draw.name, retry));
+  };
   if (!hand.weights.empty()) {
     std::vector<SourceWeight> weights;
     for (const WeightedHead& source : hand.weights) weights.push_back({source.head, source.weight});
     recipe.weights = normalized_weights(std::move(weights));
+  } else if (hand.position) {
+    take(*hand.position);
   } else {
-    take_position(casting, all, target, hand.position ? *hand.position : drawn_position(0), recipe);
+    take_drawn(0);
+    for (std::uint32_t retry = 1;
+         retry <= kPositionRetries && largest_weight(recipe) > casting.diversity.max_weight;
+         ++retry) {
+      take_drawn(retry);
+    }
   }
-  const bool drawn = hand.weights.empty() && !hand.position;
-  for (std::uint32_t retry = 1;
-       drawn && retry <= kPositionRetries && largest_weight(recipe) > casting.diversity.max_weight;
-       ++retry) {
-    take_position(casting, all, target, drawn_position(retry), recipe);
+  draw_smoothness(hand.smoothness.value_or(draw.sampling.smoothness), casting.scale, draws,
+                  draw.name, recipe);
+  recipe.extrapolation = draws.in(hand.extrapolation.value_or(draw.sampling.extrapolation),
+                                  "extrapolation", draw.name);
+  return recipe;
+}
+
+RegionRecipe draw_region(const Casting& casting, const SamplingOptions& all, std::size_t k,
+                         Index target, const FaceDraws& draws, const HandRecipe::Region& hand) {
+  RegionRecipe recipe;
+  recipe.finer.resize(band_count(all) - 1);
+  for (std::size_t b = 0; b < band_count(all); ++b) {
+    band_of(recipe, b) =
+        draw_band(casting, all, target, draws, band_draw(casting, all, k, b, hand));
   }
-  draw_smoothness(hand.smoothness.value_or(sampling.smoothness), casting.scale, draws, name,
-                  recipe);
-  recipe.extrapolation =
-      draws.in(hand.extrapolation.value_or(sampling.extrapolation), "extrapolation", name);
+  keep_order(recipe);
   return recipe;
 }
 

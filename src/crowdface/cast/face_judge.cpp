@@ -36,8 +36,10 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
 std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
                                              const FaceSpace::Point& point) const {
   for (const RegionRecipe& region : recipe.regions) {
-    for (const SourceWeight& source : region.weights) {
-      if (source.weight > diversity_.max_weight) return Reason::kMaxWeight;
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      for (const SourceWeight& source : band_of(region, b).weights) {
+        if (source.weight > diversity_.max_weight) return Reason::kMaxWeight;
+      }
     }
   }
   const double limit = diversity_.min_distance_to_faces_mm;

@@ -44,11 +44,11 @@ struct FaceSpace::FunctionRows {
   Index count(Index regions) const { return of_field(regions * heads, 0); }
 };
 
-FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights)
+FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands)
     : heads_(std::move(heads)) {
   choose_counting(weights);
   build_basis();
-  build_directions();
+  build_directions(bands);
   if (heads_.alpha.cols() > 1) build_region_metrics();
 }
 
@@ -175,17 +175,15 @@ FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Variant variant) cons
       recipe, [&](Index head) -> const Shape& { return shapes_[static_cast<std::size_t>(head)]; });
   const Index size = shape.size();
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    const RegionRecipe& region = recipe.regions[k];
-    const double e = variant == Variant::kUnit ? 1 : region.extrapolation;
-    for (const LevelTerm& term : level_terms(heads_.levels, region.iterations)) {
-      const auto add = [&](Index head, double factor) {
-        const auto f = static_cast<float>(factor * term.factor);
-        const float* from = field(k, head, term.row);
-        float* out = shape.data();
-        for (Index i = 0; i < size; ++i) out[i] += f * from[i];
-      };
-      for (const SourceWeight& part : target_shares(recipe)) add(part.head, part.weight);
-      for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
+    for (const LevelShares& at : level_shares(recipe, k, extrapolation_of(variant))) {
+      for (const LevelTerm& term : level_terms(heads_.levels, at.level)) {
+        for (const SourceWeight& part : at.shares) {
+          const auto f = static_cast<float>(part.weight * term.factor);
+          const float* from = field(k, part.head, term.row);
+          float* out = shape.data();
+          for (Index i = 0; i < size; ++i) out[i] += f * from[i];
+        }
+      }
     }
   }
   return shape;
@@ -219,7 +217,7 @@ std::vector<float> FaceSpace::aligned(const Shape& shape) const {
 
 /// A face as casting might make one, from all that heads and levels have, so that the main
 /// directions know every way in which faces differ.
-Recipe FaceSpace::training_recipe(std::uint64_t index) const {
+Recipe FaceSpace::training_recipe(std::uint64_t index, std::size_t bands) const {
   const auto draw = [&](const std::string& purpose, std::uint32_t lane) {
     return random_pair({0, index, purpose, 0}, lane);
   };
@@ -229,30 +227,36 @@ Recipe FaceSpace::training_recipe(std::uint64_t index) const {
   Recipe recipe;
   recipe.target = head_at(draw("training/target", 0)[0]);
   for (Index k = 0; k < heads_.alpha.cols(); ++k) {
-    const std::string purpose = concat("training/", k);
     RegionRecipe region;
-    std::vector<SourceWeight> weights;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const auto [which, weight] = draw(purpose, i);
-      weights.push_back({head_at(which), weight * weight + 1e-3});
+    region.finer.resize(bands - 1);
+    auto most = static_cast<double>(heads_.levels.back());
+    for (std::size_t b = 0; b < bands; ++b) {
+      const std::string purpose = b == 0 ? concat("training/", k) : concat("training/", k, "/", b);
+      BandRecipe& band = band_of(region, b);
+      std::vector<SourceWeight> weights;
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const auto [which, weight] = draw(purpose, i);
+        weights.push_back({head_at(which), weight * weight + 1e-3});
+      }
+      band.weights = normalized_weights(std::move(weights));
+      const auto [level, factor] = draw(purpose, 3);
+      // Finer bands begin at sizes spread evenly below the coarser one's: size goes with √L.
+      band.iterations = static_cast<std::uint64_t>(b == 0 ? level * most : level * level * most);
+      band.extrapolation = 0.6 + 0.8 * factor;
+      most = static_cast<double>(band.iterations);
     }
-    region.weights = normalized_weights(std::move(weights));
-    const auto [level, factor] = draw(purpose, 3);
-    region.iterations =
-        static_cast<std::uint64_t>(level * static_cast<double>(heads_.levels.back()));
-    region.extrapolation = 0.6 + 0.8 * factor;
     recipe.regions.push_back(std::move(region));
   }
   return recipe;
 }
 
-void FaceSpace::build_directions() {
+void FaceSpace::build_directions(std::size_t bands) {
   const Index heads = head_count();
   FloatRows rows(heads + static_cast<Index>(kTrainingFaces), mean_shape_.size());
   parallel_for_each(rows.rows(), [&](Index n) {
     const std::vector<float> at =
         n < heads ? aligned(shapes_[static_cast<std::size_t>(n)])
-                  : aligned(shape_of(training_recipe(static_cast<std::uint64_t>(n - heads)),
+                  : aligned(shape_of(training_recipe(static_cast<std::uint64_t>(n - heads), bands),
                                      Variant::kAsBuilt));
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
@@ -279,8 +283,12 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
 FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
   Point point;
   point.as_built = coordinates(shape_of(recipe, Variant::kAsBuilt));
-  const bool unit = std::all_of(recipe.regions.begin(), recipe.regions.end(),
-                                [](const RegionRecipe& r) { return r.extrapolation == 1; });
+  const auto unit_band = [](const BandRecipe& band) { return band.extrapolation == 1; };
+  const bool unit =
+      std::all_of(recipe.regions.begin(), recipe.regions.end(), [&](const RegionRecipe& region) {
+        return unit_band(region) &&
+               std::all_of(region.finer.begin(), region.finer.end(), unit_band);
+      });
   point.unit = unit ? point.as_built : coordinates(shape_of(recipe, Variant::kUnit));
   return point;
 }

@@ -22,7 +22,8 @@ class FaceSpace {
   };
 
   /// \param weights  #S, what each sample counts, see sample_weights; those of zero do not count.
-  FaceSpace(SampledHeads heads, const std::vector<double>& weights);
+  /// \param bands    of each region's detail: more of them differ in more ways.
+  FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
 
   Point point(const Recipe& recipe) const;
   /// An input head, whose two coordinates are one.
@@ -67,12 +68,12 @@ class FaceSpace {
   FloatRows functions(const SpanBasis& modes, const std::vector<float>& peaks,
                       const FunctionRows& rows) const;
   void build_basis();
-  void build_directions();
+  void build_directions(std::size_t bands);
   void build_region_metrics();
   Shape shape_of(const Recipe& recipe, Variant variant) const;
   std::vector<float> aligned(const Shape& shape) const;
   Eigen::VectorXf coordinates(const Shape& shape) const;
-  Recipe training_recipe(std::uint64_t index) const;
+  Recipe training_recipe(std::uint64_t index, std::size_t bands) const;
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;

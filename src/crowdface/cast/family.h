@@ -26,7 +26,8 @@ struct FamilyOptions {
   std::optional<std::size_t> group;    ///< by whose numbers they are drawn; none: the crowd's
   std::optional<Eigen::Index> target;  ///< of all members; none: inherited, or the founder's
   std::vector<Parent> parents;         ///< none, or mother and father
-  std::vector<int> inherit;      ///< #regions: 0 from the mother, 1 from the father, −1 drawn
+  /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 drawn
+  std::vector<int> inherit;
   double max_distance_mm = 2.5;  ///< from the founder, who is not in the crowd
   double min_distance_mm = 0;    ///< between members
   bool twins = false;            ///< as alike as twins: within half a millimetre of a hidden child

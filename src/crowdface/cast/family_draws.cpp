@@ -25,15 +25,14 @@ constexpr double kTwinsReach = 0.5;  // mm from what they are alike to
 constexpr double kStrangersNearer = 0.1;
 constexpr double kRoomAtHalf = 0.25;  ///< of max_distance, where it does not
 
-/// (1 − t)·a + t·b of two regions' numbers.
-RegionRecipe mixed(const RegionRecipe& a, const RegionRecipe& b, double t,
-                   const LevelScale& scale) {
-  RegionRecipe region;
-  region.weights = mixed_weights(a.weights, b.weights, t);
-  region.smoothness = (1 - t) * a.smoothness + t * b.smoothness;
-  region.iterations = iterations_of(region.smoothness, scale);
-  region.extrapolation = (1 - t) * a.extrapolation + t * b.extrapolation;
-  return region;
+/// (1 − t)·a + t·b of two bands' numbers.
+BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale) {
+  BandRecipe band;
+  band.weights = mixed_weights(a.weights, b.weights, t);
+  band.smoothness = (1 - t) * a.smoothness + t * b.smoothness;
+  band.iterations = iterations_of(band.smoothness, scale);
+  band.extrapolation = (1 - t) * a.extrapolation + t * b.extrapolation;
+  return band;
 }
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -93,7 +92,7 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
 
 void FamilyDraws::know(std::size_t parent, std::string name, CastFace face,
                        FaceSpace::Point point) {
-  take_back_age(face, casting_.sampling);  // what children inherit are no wrinkles of age
+  take_back_age(face, sampling_of(face));  // what children inherit are no wrinkles of age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
@@ -127,11 +126,21 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
   return true;
 }
 
-/// What a parent hands down in a region: a face its recipe's part, a head its own detail.
-RegionRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region,
-                                    const RegionRecipe& drawn) const {
-  if (!family_.parents[parent].head) return parents_[parent].face.recipe.regions[region];
-  RegionRecipe own = drawn;
+/// By whose numbers a face was drawn.
+const SamplingOptions& FamilyDraws::sampling_of(const CastFace& face) const {
+  for (const Group& group : casting_.groups) {
+    if (face.group == group.name) return group.sampling;
+  }
+  return casting_.sampling;
+}
+
+/// What a parent hands down in a band of a region: a face its recipe's part, a head its own detail.
+BandRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region, std::size_t band,
+                                  const BandRecipe& drawn) const {
+  if (!family_.parents[parent].head) {
+    return band_of(parents_[parent].face.recipe.regions[region], band);
+  }
+  BandRecipe own = drawn;
   own.position.reset();
   own.weights = {{*family_.parents[parent].head, 1}};
   return own;
@@ -150,11 +159,14 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
     face.mother_share = 0.5;
   }
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
-    const RegionRecipe drawn = face.recipe.regions[k];
-    const int from = family_.inherit[k];
-    face.recipe.regions[k] =
-        from >= 0 ? of_parent(static_cast<std::size_t>(from), k, drawn)
-                  : mixed(of_parent(0, k, drawn), of_parent(1, k, drawn), 0.5, casting_.scale);
+    RegionRecipe& region = face.recipe.regions[k];
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      BandRecipe& band = band_of(region, b);
+      const int from = inherited_from(k, b);
+      band = from >= 0
+                 ? of_parent(static_cast<std::size_t>(from), k, b, band)
+                 : mixed(of_parent(0, k, b, band), of_parent(1, k, b, band), 0.5, casting_.scale);
+    }
   }
   return face;
 }
@@ -166,14 +178,22 @@ CastFace FamilyDraws::towards(const CastFace& from, const Draft& draft, double t
              mixed_weights(target_shares(from.recipe), target_shares(draft.to.recipe), t));
   face.mother_share = (1 - t) * from.mother_share + t * draft.to.mother_share;
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
-    face.recipe.regions[k] =
-        mixed(from.recipe.regions[k], draft.to.recipe.regions[k], t, casting_.scale);
+    RegionRecipe& region = face.recipe.regions[k];
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      BandRecipe& band = band_of(region, b);
+      band = mixed(band_of(from.recipe.regions[k], b), band, t, casting_.scale);
+    }
   }
-  apply_age(face, draft.age, casting_.sampling);
+  apply_age(face, draft.age, sampling_of(face));
   return face;
 }
 
-/// Lets a face take after a parent in its large forms, and after one in each region.
+/// 0 the mother, 1 the father, −1 drawn.
+int FamilyDraws::inherited_from(std::size_t region, std::size_t band) const {
+  return family_.inherit[region * band_count(casting_.sampling) + band];
+}
+
+/// Lets a face take after a parent in its large forms, and after one in each band of each region.
 void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.who, "/inherits/", what);
@@ -188,12 +208,17 @@ void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
     face.mother_share = mother * (1 - kForeignShare);
   }
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
-    const int from = family_.inherit[k];
-    const std::size_t parent =
-        from >= 0 ? static_cast<std::size_t>(from) : parent_of(casting_.region_names[k]);
     RegionRecipe& region = face.recipe.regions[k];
-    region = mixed(region, of_parent(parent, k, region), kParentShare, casting_.scale);
-    face.inherits.emplace_back(parent == 0 ? "mother" : "father");
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      const int from = inherited_from(k, b);
+      const std::string& name = casting_.region_names[k];
+      const std::size_t parent =
+          from >= 0 ? static_cast<std::size_t>(from)
+                    : parent_of(b == 0 ? name : concat(name, '/', casting_.sampling.bands[b].name));
+      BandRecipe& band = band_of(region, b);
+      band = mixed(band, of_parent(parent, k, b, band), kParentShare, casting_.scale);
+      face.inherits.emplace_back(parent == 0 ? "mother" : "father");
+    }
   }
   for (const KnownParent& parent : parents_) face.parents.push_back(parent.name);
 }

@@ -71,7 +71,10 @@ class FamilyDraws {
   };
 
   void know(std::size_t parent, std::string name, CastFace face, FaceSpace::Point point);
-  RegionRecipe of_parent(std::size_t parent, std::size_t region, const RegionRecipe& drawn) const;
+  const SamplingOptions& sampling_of(const CastFace& face) const;
+  BandRecipe of_parent(std::size_t parent, std::size_t region, std::size_t band,
+                       const BandRecipe& drawn) const;
+  int inherited_from(std::size_t region, std::size_t band) const;
   void inherit(CastFace& face, const DrawKey& key) const;
   Draft draft(const FamilyCast& cast, int member, std::uint32_t attempt) const;
   CastFace towards(const CastFace& from, const Draft& draft, double t) const;

@@ -6,10 +6,11 @@
 
 namespace crowdface {
 
-/// What the heads and regions of recipes are called, by their indices.
+/// What the heads, regions and bands of recipes are called, by their indices.
 struct PlanNames {
   std::vector<std::string> heads;
   std::vector<std::string> regions;
+  std::vector<std::string> bands = {};  ///< none: detail is one band
 };
 
 }  // namespace crowdface

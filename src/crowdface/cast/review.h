@@ -11,11 +11,13 @@ namespace crowdface {
 struct ReviewMark {
   enum class Verdict {
     kKeep,    ///< stays as it is
-    kReject,  ///< drawn anew, all of it but the locked regions
+    kReject,  ///< drawn anew, all of it but what is locked
   };
   std::string id;
   Verdict verdict = Verdict::kKeep;
-  std::vector<std::size_t> locked;  ///< regions that stay when the face is drawn anew
+  /// Parts that stay when the face is drawn anew: bands of regions, region by region. Without bands
+  /// they are the regions.
+  std::vector<std::size_t> locked;
   std::optional<std::string> note;
 };
 using Review = std::vector<ReviewMark>;

@@ -38,6 +38,10 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
   return sampled;
 }
 
+Extrapolation extrapolation_of(Variant variant) {
+  return variant == Variant::kUnit ? Extrapolation::kNone : Extrapolation::kAsGiven;
+}
+
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe) {
   return target_matrix<Positions>(recipe, [&](Index head) -> const Positions& {
     return heads.heads[static_cast<std::size_t>(head)];
@@ -49,22 +53,20 @@ Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant v
   // In single precision, as the trajectories are: casting does this for every face it accepts.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    const RegionRecipe& region = recipe.regions[k];
-    const double e = variant == Variant::kUnit ? 1 : region.extrapolation;
     std::fill(change.begin(), change.end(), 0.F);
-    // S_L D − D at the region's samples, D = B − e Σ ω̂_i C_i.
-    for (const LevelTerm& term : level_terms(heads.levels, region.iterations)) {
-      const auto add = [&](Index head, double factor) {
-        const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(head)];
-        const float* row = trajectory.data() + term.row * trajectory.cols();
-        const auto f = static_cast<float>(factor * term.factor * heads.mm_per_unit);
-        for (const auto& [begin, end] : heads.stretches[k]) {
-          float* out = change.data();
-          for (Index i = 3 * begin; i < 3 * end; ++i) out[i] += f * row[i];
+    // S_L G − G at the region's samples, for each of its levels.
+    for (const LevelShares& at : level_shares(recipe, k, extrapolation_of(variant))) {
+      for (const LevelTerm& term : level_terms(heads.levels, at.level)) {
+        for (const SourceWeight& part : at.shares) {
+          const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
+          const float* row = trajectory.data() + term.row * trajectory.cols();
+          const auto f = static_cast<float>(part.weight * term.factor * heads.mm_per_unit);
+          for (const auto& [begin, end] : heads.stretches[k]) {
+            float* out = change.data();
+            for (Index i = 3 * begin; i < 3 * end; ++i) out[i] += f * row[i];
+          }
         }
-      };
-      for (const SourceWeight& part : target_shares(recipe)) add(part.head, part.weight);
-      for (const SourceWeight& source : region.weights) add(source.head, -e * source.weight);
+      }
     }
     for (const auto& [begin, end] : heads.stretches[k]) {
       for (Index s = begin; s < end; ++s) {

@@ -33,6 +33,7 @@ enum class Variant {
   kAsBuilt,
   kUnit,  ///< every extrapolation factor set to 1
 };
+Extrapolation extrapolation_of(Variant variant);
 
 /// The samples of a recipe's target, #S by 3 in millimetres.
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe);

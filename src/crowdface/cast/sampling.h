@@ -52,6 +52,20 @@ struct RegionSampling {
   Range extrapolation = {1, 1};  ///< factor e of Fig. 6
 };
 
+/// A band of detail. What it leaves open is as for its region, or for the crowd.
+struct BandSampling {
+  struct Region {
+    std::optional<PositionDistribution> position;
+    std::optional<SmoothnessDistribution>
+        smoothness;  ///< where it begins; only the first may leave it
+    std::optional<Range> extrapolation;
+  };
+  std::string name;
+  std::vector<Region> regions;                       ///< one for each region
+  std::optional<std::vector<Eigen::Index>> sources;  ///< ascending
+  double ageing = 1;                                 ///< how much of an age acts on it, 0 … 1
+};
+
 /// A head and how often it is drawn, relative to the others.
 struct WeightedHead {
   Eigen::Index head = 0;
@@ -63,19 +77,32 @@ struct SamplingOptions {
   std::vector<WeightedHead> targets;    ///< heads that may be the target, with their frequency
   std::vector<Eigen::Index> sources;    ///< heads whose details take part, ascending
   std::vector<RegionSampling> regions;  ///< one for each region (one in all without regions)
+  std::vector<BandSampling> bands;      ///< coarse to fine; none: detail is one band
   std::optional<int> max_sources;       ///< keep only the largest weights of a position; none: all
   Range age = {0, 0};                   ///< of sampled faces, see apply_age
   std::vector<Eigen::Index> old_heads;  ///< tagged old, ascending
   std::vector<Eigen::Index> young_heads;
 };
 
+/// How many bands a region's detail has.
+std::size_t band_count(const SamplingOptions& sampling);
+/// Where a band of a region begins.
+const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling, std::size_t region,
+                                            std::size_t band);
+/// Heads that lend to a band.
+const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampling, std::size_t band);
+
 /// A face spelled out by hand; what is left out is drawn as for a sampled face.
 struct HandRecipe {
-  struct Region {
+  struct Band {
     std::optional<PlanePoint> position;
     std::vector<WeightedHead> weights;  ///< empty: none given; not both position and weights
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
+  };
+  /// Its own values hold for all bands that have none of their own, smoothness for the first.
+  struct Region : Band {
+    std::vector<Band> bands;  ///< one for each band, or none
   };
   std::string id;
   std::optional<Eigen::Index> target;

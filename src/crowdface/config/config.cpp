@@ -1,14 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/config.h"
 
+#include "crowdface/core/text.h"
+
 namespace crowdface {
 
 std::vector<std::string> Config::region_names() const {
   return regions.names.empty() ? std::vector<std::string>{"all"} : regions.names;
 }
 
+std::vector<std::string> Config::part_names() const {
+  if (sampling.bands.empty()) return region_names();
+  std::vector<std::string> of_bands;
+  for (const std::string& region : region_names()) {
+    for (const BandSampling& band : sampling.bands)
+      of_bands.push_back(concat(region, '/', band.name));
+  }
+  return of_bands;
+}
+
 PlanNames Config::plan_names() const {
-  return {faces.names, region_names()};
+  PlanNames names{faces.names, region_names()};
+  for (const BandSampling& band : sampling.bands) names.bands.push_back(band.name);
+  return names;
 }
 
 }  // namespace crowdface

@@ -190,6 +190,8 @@ struct Config {
 
   /// Region names as they stand in a plan: `regions.names`, or "all".
   std::vector<std::string> region_names() const;
+  /// Of what may be locked or inherited: the regions, or with bands "top/build", "top/skin", …
+  std::vector<std::string> part_names() const;
   PlanNames plan_names() const;
 };
 

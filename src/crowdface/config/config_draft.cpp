@@ -33,6 +33,19 @@ std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& 
   return std::nullopt;
 }
 
+std::vector<std::size_t> find_parts(const std::string& name, const Config& config) {
+  const std::vector<std::string> regions = config.region_names();
+  const std::vector<std::string> bands = config.plan_names().bands;
+  const std::vector<std::string> parts = config.part_names();
+  const std::size_t each = parts.size() / regions.size();
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool of_band = !bands.empty() && bands[i % each] == name;
+    if (parts[i] == name || regions[i / each] == name || of_band) found.push_back(i);
+  }
+  return found;
+}
+
 std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& place,
                                      const std::string& path, ConfigDraft& draft) {
   std::vector<Eigen::Index> heads;

@@ -27,6 +27,10 @@ struct ConfigDraft {
   bool smoothing_known = true;
 };
 
+/// Which of part_names() are meant: by a region's name all its bands, by a band's that of all regions,
+/// or one part. Empty if there is none of that name.
+std::vector<std::size_t> find_parts(const std::string& name, const Config& config);
+
 /// A path relative to the folder, with "a/../" taken out by its text.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 

@@ -111,21 +111,27 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     draft.complaints.about(node, "only a family with parents inherits");
   }
   if (!draft.regions_known && node.kind == YamlNode::Kind::kMap) return;
-  const std::vector<std::string> names = draft.config.region_names();
+  // The later has the last word: a band over a region, "top/skin" over both.
+  std::vector<std::string> names = draft.config.region_names();
+  for (const std::string& more : draft.config.plan_names().bands) names.push_back(more);
+  for (const std::string& part : draft.config.part_names()) {
+    if (!draft.config.sampling.bands.empty()) names.push_back(part);
+  }
   const MapReader map(&node, names, draft.complaints);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (const YamlNode* from = map.find(names[k])) {
-      family.inherit[k] = word<int>().read(*from, draft).value_or(-1);
-    }
+  for (const std::string& name : names) {
+    const YamlNode* from = map.find(name);
+    if (from == nullptr) continue;
+    const int parent = word<int>().read(*from, draft).value_or(-1);
+    for (const std::size_t part : find_parts(name, draft.config)) family.inherit[part] = parent;
   }
 }
 
 std::string write_inherit(const FamilyOptions& family, const ConfigWriting& writing) {
   if (family.parents.empty()) return "";
-  const std::vector<std::string> names = writing.config.region_names();
+  const std::vector<std::string> names = writing.config.part_names();
   std::vector<std::string> entries;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    entries.push_back(entry(write_scalar(names[k]), std::string(word_of(family.inherit[k]))));
+  for (std::size_t part = 0; part < names.size(); ++part) {
+    entries.push_back(entry(write_scalar(names[part]), std::string(word_of(family.inherit[part]))));
   }
   return flow_map(entries);
 }
@@ -186,7 +192,7 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node, "a list of families, [{name: smith, members: 6, …}]");
   for (const YamlNode& item : node.items) {
     FamilyOptions family;
-    family.inherit.assign(config.region_names().size(), -1);
+    family.inherit.assign(config.part_names().size(), -1);
     if (!read_keys(item, family_keys(), family, draft)) continue;
     if (!family.name.empty()) check_name(item.find("name")->value, family, draft);
     constexpr double kTwinsMm = 0.1;

@@ -10,15 +10,16 @@
 namespace crowdface {
 namespace {
 
+using Band = HandRecipe::Band;
 using Region = HandRecipe::Region;
 using Unit = SmoothnessDistribution::Unit;
 
-void read_weights(const YamlNode& node, Region& region, ConfigDraft& draft) {
+void read_weights(const YamlNode& node, Band& band, ConfigDraft& draft) {
   if (node.entries.empty()) {
     draft.complaints.expected(node, "a mapping from heads to weights, {head: weight}");
     return;
   }
-  std::vector<WeightedHead>& weights = region.weights;
+  std::vector<WeightedHead>& weights = band.weights;
   if (draft.config.blending.normalization == Normalization::kPrinted) {
     draft.complaints.about(node, "blending.normalization: printed takes positions, no weights");
   }
@@ -38,40 +39,79 @@ void read_weights(const YamlNode& node, Region& region, ConfigDraft& draft) {
             [](const WeightedHead& a, const WeightedHead& b) { return a.head < b.head; });
 }
 
-std::optional<Unit> unit_of(const Region& region) {
-  return region.smoothness ? std::optional(region.smoothness->unit) : std::nullopt;
+std::optional<Unit> unit_of(const Band& band) {
+  return band.smoothness ? std::optional(band.smoothness->unit) : std::nullopt;
 }
 
-const Keys<Region>& region_keys() {
+const Keys<Band>& band_keys() {
   /// Both smoothness and iterations stand in one member: its unit tells which is written.
-  Key<Region> by_size = key("smoothness", &Region::smoothness, smoothness());
-  by_size.write = [write = by_size.write](const Region& region, const ConfigWriting& writing) {
-    return unit_of(region) == Unit::kIterations ? "" : write(region, writing);
+  Key<Band> by_size = key("smoothness", &Band::smoothness, smoothness());
+  by_size.write = [write = by_size.write](const Band& band, const ConfigWriting& writing) {
+    return unit_of(band) == Unit::kIterations ? "" : write(band, writing);
   };
-  Key<Region> by_count = key("iterations", &Region::smoothness, iterations());
-  by_count.write = [write = by_count.write](const Region& region, const ConfigWriting& writing) {
-    return unit_of(region) == Unit::kIterations ? write(region, writing) : "";
+  Key<Band> by_count = key("iterations", &Band::smoothness, iterations());
+  by_count.write = [write = by_count.write](const Band& band, const ConfigWriting& writing) {
+    return unit_of(band) == Unit::kIterations ? write(band, writing) : "";
   };
-  static const Keys<Region> keys = {
-      key("position", &Region::position, point()),
+  static const Keys<Band> keys = {
+      key("position", &Band::position, point()),
       {"weights", read_weights,
-       [](const Region& region, const ConfigWriting& writing) {
-         return region.weights.empty() ? "" : write_weights(region.weights, writing);
+       [](const Band& band, const ConfigWriting& writing) {
+         return band.weights.empty() ? "" : write_weights(band.weights, writing);
        }},
       by_size,
       by_count,
-      key("extrapolation", &Region::extrapolation, extrapolation())};
+      key("extrapolation", &Band::extrapolation, extrapolation())};
   return keys;
 }
 
-Region read_region(const YamlNode& node, ConfigDraft& draft) {
-  Region region;
-  read_keys(node, region_keys(), region, draft);
+template <class Part>
+void read_part(const YamlNode& node, const Keys<Part>& keys, Part& part, ConfigDraft& draft) {
+  read_keys(node, keys, part, draft);
   for (const auto& [one, other] :
        {std::pair("position", "weights"), {"smoothness", "iterations"}}) {
     if (node.find(one) == nullptr || node.find(other) == nullptr) continue;
     draft.complaints.about(node, concat("either ", one, " or ", other, ", not both"));
   }
+}
+
+void read_bands(const YamlNode& node, Region& region, ConfigDraft& draft) {
+  const std::vector<std::string> names = draft.config.plan_names().bands;
+  if (names.empty()) {
+    draft.complaints.about(node, "there are no bands; sampling.bands names them");
+    return;
+  }
+  const MapReader map(&node, names, draft.complaints);
+  region.bands.resize(names.size());
+  for (std::size_t b = 0; b < names.size(); ++b) {
+    if (const YamlNode* own = map.find(names[b]))
+      read_part(*own, band_keys(), region.bands[b], draft);
+  }
+}
+
+std::string write_bands(const Region& region, const ConfigWriting& writing) {
+  std::vector<std::string> entries;
+  for (std::size_t b = 0; b < region.bands.size(); ++b) {
+    const std::vector<std::string> values = write_keys(band_keys(), region.bands[b], writing);
+    if (values.empty()) continue;
+    entries.push_back(entry(write_scalar(writing.config.sampling.bands[b].name), flow_map(values)));
+  }
+  return entries.empty() ? "" : flow_map(entries);
+}
+
+const Keys<Region>& region_keys() {
+  static const Keys<Region> keys = [] {
+    Keys<Region> own;
+    for (const Key<Band>& key : band_keys()) own.push_back({key.name, key.read, key.write});
+    own.push_back({"bands", read_bands, write_bands});
+    return own;
+  }();
+  return keys;
+}
+
+Region read_region(const YamlNode& node, ConfigDraft& draft) {
+  Region region;
+  read_part(node, region_keys(), region, draft);
   return region;
 }
 

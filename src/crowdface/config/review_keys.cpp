@@ -50,29 +50,32 @@ bool is_drawn_parent(const std::string& id, const Config& config) {
 }
 
 void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
-  const std::vector<std::string>& names = draft.config.regions.names;
+  std::vector<std::string> names = draft.config.regions.names;
+  for (const std::string& band : draft.config.plan_names().bands) names.push_back(band);
+  const bool banded = names.size() > draft.config.regions.names.size();
   if (node.kind != YamlNode::Kind::kList || node.items.empty()) {
-    draft.complaints.expected(node, "a list of regions that stay, [top]");
+    draft.complaints.expected(node, "a list of regions or bands that stay, [top]");
     return;
   }
   for (const YamlNode& item : node.items) {
-    const auto name = read_name(item, draft.complaints);
+    const bool of_both =
+        item.kind == YamlNode::Kind::kScalar && item.text.find('/') != item.text.npos;
+    const auto name = of_both ? std::optional(item.text) : read_name(item, draft.complaints);
     if (!name) continue;
-    const auto region = std::find(names.begin(), names.end(), *name);
-    if (region == names.end()) {
-      if (draft.regions_known) {
-        draft.complaints.about(
-            item, names.empty()
-                      ? "there are no regions: nothing can be locked apart from the rest"
-                      : concat("no region is called ", quoted(*name), suggestion(*name, names)));
-      }
-      continue;
+    const std::vector<std::size_t> found =
+        names.empty() ? std::vector<std::size_t>() : find_parts(*name, draft.config);
+    if (found.empty() && draft.regions_known) {
+      draft.complaints.about(
+          item, names.empty()
+                    ? "there are no regions: nothing can be locked apart from the rest"
+                    : concat(banded ? "no region or band is called " : "no region is called ",
+                             quoted(*name), suggestion(*name, names)));
     }
-    mark.locked.push_back(static_cast<std::size_t>(region - names.begin()));
+    mark.locked.insert(mark.locked.end(), found.begin(), found.end());
   }
   std::sort(mark.locked.begin(), mark.locked.end());
   mark.locked.erase(std::unique(mark.locked.begin(), mark.locked.end()), mark.locked.end());
-  if (!names.empty() && mark.locked.size() == names.size()) {
+  if (!names.empty() && mark.locked.size() == draft.config.part_names().size()) {
     draft.complaints.about(node, "with every region locked nothing is left to draw anew");
   }
   mark.verdict = Verdict::kReject;

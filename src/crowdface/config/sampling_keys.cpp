@@ -6,6 +6,7 @@
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
+#include "crowdface/core/name.h"
 
 namespace crowdface {
 namespace {
@@ -71,31 +72,45 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
   return split;
 }
 
-/// A value for each region. \param parameters  as of split_by_region.
 template <class Value>
-Key<SamplingOptions> per_region_key(std::string_view name, Value RegionSampling::*member,
-                                    const Codec<Value>& codec, const Names& parameters = {}) {
+const Value& value_of(const Value& value) {
+  return value;
+}
+template <class Value>
+const Value& value_of(const std::optional<Value>& value) {
+  return *value;
+}
+
+/// A value for each of a section's regions; those that are empty optionals are not written.
+/// \param parameters  as of split_by_region.
+template <class Section, class Region, class Member, class Value>
+Key<Section> per_region_key(std::string_view name, Member Region::*member,
+                            const Codec<Value>& codec, const Names& parameters = {}) {
   return {name,
-          [=](const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
+          [=](const YamlNode& node, Section& section, ConfigDraft& draft) {
             const PerRegion split = split_by_region(node, parameters, draft);
             const auto whole = split.whole ? codec.read(*split.whole, draft) : std::nullopt;
-            for (RegionSampling& region : sampling.regions) {
+            for (Region& region : section.regions) {
               if (whole) region.*member = *whole;
             }
             for (const auto& [region, own] : split.of_region) {
               if (const auto value = codec.read(*own, draft)) {
-                sampling.regions[region].*member = *value;
+                section.regions[region].*member = *value;
               }
             }
           },
-          [=](const SamplingOptions& sampling, const ConfigWriting& writing) {
+          [=](const Section& section, const ConfigWriting& writing) {
             const Names& names = writing.config.regions.names;
             std::vector<std::string> entries;
-            for (std::size_t i = 0; i < sampling.regions.size(); ++i) {
+            for (std::size_t i = 0; i < section.regions.size(); ++i) {
+              const Member& value = section.regions[i].*member;
+              if constexpr (requires { value.has_value(); }) {
+                if (!value) continue;
+              }
               entries.push_back(entry(names.empty() ? "default" : write_scalar(names[i]),
-                                      codec.write(sampling.regions[i].*member, writing)));
+                                      codec.write(value_of(value), writing)));
             }
-            return block_map(entries);
+            return entries.empty() ? "" : block_map(entries);
           }};
 }
 
@@ -248,6 +263,89 @@ std::string write_targets(const SamplingOptions& sampling, const ConfigWriting& 
   return write_head_list(heads, writing);
 }
 
+constexpr std::size_t kMostBands = 4;
+
+const Keys<BandSampling>& band_keys() {
+  using Band = BandSampling;
+  static const Keys<Band> keys = {
+      per_region_key<Band>("smoothness", &Band::Region::smoothness, sampled_smoothness(),
+                           {"iterations"}),
+      per_region_key<Band>("position", &Band::Region::position,
+                           Codec<PositionDistribution>{read_position, write_position},
+                           names_of(position_keys())),
+      per_region_key<Band>("extrapolation", &Band::Region::extrapolation, extrapolation()),
+      {"sources",
+       [](const YamlNode& node, Band& band, ConfigDraft& draft) {
+         band.sources = read_head_list(node, draft);
+       },
+       [](const Band& band, const ConfigWriting& writing) {
+         return band.sources ? write_head_list(*band.sources, writing) : "";
+       }},
+      key("ageing", &Band::ageing, number(0, 1))};
+  return keys;
+}
+
+/// Its values, or in short where it begins.
+void read_band(const YamlNode& node, BandSampling& band, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kMap) {
+    read_keys(node, band_keys(), band, draft);
+  } else {
+    band_keys().front().read(node, band, draft);
+  }
+}
+
+void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, ConfigDraft& draft) {
+  static const std::set<std::string> reserved = {"all", "default", "none"};
+  const Names regions = draft.config.region_names();
+  std::string why;
+  if (!is_name(entry.key)) {
+    why = "is no name: letters (a-z), digits, '_', '-' or '.' are";
+  } else if (reserved.contains(entry.key) || contains(regions, entry.key)) {
+    why = "means something else; give the band another name";
+  } else if (sampling.bands.size() == kMostBands) {
+    why = concat("is one too many: at most ", kMostBands, " bands");
+  }
+  if (!why.empty()) draft.complaints.add(entry.key_place, concat(quoted(entry.key), ' ', why));
+}
+
+/// Those of the crowd, coarse to fine; a group takes them and may change their values.
+void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
+  draft.complaints.expect_map(
+      node, "a mapping from bands to sizes, coarse to fine, {build: 240 mm, skin: 8 mm}");
+  const bool of_crowd = &sampling == &draft.config.sampling;
+  for (const YamlEntry& entry : node.entries) {
+    auto band = std::find_if(sampling.bands.begin(), sampling.bands.end(),
+                             [&](const BandSampling& other) { return other.name == entry.key; });
+    if (band == sampling.bands.end()) {
+      if (!of_crowd) {
+        draft.complaints.add(entry.key_place,
+                             concat("no band of sampling.bands is called ", quoted(entry.key)));
+        continue;
+      }
+      check_band_name(entry, sampling, draft);
+      const bool first = sampling.bands.empty();
+      const bool is_build = first && node.entries.size() > 1;  // which does not age
+      band = sampling.bands.insert(band, {entry.key, {}, {}, is_build ? 0.0 : 1.0});
+      band->regions.resize(sampling.regions.size());
+      const YamlNode& value = entry.value;
+      if (!first && value.kind == YamlNode::Kind::kMap && value.find("smoothness") == nullptr) {
+        draft.complaints.about(value, "smoothness: missing; where the band begins, such as 8 mm");
+      }
+    }
+    read_band(entry.value, *band, draft);
+  }
+}
+
+std::string write_bands(const SamplingOptions& sampling, const ConfigWriting& writing) {
+  if (sampling.bands.empty()) return "";
+  std::vector<std::string> entries;
+  for (const BandSampling& band : sampling.bands) {
+    entries.push_back(
+        entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, writing))));
+  }
+  return block_map(entries);
+}
+
 }  // namespace
 
 const Keys<SamplingOptions>& sampling_keys() {
@@ -261,14 +359,15 @@ const Keys<SamplingOptions>& sampling_keys() {
        [](const Sampling& sampling, const ConfigWriting& writing) {
          return write_head_list(sampling.sources, writing);
        }},
-      per_region_key("position", &RegionSampling::position, {read_position, write_position},
-                     names_of(position_keys())),
-      per_region_key("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
-                     {"iterations"})
+      per_region_key<Sampling>("position", &RegionSampling::position,
+                               Codec<PositionDistribution>{read_position, write_position},
+                               names_of(position_keys())),
+      per_region_key<Sampling>("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
+                               {"iterations"})
           .in_starter({"[0.15, 0.7]", "",
                        "How much of the target's own relief gives way to that of the others: 0 "
                        "nothing, 1 all of\nit up to 240 mm. Or a size: [4 mm, 30 mm]."}),
-      per_region_key("extrapolation", &RegionSampling::extrapolation, extrapolation())
+      per_region_key<Sampling>("extrapolation", &RegionSampling::extrapolation, extrapolation())
           .in_starter(
               {"[0.9, 1.2]", "", "Above 1 features are stronger than scanned, below 1 weaker."}),
       Key<Sampling>{"max_sources",
@@ -282,6 +381,7 @@ const Keys<SamplingOptions>& sampling_keys() {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
           .in_starter({"3", "", "How many heads lend their features to one face."}),
+      {"bands", read_bands, write_bands},
       key("age", &Sampling::age, age())};
   return keys;
 }

@@ -17,16 +17,36 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
+Json band_to_json(const BandRecipe& band, const PlanNames& names) {
   Json json;
-  json["position"] = region.position ? Json({region.position->x(), region.position->y()}) : Json();
+  json["position"] = band.position ? Json({band.position->x(), band.position->y()}) : Json();
   json["weights"] = Json::object();
-  for (const SourceWeight& source : region.weights) {
+  for (const SourceWeight& source : band.weights) {
     json["weights"][name_at(names.heads, source.head)] = source.weight;
   }
-  json["smoothness"] = region.smoothness;
-  json["iterations"] = region.iterations;
-  json["extrapolation"] = region.extrapolation;
+  json["smoothness"] = band.smoothness;
+  json["iterations"] = band.iterations;
+  json["extrapolation"] = band.extrapolation;
+  return json;
+}
+
+/// The values of the first band, and the others by their names.
+Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
+  Json json = band_to_json(region, names);
+  for (std::size_t b = 1; b < band_count(region); ++b) {
+    json["bands"][names.bands[b]] = band_to_json(band_of(region, b), names);
+  }
+  return json;
+}
+
+/// From whom a region is, or each of its bands.
+Json inherits_to_json(const std::vector<std::string>& inherits, std::size_t region,
+                      const PlanNames& names) {
+  if (names.bands.empty()) return inherits[region];
+  Json json;
+  for (std::size_t b = 0; b < names.bands.size(); ++b) {
+    json[names.bands[b]] = inherits[region * names.bands.size() + b];
+  }
   return json;
 }
 
@@ -49,8 +69,8 @@ Json face_to_json(const CastFace& face, const PlanNames& names, const Digest& se
     if (face.mother_share > 0) json["mother_share"] = rounded(face.mother_share);
   }
   if (!face.inherits.empty()) {
-    for (std::size_t k = 0; k < face.inherits.size(); ++k) {
-      json["inherits"][names.regions[k]] = face.inherits[k];
+    for (std::size_t k = 0; k < names.regions.size(); ++k) {
+      json["inherits"][names.regions[k]] = inherits_to_json(face.inherits, k, names);
     }
   }
   if (face.notes.review) json["note"] = *face.notes.review;

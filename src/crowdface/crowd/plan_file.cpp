@@ -66,7 +66,10 @@ class LineReader {
     }
     if (const auto inherits = json.find("inherits"); inherits != json.end()) {
       for (const std::string& name : names_.regions) {
-        face.inherits.push_back(text(*inherits, name));
+        if (names_.bands.empty()) face.inherits.push_back(text(*inherits, name));
+        for (const std::string& band : names_.bands) {
+          face.inherits.push_back(text(member(*inherits, name), band));
+        }
       }
     }
     if (json.contains("note")) face.notes.review = text(json, "note");
@@ -160,8 +163,30 @@ class LineReader {
   }
 
   RegionRecipe region(const Json& json, const std::string& name) const {
-    if (!json.is_object()) fail(name, "an object", json.dump());
     RegionRecipe result;
+    static_cast<BandRecipe&>(result) = band(json, name);
+    const auto bands = json.find("bands");
+    if (bands == json.end()) return result;
+    const std::size_t finer = std::max<std::size_t>(1, names_.bands.size()) - 1;
+    if (!bands->is_object() || bands->size() != finer) {
+      fail("bands", concat("an object of ", finer, " bands, all but the first"), bands->dump());
+    }
+    for (std::size_t b = 1; b <= finer; ++b) {
+      const std::string& own = names_.bands[b];
+      result.finer.push_back(band(member(*bands, own), own));
+      const std::uint64_t before = band_of(result, b - 1).iterations;
+      const std::uint64_t begins = result.finer.back().iterations;
+      if (begins > before) {
+        fail(concat(own, ".iterations"), concat("at most those of the band before it, ", before),
+             concat(begins));
+      }
+    }
+    return result;
+  }
+
+  BandRecipe band(const Json& json, const std::string& name) const {
+    if (!json.is_object()) fail(name, "an object", json.dump());
+    BandRecipe result;
     if (const Json& position = member(json, "position"); !position.is_null()) {
       if (!position.is_array() || position.size() != 2) fail("position", "[x, y]", position.dump());
       result.position = PlanePoint(coordinate(position[0]), coordinate(position[1]));
@@ -215,12 +240,24 @@ std::string csv_field(const std::string& text) {
   return out + '"';
 }
 
+constexpr const char* kBandColumns[] = {"position_x", "position_y", "weights",
+                                        "smoothness", "iterations", "extrapolation"};
+
 std::string csv_weights(const std::vector<SourceWeight>& weights, const PlanNames& names) {
   std::vector<std::string> parts;
   for (const SourceWeight& source : weights) {
     parts.push_back(concat(name_at(names.heads, source.head), ':', source.weight));
   }
   return join(parts, ";");
+}
+
+void add_band(const BandRecipe& band, const PlanNames& names, std::vector<std::string>& row) {
+  row.push_back(band.position ? format_number(band.position->x()) : "");
+  row.push_back(band.position ? format_number(band.position->y()) : "");
+  row.push_back(csv_field(csv_weights(band.weights, names)));
+  row.push_back(format_number(band.smoothness));
+  row.push_back(concat(band.iterations));
+  row.push_back(format_number(band.extrapolation));
 }
 
 }  // namespace
@@ -252,8 +289,7 @@ std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNam
 std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& names) {
   std::vector<std::string> header = {"id", "index", "family", "target"};
   for (const std::string& region : names.regions) {
-    for (const char* column :
-         {"position_x", "position_y", "weights", "smoothness", "iterations", "extrapolation"}) {
+    for (const char* column : kBandColumns) {
       header.push_back(csv_field(concat(region, '_', column)));
     }
   }
@@ -261,19 +297,19 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
                              "group", "mixture"}) {
     header.emplace_back(column);
   }
+  for (const std::string& region : names.regions) {
+    for (std::size_t b = 1; b < names.bands.size(); ++b) {
+      for (const char* column : kBandColumns) {
+        header.push_back(csv_field(concat(region, '_', names.bands[b], '_', column)));
+      }
+    }
+  }
   std::string table = join(header, ",") + "\r\n";
   for (const CastFace& face : crowd) {
     std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
                                     csv_field(face.family.value_or("")),
                                     csv_field(name_at(names.heads, face.recipe.target))};
-    for (const RegionRecipe& region : face.recipe.regions) {
-      row.push_back(region.position ? format_number(region.position->x()) : "");
-      row.push_back(region.position ? format_number(region.position->y()) : "");
-      row.push_back(csv_field(csv_weights(region.weights, names)));
-      row.push_back(format_number(region.smoothness));
-      row.push_back(concat(region.iterations));
-      row.push_back(format_number(region.extrapolation));
-    }
+    for (const RegionRecipe& region : face.recipe.regions) add_band(region, names, row);
     const bool near = face.notes.nearest.has_value();
     const bool near_crowd = near && face.notes.nearest->crowd;
     row.push_back(near ? csv_field(name_at(names.heads, face.notes.nearest->head)) : "");
@@ -282,6 +318,15 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
     row.push_back(near_crowd ? format_number(rounded(face.notes.nearest->crowd_mm)) : "");
     row.push_back(csv_field(face.group.value_or("")));
     row.push_back(csv_weights(face.recipe.mixture, names));
+    for (const RegionRecipe& region : face.recipe.regions) {
+      for (std::size_t b = 1; b < names.bands.size(); ++b) {
+        if (b < band_count(region)) {
+          add_band(band_of(region, b), names, row);
+        } else {
+          row.resize(row.size() + std::size(kBandColumns));
+        }
+      }
+    }
     table += join(row, ",") + "\r\n";
   }
   return table;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "crowdface/cast/ageing.h"
+#include "crowdface/cast/band_order.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
@@ -16,20 +17,21 @@ double between(double a, double b, double share) {
   return a + share * (b - a);
 }
 
-RegionRecipe between(const RegionRecipe& a, const RegionRecipe& b, double share, Index target,
-                     const Casting& casting) {
-  RegionRecipe region;
+/// \param sources  of the band
+BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index target,
+                   const std::vector<Index>& sources, const Casting& casting) {
+  BandRecipe band;
   if (a.position && b.position) {
-    region.position = *a.position + share * (*b.position - *a.position);
-    region.weights = weights_at(casting.anchors, target, casting.sampling.sources, *region.position,
-                                casting.normalization, casting.sampling.max_sources);
+    band.position = *a.position + share * (*b.position - *a.position);
+    band.weights = weights_at(casting.anchors, target, sources, *band.position,
+                              casting.normalization, casting.sampling.max_sources);
   } else {
-    region.weights = mixed_weights(a.weights, b.weights, share);
+    band.weights = mixed_weights(a.weights, b.weights, share);
   }
-  region.smoothness = between(a.smoothness, b.smoothness, share);
-  region.iterations = iterations_of(region.smoothness, casting.scale);
-  region.extrapolation = between(a.extrapolation, b.extrapolation, share);
-  return region;
+  band.smoothness = between(a.smoothness, b.smoothness, share);
+  band.iterations = iterations_of(band.smoothness, casting.scale);
+  band.extrapolation = between(a.extrapolation, b.extrapolation, share);
+  return band;
 }
 
 CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint32_t attempt) {
@@ -44,12 +46,17 @@ CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint3
   if (keeps_target) face.recipe.mixture = old.recipe.mixture;
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     RegionRecipe& region = face.recipe.regions[k];
-    if (std::find(request.locked.begin(), request.locked.end(), k) != request.locked.end()) {
-      region = request.from.recipe.regions[k];
-    } else if (request.like) {
-      region = between(request.like->recipe.regions[k], region, request.amount, face.recipe.target,
-                       casting);
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      BandRecipe& band = band_of(region, b);
+      const std::size_t part = k * band_count(region) + b;
+      if (std::find(request.locked.begin(), request.locked.end(), part) != request.locked.end()) {
+        band = band_of(request.from.recipe.regions[k], b);
+      } else if (request.like) {
+        band = between(band_of(request.like->recipe.regions[k], b), band, request.amount,
+                       face.recipe.target, sources_of(casting.sampling, b), casting);
+      }
     }
+    keep_order(region);
   }
   return face;
 }

@@ -13,9 +13,10 @@ namespace crowdface {
 
 /// Faces to choose from.
 struct DrawRequest {
-  CastFace from;                    ///< gives the id, and all that is locked
-  std::vector<std::size_t> locked;  ///< regions that stay; with any the target stays too
-  std::optional<CastFace> like;     ///< draw around this face
+  CastFace from;  ///< gives the id, and all that is locked
+  std::vector<std::size_t>
+      locked;                    ///< parts that stay, as in reviews; with any the target stays too
+  std::optional<CastFace> like;  ///< draw around this face
   double amount = 1;      ///< with `like`: how far, 0 … 1, towards a face that is drawn freely
   std::size_t count = 1;  ///< how many
   std::uint32_t first_attempt = 0;  ///< another number, other faces

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "crowdface/config/config_draft.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
@@ -123,24 +124,23 @@ CastFace EditApi::face_of(const Json& body, const std::string& key) const {
                       session_.job().config);
 }
 
-std::vector<std::size_t> EditApi::regions_in(const Json& body, const std::string& key) const {
-  std::vector<std::size_t> regions;
-  if (!body.contains(key)) return regions;
-  const std::vector<std::string>& names = session_.casting().region_names;
+std::vector<std::size_t> EditApi::parts_in(const Json& body, const std::string& key) const {
+  std::vector<std::size_t> parts;
+  if (!body.contains(key)) return parts;
   for (const Json& name : body[key]) {
     const auto found =
-        std::find(names.begin(), names.end(), name.is_string() ? name.get<std::string>() : "");
-    if (found == names.end()) throw UsageError(concat(key, ": expected a list of regions"));
-    regions.push_back(static_cast<std::size_t>(found - names.begin()));
+        find_parts(name.is_string() ? name.get<std::string>() : "", session_.job().config);
+    if (found.empty()) throw UsageError(concat(key, ": expected a list of regions or bands"));
+    parts.insert(parts.end(), found.begin(), found.end());
   }
-  return regions;
+  return parts;
 }
 
 HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   constexpr double kMostFaces = 64;
   constexpr std::uint32_t kAttempts = 4096;  // more than one request takes
   const Json body = body_of(request);
-  DrawRequest draw{face_of(body), regions_in(body, "locked"), std::nullopt};
+  DrawRequest draw{face_of(body), parts_in(body, "locked"), std::nullopt};
   if (body.contains("like") && !body["like"].is_null()) draw.like = face_of(body, "like");
   if (body.contains("amount")) draw.amount = number_in(body, "amount", 0, 1);
   if (body.contains("count")) {

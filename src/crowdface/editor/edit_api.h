@@ -62,7 +62,7 @@ class EditApi {
   void require_masks_of_config() const;
 
   // What a request's body holds. \throws UsageError with the key's name.
-  std::vector<std::size_t> regions_in(const Json& body, const std::string& key) const;
+  std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
   CastFace face_of(const Json& body, const std::string& key = "recipe") const;
   void note_turn(const std::string& page, std::uint64_t turn);
   bool overtaken(const std::string& page, std::uint64_t turn);

@@ -135,7 +135,7 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
     throw UsageError(concat("no face of this crowd is called ", crowdface::quoted(mark.id)));
   }
   if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");
-  mark.locked = regions_in(body, "lock");
+  mark.locked = parts_in(body, "lock");
   if (!mark.locked.empty()) mark.verdict = ReviewMark::Verdict::kReject;
   if (body.contains("note")) {
     mark.note = text_in(body, "note");

@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& regions) {
+std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
   std::vector<std::string> entries = {mark.verdict == ReviewMark::Verdict::kKeep ? "mark: keep"
                                                                                  : "mark: reject"};
   std::vector<std::string> locked;
-  for (const std::size_t k : mark.locked) locked.push_back(write_scalar(regions[k]));
+  for (const std::size_t k : mark.locked) locked.push_back(write_scalar(parts[k]));
   if (!locked.empty()) entries.push_back(concat("lock: [", join(locked), ']'));
   if (mark.note) entries.push_back(concat("note: ", write_scalar(*mark.note)));
   return concat("  ", write_scalar(mark.id), ": {", join(entries), "}\n");
@@ -84,7 +84,7 @@ fs::path EditedFolder::save_mark(const ReviewMark& mark) {
   const std::lock_guard lock(mutex_);
   marks_[mark.id] = mark;
   std::string text = "schema: 1\nfaces:\n";
-  for (const auto& [id, one] : marks_) text += format_mark(one, job_.names.regions);
+  for (const auto& [id, one] : marks_) text += format_mark(one, job_.config.part_names());
   fs::path file = path_ / "review.yaml";
   write_file(file, text);
   return file;

@@ -13,30 +13,43 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Whether the weights are just what a position gives.
-bool comes_from_position(const RegionRecipe& region, Index target, const Casting& casting) {
-  return region.position &&
-         weights_at(casting.anchors, target, casting.sampling.sources, *region.position,
-                    casting.normalization, casting.sampling.max_sources) == region.weights;
+bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sources, Index target,
+                         const Casting& casting) {
+  return band.position &&
+         weights_at(casting.anchors, target, sources, *band.position, casting.normalization,
+                    casting.sampling.max_sources) == band.weights;
 }
 
-Json region_to_json(const RegionRecipe& region, Index target, const Casting& casting,
-                    const std::vector<std::string>& heads) {
+Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Index target,
+                  const Casting& casting, const std::vector<std::string>& heads) {
   Json json;
   // Weights of nothing, as a printed normalisation may have, cannot be spelled out.
-  if (comes_from_position(region, target, casting) || region.weights.empty()) {
-    const PlanePoint at = region.position.value_or(PlanePoint::Zero());
+  if (comes_from_position(band, sources, target, casting) || band.weights.empty()) {
+    const PlanePoint at = band.position.value_or(PlanePoint::Zero());
     json["position"] = {at.x(), at.y()};
   } else {
-    for (const SourceWeight& source : region.weights) {
+    for (const SourceWeight& source : band.weights) {
       json["weights"][heads[static_cast<std::size_t>(source.head)]] = source.weight;
     }
   }
-  if (iterations_of(region.smoothness, casting.scale) == region.iterations) {
-    json["smoothness"] = region.smoothness;
+  if (iterations_of(band.smoothness, casting.scale) == band.iterations) {
+    json["smoothness"] = band.smoothness;
   } else {
-    json["iterations"] = region.iterations;
+    json["iterations"] = band.iterations;
   }
-  json["extrapolation"] = region.extrapolation;
+  json["extrapolation"] = band.extrapolation;
+  return json;
+}
+
+/// The values of the first band, and the others by their names.
+Json region_to_json(const RegionRecipe& region, Index target, const Casting& casting,
+                    const std::vector<std::string>& heads) {
+  const SamplingOptions& sampling = casting.sampling;
+  Json json = band_to_json(region, sources_of(sampling, 0), target, casting, heads);
+  for (std::size_t b = 1; b < band_count(region); ++b) {
+    json["bands"][sampling.bands[b].name] =
+        band_to_json(band_of(region, b), sources_of(sampling, b), target, casting, heads);
+  }
   return json;
 }
 

@@ -89,14 +89,19 @@ CastFace EditSession::first_face() const {
   if (crowd_ && !crowd_->empty()) return crowd_->front();
   CastFace face;
   face.id = "edited";
-  for (const RegionSampling& sampling : casting_.sampling.regions) {
-    const Range smoothness = fractions_of(sampling.smoothness, casting_.scale);
+  for (std::size_t k = 0; k < casting_.sampling.regions.size(); ++k) {
     RegionRecipe region;
-    region.position = casting_.anchors.front();
-    region.weights = weights_at(casting_.anchors, 0, casting_.sampling.sources, *region.position,
-                                casting_.normalization, casting_.sampling.max_sources);
-    region.smoothness = (smoothness.low + smoothness.high) / 2;
-    region.iterations = iterations_of(region.smoothness, casting_.scale);
+    region.finer.resize(band_count(casting_.sampling) - 1);
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      const Range smoothness = fractions_of(smoothness_of(casting_.sampling, k, b), casting_.scale);
+      BandRecipe& band = band_of(region, b);
+      band.position = casting_.anchors.front();
+      band.weights =
+          weights_at(casting_.anchors, 0, sources_of(casting_.sampling, b), *band.position,
+                     casting_.normalization, casting_.sampling.max_sources);
+      band.smoothness = (smoothness.low + smoothness.high) / 2;
+      band.iterations = iterations_of(band.smoothness, casting_.scale);
+    }
     face.recipe.regions.push_back(std::move(region));
   }
   return face;
@@ -116,6 +121,12 @@ Json EditSession::description() const {
   json["edge_mm"] = casting_.scale.edge_length_mm;
   json["vertices"] = job_.inputs.faces.topology.vertex_count;
   json["regions"] = regions_json();
+  for (std::size_t b = 0; b < config.sampling.bands.size(); ++b) {
+    const Range begins = fractions_of(smoothness_of(config.sampling, 0, b), casting_.scale);
+    json["bands"].push_back({{"name", config.sampling.bands[b].name},
+                             {"smoothness", (begins.low + begins.high) / 2},
+                             {"sources", sources_of(config.sampling, b)}});
+  }
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < config.faces.names.size(); ++h) {
     json["heads"].push_back(

@@ -247,7 +247,7 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
   const SampleCells cells = find_sample_cells(inputs.adjacency, mean, prepared.samples);
   FaceSpace space(sample_heads(inputs.faces, inputs.regions, prepared.samples,
                                prepared.trajectories, inputs.max_level, mm_per(config.faces.units)),
-                  sample_weights(cells, prepared.samples, areas));
+                  sample_weights(cells, prepared.samples, areas), band_count(config.sampling));
   ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
                  space.sampled().heads);
   return {std::move(space), std::move(skin)};
@@ -280,10 +280,12 @@ std::vector<std::string> contradicted_quotas(const Config& config, const Cast& c
     for (const CastFace& face : cast.crowd) {
       if (!face.index || cast.kinds[*face.index - 1] != static_cast<int>(q)) continue;
       for (const RegionRecipe& region : face.recipe.regions) {
-        for (const SourceWeight& source : region.weights) {
-          const bool counts = std::find(heads.begin(), heads.end(), source.head) != heads.end();
-          own += counts ? source.weight : 0;
-          all += source.weight;
+        for (std::size_t b = 0; b < band_count(region); ++b) {
+          for (const SourceWeight& source : band_of(region, b).weights) {
+            const bool counts = std::find(heads.begin(), heads.end(), source.head) != heads.end();
+            own += counts ? source.weight : 0;
+            all += source.weight;
+          }
         }
       }
     }

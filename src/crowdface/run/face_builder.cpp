@@ -108,21 +108,29 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
 
 std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recipe) const {
   std::vector<SkinContacts::Range> ranges;
+  std::size_t bands = 1;
+  for (const RegionRecipe& region : recipe.regions) bands = std::max(bands, band_count(region));
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
     double of_target = 0;
     for (const SourceWeight& share : target_shares(recipe)) {
       of_target += share.weight * contacts_.head_gaps(share.head)[p];
     }
-    double of_sources = 0;
-    for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-      double sum = 0, weights = 0;
-      for (const SourceWeight& source : recipe.regions[k].weights) {
-        sum += source.weight * contacts_.head_gaps(source.head)[p];
-        weights += source.weight;
+    SkinContacts::Range range{of_target, of_target};
+    for (std::size_t b = 0; b < bands; ++b) {  // a gap may come from any band
+      double of_sources = 0;
+      for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+        const RegionRecipe& region = recipe.regions[k];
+        double sum = 0, weights = 0;
+        for (const SourceWeight& source :
+             band_of(region, std::min(b, band_count(region) - 1)).weights) {
+          sum += source.weight * contacts_.head_gaps(source.head)[p];
+          weights += source.weight;
+        }
+        of_sources += contact_masks_[p][k] * (weights > 0 ? sum / weights : of_target);
       }
-      of_sources += contact_masks_[p][k] * (weights > 0 ? sum / weights : of_target);
+      range = {std::min(range.least, of_sources), std::max(range.most, of_sources)};
     }
-    ranges.push_back({std::min(of_target, of_sources), std::max(of_target, of_sources)});
+    ranges.push_back(range);
   }
   return ranges;
 }

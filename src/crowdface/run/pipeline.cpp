@@ -16,24 +16,59 @@
 namespace crowdface {
 namespace {
 
+/// Level of one end of a distribution.
+double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScale& scale) {
+  switch (unit) {
+    case SmoothnessDistribution::Unit::kFraction:
+      return static_cast<double>(iterations_of(value, scale));
+    case SmoothnessDistribution::Unit::kSize:
+      return value > 0
+                 ? static_cast<double>(iterations_of_size(scale.kind, value, scale.edge_length_mm))
+                 : 0;
+    case SmoothnessDistribution::Unit::kIterations:
+      break;
+  }
+  return value;
+}
+
 /// A smoothness must not ask for more than L_max, which is known only once the heads are read.
 void check_smoothness(const SmoothnessDistribution& distribution, const std::string& where,
                       const Config& config, const Inputs& inputs, Problems& problems) {
   const LevelScale scale = level_scale(config, inputs);
   const double high = distribution.range.high;
-  std::string asked;
-  double level = 0;
-  if (distribution.unit == SmoothnessDistribution::Unit::kSize && high > 0) {
-    level = static_cast<double>(iterations_of_size(scale.kind, high, scale.edge_length_mm));
-    asked = concat("a size of ", high, " mm, which is ", level, " iterations");
-  } else if (distribution.unit == SmoothnessDistribution::Unit::kIterations) {
-    level = high;
-    asked = concat(high, " iterations");
+  const double level = level_of(high, distribution.unit, scale);
+  std::string asked = concat(level, " iterations");
+  if (distribution.unit == SmoothnessDistribution::Unit::kSize) {
+    asked = concat("a size of ", high, " mm, which is ", asked);
   }
   if (level > static_cast<double>(inputs.max_level)) {
     problems.add(ExitCode::kUsage,
                  concat(config.file.string(), ": ", where, ": expected at most ", inputs.max_level,
                         " iterations (smoothing.max_size or max_iterations), found ", asked));
+  }
+}
+
+/// Each band must begin below the one before it, wherever in their ranges both are drawn.
+void check_bands(const SamplingOptions& sampling, const std::string& where, const Config& config,
+                 const Inputs& inputs, Problems& problems) {
+  const LevelScale scale = level_scale(config, inputs);
+  const auto names = config.region_names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    SmoothnessDistribution before;
+    for (std::size_t b = 0; b < sampling.bands.size(); ++b) {
+      const SmoothnessDistribution& own = smoothness_of(sampling, k, b);
+      const std::string here = concat(where, '.', sampling.bands[b].name, " (", names[k], ')');
+      check_smoothness(own, here, config, inputs, problems);
+      const double least = level_of(before.range.low, before.unit, scale);
+      const double most = level_of(own.range.high, own.unit, scale);
+      if (b > 0 && most > least) {
+        problems.add(ExitCode::kUsage,
+                     concat(config.file.string(), ": ", here, ": begins at up to ", most,
+                            " iterations, but the band before it may end at ", least,
+                            "; bands stand coarse to fine, and their ranges do not overlap"));
+      }
+      before = own;
+    }
   }
 }
 
@@ -43,17 +78,22 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
     check_smoothness(config.sampling.regions[k].smoothness,
                      concat("sampling.smoothness (", names[k], ')'), config, inputs, problems);
   }
+  check_bands(config.sampling, "sampling.bands", config, inputs, problems);
   for (const Group& group : config.groups) {
     for (std::size_t k = 0; k < names.size(); ++k) {
       check_smoothness(group.sampling.regions[k].smoothness,
                        concat("group ", group.name, ", smoothness (", names[k], ')'), config,
                        inputs, problems);
     }
+    check_bands(group.sampling, concat("group ", group.name, ", bands"), config, inputs, problems);
   }
   for (const HandRecipe& recipe : config.recipes) {
+    const std::string where = concat("recipe ", recipe.id);
     for (const HandRecipe::Region& region : recipe.regions) {
-      if (!region.smoothness) continue;
-      check_smoothness(*region.smoothness, concat("recipe ", recipe.id), config, inputs, problems);
+      if (region.smoothness) check_smoothness(*region.smoothness, where, config, inputs, problems);
+      for (const HandRecipe::Band& band : region.bands) {
+        if (band.smoothness) check_smoothness(*band.smoothness, where, config, inputs, problems);
+      }
     }
   }
 }

@@ -65,7 +65,26 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
   return {{"tolerance_mm", job.config.smoothing.tolerance_mm}, {"heads", std::move(heads)}};
 }
 
-Json smoothing_to_json(const Job& job, const Prepared& prepared) {
+/// Where each band begins, in any region of any face.
+Json bands_to_json(const Job& job, const std::vector<CastFace>& crowd) {
+  const auto size = [&](std::uint64_t level) {
+    return rounded(size_of_iterations(job.smoothing.kind(), level, job.inputs.edge_length_mm));
+  };
+  Json bands = Json::array();
+  for (std::size_t b = 0; b < job.names.bands.size(); ++b) {
+    std::uint64_t least = job.inputs.max_level, most = 0;
+    for (const CastFace& face : crowd) {
+      for (const RegionRecipe& region : face.recipe.regions) {
+        least = std::min(least, band_of(region, b).iterations);
+        most = std::max(most, band_of(region, b).iterations);
+      }
+    }
+    bands.push_back({{"name", job.names.bands[b]}, {"begins_mm", {size(least), size(most)}}});
+  }
+  return bands;
+}
+
+Json smoothing_to_json(const Job& job, const Prepared& prepared, const Cast& cast) {
   const Inputs& inputs = job.inputs;
   Json smoothing = {
       {"max_iterations", inputs.max_level},
@@ -74,6 +93,9 @@ Json smoothing_to_json(const Job& job, const Prepared& prepared) {
       {"edge_length_mm", inputs.edge_length_mm}};
   if (job.config.smoothing.levels == Levels::kBasis) {
     smoothing["basis"] = levels_to_json(job, prepared);
+  }
+  if (!job.names.bands.empty() && !cast.crowd.empty()) {
+    smoothing["bands"] = bands_to_json(job, cast.crowd);
   }
   return smoothing;
 }
@@ -128,7 +150,7 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
   report["settings"] = job.settings.hex();
   report["topology"] = topology_to_json(job.inputs);
-  report["smoothing"] = smoothing_to_json(job, prepared);
+  report["smoothing"] = smoothing_to_json(job, prepared, cast);
   report["heads"] = heads_to_json(job, cast);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};

@@ -182,9 +182,11 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
   const std::vector<double> of_target = shares_by_head(recipe, heads);
   std::vector<std::vector<double>> weights;
   for (const RegionRecipe& region : recipe.regions) {
+    // Colour is the skin's, so it goes with the finest band.
+    const BandRecipe& finest = band_of(region, band_count(region) - 1);
     std::vector<double> of_region(heads, 0.0);
     double sum = 0;
-    for (const SourceWeight& source : region.weights) {
+    for (const SourceWeight& source : finest.weights) {
       of_region[static_cast<std::size_t>(source.head)] += source.weight;
       sum += source.weight;
     }
