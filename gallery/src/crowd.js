@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The crowd as the page knows it: faces with what is derived from their recipes, filters and orders.
 
-/// \param data  data/crowd.js: name, seed, regions, heads, faces (the plan's lines), near, likeness.
+/// \param data  data/crowd.js: name, seed, regions, bands (if there are any), heads, faces (the plan's lines), near, likeness.
 export function readCrowd(data) {
   const heads = new Map(data.heads.map((head) => [head.name, head]));
   const faces = data.faces.map((recipe, order) => ({
@@ -26,8 +26,23 @@ export function readCrowd(data) {
     families: present(faces.map((face) => face.family).filter((name) => name !== null)),
     groups: present(faces.map((face) => face.group).filter((name) => name !== null)),
     targets: present(faces.map((face) => face.target)),
+    bands: data.bands ?? [],
+    locks: [...(data.regions.length > 1 ? data.regions : []), ...(data.bands ?? [])],
     tags: present(faces.flatMap((face) => face.tags)),
   };
+}
+
+/// The bands of a region's recipe, [name, numbers] from coarse to fine; without bands one of no name.
+export function bandsOf(crowd, region) {
+  return crowd.bands.length > 0
+    ? crowd.bands.map((name, at) => [name, at === 0 ? region : region.bands?.[name] ?? region])
+    : [['', region]];
+}
+
+/// Whether nothing would be left to draw anew.
+export function locksAll(crowd, lock) {
+  const all = (names) => names.length > 0 && names.every((name) => lock.has(name));
+  return all(crowd.regions) || all(crowd.bands);
 }
 
 /// Parents, sisters and brothers, and children of a face, as far as they are known.

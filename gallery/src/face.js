@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { el, short } from './dom.js';
-import { relativesOf } from './crowd.js';
+import { bandsOf, locksAll, relativesOf } from './crowd.js';
 import { picture } from './grid.js';
 import { Turntable } from './turntable.js';
 
@@ -117,14 +117,14 @@ export class FacePage {
         disabled: verdict === 'reject' && face.byHand,
         onclick: () => review.verdict(face, verdict),
       }, text);
-      const locks = this.crowd.regions.length > 1 && !face.byHand
+      const locked = mark?.lock ?? [];
+      const locks = this.crowd.locks.length > 0 && !face.byHand
         ? el('div', { class: 'locks' }, el('span', { class: 'muted' }, 'Draw anew, but lock'),
-          this.crowd.regions.map((region, at) => el('button', {
-            class: `lock ${mark?.lock?.includes(region) ? 'on' : ''}`, title: `Lock ${region} (${at + 1})`,
-            disabled: !mark?.lock?.includes(region) &&
-              (mark?.lock?.length ?? 0) === this.crowd.regions.length - 1,
-            onclick: () => review.lock(face, region),
-          }, region)))
+          this.crowd.locks.map((part, at) => el('button', {
+            class: `lock ${locked.includes(part) ? 'on' : ''}`, title: `Lock ${part} (${at + 1})`,
+            disabled: !locked.includes(part) && locksAll(this.crowd, new Set([...locked, part])),
+            onclick: () => review.lock(face, part),
+          }, part)))
         : null;
       verdicts.replaceChildren(
         el('div', { class: 'verdicts' }, button('keep', 'Keep', 'K'), button('reject', 'Reject', 'R')),
@@ -186,7 +186,9 @@ export class FacePage {
     }, picture(face ?? head, name), el('b', {}, this.shortName(name)), el('span', {}, text));
     const share = this.face.mother_share;
     const gave = ({ role }) => {
-      const parts = Object.entries(this.face.inherits ?? {}).filter(([, from]) => from === role).map(([region]) => region);
+      const parts = Object.entries(this.face.inherits ?? {}).flatMap(([region, from]) => (typeof from === 'string'
+        ? [[region, from]] : Object.entries(from).map(([band, parent]) => [`${region} ${band}`, parent])))
+        .filter(([, from]) => from === role).map(([part]) => part);
       if (share) parts.unshift(`large forms ${short(100 * (role === 'mother' ? share : 1 - share), 0)} %`);
       return `${role}: ${parts.join(', ')}`;
     };
@@ -198,25 +200,34 @@ export class FacePage {
       row('Children', children.map((face) => cell(face.id, face, face.family ?? ''))));
   }
 
+  /// The numbers of a region, or of one of its bands, and who lends to it.
+  lends(numbers) {
+    const all = Object.entries(numbers.weights).sort((a, b) => b[1] - a[1]);
+    const weights = all.filter(([, weight]) => weight >= 0.005);
+    const rest = all.length - weights.length;
+    return [
+      el('div', { class: 'numbers' },
+        this.meter('Smoothness', numbers.smoothness, 1, `${numbers.iterations} iterations`),
+        this.meter('Strength', numbers.extrapolation, 2, 'extrapolation')),
+      weights.map(([head, weight]) => el('div', { class: 'weight', title: `${head}: ${short(weight, 3)}` },
+        el('span', {}, head), el('div', { class: 'bar' },
+          el('i', { style: `width:${Math.max(0, Math.min(100, 100 * weight))}%` })),
+        el('span', { class: 'number' }, `${short(100 * weight, 0)} %`))),
+      rest > 0 ? el('small', { class: 'muted' },
+        `and ${rest} more with less than half a percent each`) : null,
+    ];
+  }
+
   recipe() {
-    const { face } = this;
+    const { face, crowd } = this;
+    const from = (parent) => (parent
+      ? el('small', {}, ` from the ${parent}, ${face.parents?.[parent] ?? ''}`) : null);
     const regions = Object.entries(face.regions).map(([name, region]) => {
-      const all = Object.entries(region.weights).sort((a, b) => b[1] - a[1]);
-      const weights = all.filter(([, weight]) => weight >= 0.005);
-      const rest = all.length - weights.length;
       const inherited = face.inherits?.[name];
       return el('div', { class: 'region' },
-        el('h3', {}, name === 'all' ? 'Whole head' : name,
-          inherited ? el('small', {}, ` from the ${inherited}, ${face.parents?.[inherited] ?? ''}`) : null),
-        el('div', { class: 'numbers' },
-          this.meter('Smoothness', region.smoothness, 1, `${region.iterations} iterations`),
-          this.meter('Strength', region.extrapolation, 2, 'extrapolation')),
-        weights.map(([head, weight]) => el('div', { class: 'weight', title: `${head}: ${short(weight, 3)}` },
-          el('span', {}, head), el('div', { class: 'bar' },
-            el('i', { style: `width:${Math.max(0, Math.min(100, 100 * weight))}%` })),
-          el('span', { class: 'number' }, `${short(100 * weight, 0)} %`))),
-        rest > 0 ? el('small', { class: 'muted' },
-          `and ${rest} more with less than half a percent each`) : null);
+        el('h3', {}, name === 'all' ? 'Whole head' : name, typeof inherited === 'string' ? from(inherited) : null),
+        bandsOf(crowd, region).map(([band, numbers]) => [
+          band ? el('h4', { class: 'band' }, band, from(inherited?.[band])) : null, this.lends(numbers)]));
     });
     return el('section', {}, el('h2', {}, 'Recipe'), regions);
   }

@@ -199,7 +199,7 @@ class Page {
 
   help() {
     const keys = [['← → ↑ ↓', 'walk through the faces'], ['Enter', 'open'], ['Esc', 'back'],
-      ['K, R', 'keep, reject; again: take the mark back'], ['1 2 3 …', 'lock a region and draw the rest anew'],
+      ['K, R', 'keep, reject; again: take the mark back'], ['1 2 3 …', 'lock a region or band and draw the rest anew'],
       ['N', 'note'], ['/', 'search'], ['G, M', 'faces, plane'], ['F, Q, P', 'front, three-quarter, profile'],
       [', .', 'turn'], ['T, C', 'change to the target, to the nearest face, and back'], ['E', 'export review.yaml']];
     const dialog = el('dialog', { onclick: () => dialog.close(), onclose: () => dialog.remove() },
@@ -229,9 +229,9 @@ class Page {
 
   anyKey(event) {
     const face = this.selected;
-    const region = this.crowd.regions[Number(event.key) - 1];
-    if (face && region && this.crowd.regions.length > 1) {
-      this.say(this.review.lock(face, region));
+    const part = this.crowd.locks[Number(event.key) - 1];
+    if (face && part) {
+      this.say(this.review.lock(face, part));
       return true;
     }
     const keys = {

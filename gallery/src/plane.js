@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { el, short } from './dom.js';
+import { bandsOf } from './crowd.js';
 import { picture } from './grid.js';
 
 // Okabe & Ito's colours (2008), which colour-blind eyes tell apart too, then lighter ones.
@@ -39,7 +40,7 @@ export function anchorMark(head, radius = 17) {
     el('text', { y: radius + 11 }, head.name));
 }
 
-/// Where every face lies on the weight plane, one picture a region.
+/// Where every face lies on the weight plane, one picture a region, or a band of it.
 export class Plane {
   constructor(crowd, review, { open, select }) {
     Object.assign(this, { crowd, review, open, select });
@@ -53,23 +54,25 @@ export class Plane {
 
   build() {
     const { at } = planeFrame(this.crowd.heads.map((head) => head.anchor).concat(
-      this.crowd.faces.flatMap((face) => Object.values(face.regions).map((region) => region.position)
-        .filter(Boolean))));
+      this.crowd.faces.flatMap((face) => Object.values(face.regions)
+        .flatMap((region) => bandsOf(this.crowd, region).map(([, numbers]) => numbers.position)).filter(Boolean))));
     const choose = el('select', { onchange: () => this.recolour(choose.value) },
       el('option', { value: 'target' }, 'target'), el('option', { value: 'family' }, 'family'),
       el('option', { value: 'mark' }, 'mark'));
     const regions = this.crowd.regions.length > 0 ? this.crowd.regions : ['all'];
     this.node.append(
       el('div', { class: 'planebar' }, el('label', {}, 'Colour by ', choose), this.legend),
-      el('div', { class: 'panels' }, regions.map((name) => this.panel(name, at))), this.tip);
+      el('div', { class: 'panels' }, regions.flatMap((name) => (this.crowd.bands.length > 0
+        ? this.crowd.bands.map((band) => this.panel(name, at, band)) : [this.panel(name, at)]))), this.tip);
     this.recolour('target');
   }
 
-  panel(name, at) {
+  panel(name, at, band = '') {
     const dots = el('g', {});
     let missing = 0;
     for (const face of this.crowd.faces) {
-      const position = face.regions[name]?.position;
+      const region = face.regions[name];
+      const position = region && new Map(bandsOf(this.crowd, region)).get(band).position;
       if (!position) {
         missing += 1;
         continue;
@@ -87,7 +90,7 @@ export class Plane {
     }
     const heads = el('g', {}, this.crowd.heads.map((head) =>
       el('g', { transform: `translate(${at(head.anchor)})` }, anchorMark(head))));
-    return el('figure', {}, el('figcaption', {}, name,
+    return el('figure', {}, el('figcaption', {}, band ? `${name}, ${band}` : name,
       missing > 0 ? el('small', {}, ` · ${missing} ${missing === 1 ? 'has' : 'have'} no place on the plane`) : null),
     el('svg', { viewBox: `0 0 ${side} ${side}` }, heads, dots));
   }

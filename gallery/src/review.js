@@ -2,6 +2,8 @@
 // Marks: kept in the browser across reloads, exported as the review.yaml that `crowdface generate
 // --review` takes.
 
+import { locksAll } from './crowd.js';
+
 /// A text as a double-quoted YAML scalar on one line.
 function quoted(text) {
   const escaped = text
@@ -15,11 +17,11 @@ function key(id) {
   return id.toLowerCase() === 'null' ? quoted(id) : id;
 }
 
-function formatMark(mark, regions) {
+function formatMark(mark, locks) {
   if (!mark.note && !mark.lock?.length) return mark.verdict;
   const parts = [];
   if (mark.lock?.length) {
-    parts.push(`lock: [${regions.filter((name) => mark.lock.includes(name)).map(quoted).join(', ')}]`);
+    parts.push(`lock: [${locks.filter((name) => mark.lock.includes(name)).map(quoted).join(', ')}]`);
   } else if (mark.verdict) {
     parts.push(`mark: ${mark.verdict}`);
   }
@@ -75,13 +77,13 @@ export class Review {
     return null;
   }
 
-  /// Locks a region, or lets it go: the face is drawn anew but for what is locked.
-  lock(face, region) {
+  /// Locks a region or band, or lets it go: the face is drawn anew but for what is locked.
+  lock(face, part) {
     if (face.byHand) return 'This face is written by hand, or children take after it: change the config.';
     const lock = new Set(this.of(face)?.lock ?? []);
-    if (!lock.delete(region)) lock.add(region);
-    if (lock.size === this.crowd.regions.length) {
-      return 'With every region locked nothing is left to draw anew.';
+    if (!lock.delete(part)) lock.add(part);
+    if (locksAll(this.crowd, lock)) {
+      return `With every ${this.crowd.bands.includes(part) ? 'band' : 'region'} locked nothing is left to draw anew.`;
     }
     this.change(face, { verdict: 'reject', lock: [...lock] });
     return null;
@@ -96,7 +98,7 @@ export class Review {
     const lines = this.crowd.faces
       .map((face) => [face, this.of(face)])
       .filter(([, mark]) => mark)
-      .map(([face, mark]) => `  ${key(face.id)}: ${formatMark(mark, this.crowd.regions)}`);
+      .map(([face, mark]) => `  ${key(face.id)}: ${formatMark(mark, this.crowd.locks)}`);
     const faces = lines.length > 0 ? `faces:\n${lines.join('\n')}` : 'faces: {}';
     return `# Marks of the crowd ${this.crowd.name}, seed ${this.crowd.seed}: ` +
       `crowdface generate CONFIG --review THIS_FILE\nschema: 1\n${faces}\n`;

@@ -9,7 +9,8 @@ import { hitTriangle } from './src/editor/hit.js';
 import { History } from './src/editor/history.js';
 import { ProcessorBlend } from './src/editor/processor_blend.js';
 import {
-  amountAt, between, coefficients, headAlone, levelOf, targetShares, weightsAt, weightsOf, wire, withAmount,
+  amountAt, bandOf, between, coefficients, headAlone, levelOf, targetShares, weightsAt, weightsOf, wire, withAmount,
+  withBand,
 } from './src/editor/recipe.js';
 
 const names = ['ann', 'bob', 'cyd', 'dan'];
@@ -97,6 +98,42 @@ test('coefficients are shares times functions', () => {
   near(entry.value, -1.2 * weights[1] * 3 * Math.sqrt(0.4), 1e-6);
   const own = top.find(({ head, field }) => head === 3 && field === 0);
   near(own.value, (1 - 1.2 * weights[3]) * Math.sqrt(0.4), 1e-6);
+});
+
+const banded = { ...job, bands: [
+  { name: 'build', smoothness: 0.5, sources: [0, 1, 2] }, { name: 'skin', smoothness: 0.04, sources: [1] }] };
+const withSkin = () => face({ bands: { skin: { weights: { bob: 1 }, smoothness: 0.09, extrapolation: 0.5 } } });
+
+test('each band lends between its level and the next', () => {
+  const [top] = coefficients(banded, withSkin(), heads);
+  const build = weightsOf(banded, withSkin(), 'top', 'build');
+  const of = (head, field) => top.find((entry) => entry.head === head && entry.field === field).value;
+  // τ φ(L_1) + Σ_b e_b ω_b (φ(L_b+1) − φ(L_b)), with φ_p(L) = (p + 1) √(L/L_max) here.
+  near(of(1, 2), 3 * (1.2 * build[1] * (0.3 - Math.sqrt(0.4)) + 0.5 * (0 - 0.3)), 1e-6);
+  near(of(3, 0), Math.sqrt(0.4) + 1.2 * build[3] * (0.3 - Math.sqrt(0.4)), 1e-6);
+});
+
+test('bands that say the same are one band', () => {
+  const [bands] = coefficients(banded, face({ position: undefined, weights: { ann: 1 } }), heads);
+  const [one] = coefficients(job, face({ position: undefined, weights: { ann: 1 } }), heads);
+  assert.deepEqual(bands, one);
+});
+
+test('one band is changed without the others, and told with them', () => {
+  const document = withSkin();
+  const region = withBand(banded, document.recipe.regions.top, 'skin', { position: [1, 0], smoothness: 0.01 });
+  assert.deepEqual(bandOf(banded, region, 'build').position, [0.3, 0.2]);
+  assert.deepEqual(bandOf(banded, region, 'skin').position, [1, 0]);
+  document.recipe.regions.top = region;
+  assert.deepEqual(wire(banded, document).regions.top.bands, { skin: { position: [1, 0], smoothness: 0.01 } });
+  document.anchors = { ann: [0, 0] };
+  assert.ok(wire(banded, document).regions.top.bands.skin.weights.bob > 0);
+});
+
+test('the way between two faces goes through all bands', () => {
+  const half = between(banded, withSkin(), face(), 0.5).recipe.regions.top;
+  near(half.bands.skin.extrapolation, (0.5 + 1.2) / 2);
+  near(levelOf(half.bands.skin, levels), (0.3 + 0.2) / 2, 1e-9);
 });
 
 /// A wavy patch of squares, split along one column as by a texture's seam.

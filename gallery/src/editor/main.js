@@ -8,7 +8,9 @@ import { HeadView } from './head_view.js';
 import { History } from './history.js';
 import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
-import { coefficients, headAlone, headIndex, targetShares, weightsOf, wire } from './recipe.js';
+import {
+  bandNames, bandOf, coefficients, headAlone, headIndex, targetShares, weightsOf, wire, withBand,
+} from './recipe.js';
 import { RegionPanel } from './region_panel.js';
 import { Shelf } from './shelf.js';
 import { toolbar, viewBar } from './toolbar.js';
@@ -24,6 +26,7 @@ class Editor {
     this.kept = kept;
     this.linked = new Set(state?.linked ?? []);
     this.locked = new Set(state?.locked ?? []);
+    [this.band] = bandNames(job); // the one that panel and plane show
     this.look = { show: 'surface', wireframe: false, ...state?.look };
     this.passing = null; // a document that is shown while something is dragged
     this.comparing = null; // which kept state is shown
@@ -191,19 +194,27 @@ class Editor {
 
   // -- regions --
 
-  /// The document with these regions changed: the named one, and those linked with it.
+  /// A region's numbers in the band that is shown.
+  numbersOf(name) {
+    return bandOf(this.job, this.document.recipe.regions[name], this.band);
+  }
+
+  showBand(band) {
+    this.band = band;
+    this.refresh();
+  }
+
+  /// The document with these regions changed in the band that is shown: the named one, and those linked
+  /// with it.
   withRegions(name, change) {
     const { document } = this;
     const names = this.linked.has(name) ? [...this.linked] : [name];
     const regions = { ...document.recipe.regions };
-    const changed = change(regions[name]);
-    for (const other of names) regions[other] = other === name ? changed : this.alike(changed, regions[other]);
+    const changed = change(this.numbersOf(name));
+    for (const other of names) {
+      regions[other] = withBand(this.job, regions[other], this.band, structuredClone(changed));
+    }
     return { ...document, recipe: { ...document.recipe, regions } };
-  }
-
-  /// Linked regions take the same values.
-  alike(region) {
-    return JSON.parse(JSON.stringify(region));
   }
 
   toggleIn(set, name) {
@@ -214,15 +225,22 @@ class Editor {
   }
 
   isLinked(name) { return this.linked.has(name); }
-  isLocked(name) { return this.locked.has(name); }
+  /// What a region is called in locks: with bands the band that is shown is meant.
+  partName(name, band = this.band) { return band ? `${name}/${band}` : name; }
+  isLocked(name) { return this.locked.has(this.partName(name)); }
   toggleLink(name) { this.toggleIn(this.linked, name); }
-  toggleLock(name) { this.toggleIn(this.locked, name); }
-  lockedNames() { return this.job.regions.map(({ name }) => name).filter((name) => this.locked.has(name)); }
+  toggleLock(name) { this.toggleIn(this.locked, this.partName(name)); }
+  /// [region, band] of all that is locked.
+  lockedParts() {
+    return this.job.regions.flatMap(({ name }) => bandNames(this.job).map((band) => [name, band]))
+      .filter(([name, band]) => this.locked.has(this.partName(name, band)));
+  }
+  lockedNames() { return this.lockedParts().map(([name, band]) => this.partName(name, band)); }
   focusRegion(name) { this.panel.focus(name); }
 
   /// The heads that lend most, in percent.
   weightText(name) {
-    return weightsOf(this.job, this.document, name)
+    return weightsOf(this.job, this.document, name, this.band)
       .map((weight, h) => [this.job.heads[h].name, Math.round(100 * weight)])
       .filter(([, percent]) => percent > 0).sort((a, b) => b[1] - a[1]).slice(0, 3)
       .map(([head, percent]) => `${head} ${percent} %`).join(', ');
@@ -241,9 +259,9 @@ class Editor {
     const anchor = document.anchors?.[name] ?? this.job.heads[headIndex(this.job, name)].anchor;
     const regions = { ...document.recipe.regions };
     for (const region of this.job.regions) {
-      if (this.locked.has(region.name)) continue;
-      const { weights, ...rest } = regions[region.name];
-      regions[region.name] = { ...rest, position: [...anchor] };
+      if (this.isLocked(region.name)) continue;
+      const { weights, ...rest } = this.numbersOf(region.name);
+      regions[region.name] = withBand(this.job, regions[region.name], this.band, { ...rest, position: [...anchor] });
     }
     document = { ...document, recipe: { ...document.recipe, regions } };
     this.commit(document, `all on ${name}`);

@@ -36,9 +36,10 @@ export class PlaneBoard {
 
   /// The part of the plane that is seen; it stays while something is dragged.
   frameAnew() {
-    const { job, document } = this.editor;
+    const { editor } = this;
+    const { job, document } = editor;
     const points = [...anchorsOf(job, document.anchors),
-      ...job.regions.map(({ name }) => document.recipe.regions[name].position).filter(Boolean)];
+      ...job.regions.map(({ name }) => editor.numbersOf(name).position).filter(Boolean)];
     this.frame = planeFrame(points, 1.36);
   }
 
@@ -78,10 +79,10 @@ export class PlaneBoard {
   /// Where a region's controller stands: of weights by hand, in the heads' middle by these weights.
   placeOf(name) {
     const { job, document } = this.editor;
-    const { position } = document.recipe.regions[name];
+    const { position } = this.editor.numbersOf(name);
     if (position) return position;
     const anchors = anchorsOf(job, document.anchors);
-    const weights = weightsOf(job, document, name);
+    const weights = weightsOf(job, document, name, this.editor.band);
     return [0, 1].map((axis) => weights.reduce((sum, weight, h) => sum + weight * anchors[h][axis], 0));
   }
 
@@ -200,8 +201,7 @@ export class PlaneBoard {
         this.leads.append(line);
       }
       node.setAttribute('transform', `translate(${x} ${y})`);
-      const region = document.recipe.regions[place.name];
-      node.classList.toggle('byhand', !region.position);
+      node.classList.toggle('byhand', !this.editor.numbersOf(place.name).position);
       const [px, py] = this.placeOf(place.name);
       node.setAttribute('aria-label', `Controller of ${place.name}`);
       node.setAttribute('aria-valuenow', short(px));

@@ -83,8 +83,31 @@ export function weightsAt(job, anchors, target, sources, position) {
   return weights;
 }
 
-function sourcesOf(job, index) {
-  const { sources } = job;
+/// The names of a region's bands, coarse to fine; without bands one of no name.
+export function bandNames(job) {
+  return job.bands?.length > 0 ? job.bands.map(({ name }) => name) : [''];
+}
+
+/// The numbers of a band of a region. The first one's are the region's own; so are those of a band that
+/// has none, but for where it begins.
+export function bandOf(job, region, band) {
+  const { bands, ...own } = region;
+  const at = bandNames(job).indexOf(band);
+  if (at <= 0) return own;
+  const { smoothness, iterations, ...rest } = own;
+  return bands?.[band] ?? { ...rest, smoothness: job.bands[at].smoothness };
+}
+
+/// The region with other numbers of one band; all bands have their own then.
+export function withBand(job, region, band, numbers) {
+  const [first, ...finer] = bandNames(job);
+  if (finer.length === 0) return numbers;
+  const of = (name) => (name === band ? numbers : bandOf(job, region, name));
+  return { ...of(first), bands: Object.fromEntries(finer.map((name) => [name, of(name)])) };
+}
+
+function sourcesOf(job, index, band) {
+  const sources = job.bands?.find(({ name }) => name === band)?.sources ?? job.sources;
   if (!sources) return job.heads.map((_, h) => h);
   return Array.isArray(sources[0]) ? sources[index] : sources;
 }
@@ -93,15 +116,15 @@ export function headIndex(job, name) {
   return job.heads.findIndex((head) => head.name === name);
 }
 
-/// How much each head lends to a region, one a head.
-export function weightsOf(job, document, name) {
+/// How much each head lends to a band of a region, one a head.
+export function weightsOf(job, document, name, band = bandNames(job)[0]) {
   const { recipe } = document;
-  const region = recipe.regions[name];
-  if (region.position) {
+  const numbers = bandOf(job, recipe.regions[name], band);
+  if (numbers.position) {
     return weightsAt(job, anchorsOf(job, document.anchors), headIndex(job, recipe.target),
-      sourcesOf(job, job.regions.findIndex((r) => r.name === name)), region.position);
+      sourcesOf(job, job.regions.findIndex((r) => r.name === name), band), numbers.position);
   }
-  const weights = job.heads.map((head) => region.weights?.[head.name] ?? 0);
+  const weights = job.heads.map((head) => numbers.weights?.[head.name] ?? 0);
   const sum = weights.reduce((total, weight) => total + weight, 0);
   return weights.map((weight) => (sum > 0 ? weight / sum : 0));
 }
@@ -118,30 +141,52 @@ export function targetShares(job, recipe) {
     ? recipe.mixture[head.name] ?? 0 : Number(head.name === recipe.target)));
 }
 
+/// Which heads a region smooths to which level: per band {level, shares}, one share a head
+/// (blend/recipe.h, level_shares). No band begins above the one before it.
+function levelShares(job, document, name) {
+  let coarser = targetShares(job, document.recipe);
+  let most = 1;
+  return bandNames(job).map((band) => {
+    const numbers = bandOf(job, document.recipe.regions[name], band);
+    const finer = weightsOf(job, document, name, band).map((weight) => (numbers.extrapolation ?? 1) * weight);
+    const shares = coarser.map((share, h) => share - finer[h]);
+    coarser = finer;
+    most = Math.min(levelOf(numbers, job.levels), most);
+    return { level: most, shares };
+  });
+}
+
 /// What is multiplied with which field: of each region the numbers that are not zero,
-/// s_kh φ_hp(L_k) with s_kh = τ_h − e_k ω̂_kh (blend/crowd_blender.h).
+/// Σ_L s_kLh φ_hp(L) (blend/crowd_blender.h).
 /// \param heads  per head {rank, functions: 257 rows of rank}; those not loaded yet are undefined.
 /// \return       per region a list of {head, field, value}.
 export function coefficients(job, document, heads) {
-  const shares = targetShares(job, document.recipe);
   return job.regions.map(({ name }) => {
-    const region = document.recipe.regions[name];
-    const weights = weightsOf(job, document, name);
-    const x = Math.min(levelOf(region, job.levels), 1) * last;
-    const low = Math.min(Math.floor(x), last - 1);
+    const levels = levelShares(job, document, name);
     const list = [];
     heads.forEach((head, h) => {
-      const share = shares[h] - (region.extrapolation ?? 1) * weights[h];
-      if (!head || share === 0) return;
+      const used = levels.filter(({ shares }) => shares[h] !== 0);
+      if (!head || used.length === 0) return;
       for (let p = 0; p < head.rank; p += 1) {
-        const before = head.functions[low * head.rank + p];
-        const after = head.functions[(low + 1) * head.rank + p];
-        const value = share * (before + (x - low) * (after - before));
+        let value = 0;
+        for (const { level, shares } of used) {
+          const x = level * last;
+          const low = Math.min(Math.floor(x), last - 1);
+          const before = head.functions[low * head.rank + p];
+          const after = head.functions[(low + 1) * head.rank + p];
+          value += shares[h] * (before + (x - low) * (after - before));
+        }
         if (value !== 0) list.push({ head: h, field: p, value });
       }
     });
     return list;
   });
+}
+
+/// The region with each band's numbers changed.
+function withBands(job, region, change) {
+  return bandNames(job).reduce((changed, band) =>
+    withBand(job, changed, band, change(bandOf(job, region, band), band)), region);
 }
 
 /// The recipe as the program reads it. Where heads were moved on the page's plane a position would
@@ -151,10 +196,12 @@ export function wire(job, document) {
   const moved = Object.keys(anchors ?? {}).length > 0;
   const regions = {};
   for (const { name } of job.regions) {
-    const { position, weights, ...rest } = recipe.regions[name];
-    if (!position) regions[name] = { weights, ...rest };
-    else if (!moved) regions[name] = { position, ...rest };
-    else regions[name] = { weights: named(job, weightsOf(job, document, name)), ...rest };
+    regions[name] = withBands(job, recipe.regions[name], (numbers, band) => {
+      const { position, weights, ...rest } = numbers;
+      if (!position) return { weights, ...rest };
+      if (!moved) return { position, ...rest };
+      return { weights: named(job, weightsOf(job, document, name, band)), ...rest };
+    });
   }
   const { id, target, mixture } = recipe;
   return { id, target, ...(mixture ? { mixture } : {}), regions };
@@ -167,19 +214,20 @@ export function between(job, from, to, t) {
   const mix = (a, b) => a + t * (b - a);
   const regions = {};
   for (const { name } of job.regions) {
-    const a = from.recipe.regions[name];
-    const b = to.recipe.regions[name];
-    const unit = unitOf(near.recipe.regions[name]);
-    const level = mix(levelOf(a, job.levels), levelOf(b, job.levels));
-    let region = { extrapolation: mix(a.extrapolation ?? 1, b.extrapolation ?? 1) };
-    if (a.position && b.position) {
-      region.position = [mix(a.position[0], b.position[0]), mix(a.position[1], b.position[1])];
-    } else {
-      const [u, v] = [weightsOf(job, from, name), weightsOf(job, to, name)];
-      region.weights = named(job, u.map((weight, h) => mix(weight, v[h])));
-    }
-    region = withAmount(region, unit, amountAt(level, unit, job.levels));
-    regions[name] = region;
+    regions[name] = withBands(job, near.recipe.regions[name], (numbers, band) => {
+      const a = bandOf(job, from.recipe.regions[name], band);
+      const b = bandOf(job, to.recipe.regions[name], band);
+      const level = mix(levelOf(a, job.levels), levelOf(b, job.levels));
+      const mixed = { extrapolation: mix(a.extrapolation ?? 1, b.extrapolation ?? 1) };
+      if (a.position && b.position) {
+        mixed.position = [mix(a.position[0], b.position[0]), mix(a.position[1], b.position[1])];
+      } else {
+        const [u, v] = [weightsOf(job, from, name, band), weightsOf(job, to, name, band)];
+        mixed.weights = named(job, u.map((weight, h) => mix(weight, v[h])));
+      }
+      const unit = unitOf(numbers);
+      return withAmount(mixed, unit, amountAt(level, unit, job.levels));
+    });
   }
   const { mixture } = near.recipe;
   return {

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers of each region: sliders, and the same values typed.
 import { el, short } from '../dom.js';
-import { amountAt, amountOf, levelOf, unitOf, withAmount } from './recipe.js';
+import { amountAt, amountOf, bandNames, levelOf, unitOf, withAmount } from './recipe.js';
 
 const digits = { '%': 1, mm: 2, iterations: 0 };
 
 export class RegionPanel {
-  /// \param editor  job, document, withRegions(name, change), preview, commit, toggleLink(name),
+  /// \param editor  job, band, showBand(band), numbersOf(name), withRegions(name, change), preview, commit, toggleLink(name),
   ///                toggleLock(name), isLinked(name), isLocked(name), weightText(name).
   constructor(editor) {
     this.editor = editor;
     this.cards = new Map(editor.job.regions.map((region) => [region.name, this.card(region)]));
-    this.node = el('div', { class: 'regions' }, [...this.cards.values()].map((card) => card.node));
+    this.bands = new Map(bandNames(editor.job).filter(Boolean).map((band) => [band, el('button', {
+      class: 'toggle', 'data-band': band, title: `Show ${band} on plane and sliders`, onclick: () => editor.showBand(band),
+    }, band)]));
+    this.node = el('div', { class: 'regions' },
+      this.bands.size > 0 ? el('div', { class: 'bands', role: 'group', 'aria-label': 'Bands of detail' }, [...this.bands.values()]) : null,
+      [...this.cards.values()].map((card) => card.node));
     this.show();
   }
 
@@ -43,7 +48,7 @@ export class RegionPanel {
     const { editor } = this;
     const { levels } = editor.job;
     const every = (change) => editor.withRegions(name, change);
-    const unit = () => unitOf(editor.document.recipe.regions[name]);
+    const unit = () => unitOf(editor.numbersOf(name));
     const setLevel = (level) => every((value) =>
       withAmount(value, unit(), Number(amountAt(level, unit(), levels).toFixed(digits[unit()] + 2))));
     const setPlace = (axis) => (value) => every((old) => {
@@ -86,8 +91,12 @@ export class RegionPanel {
 
   show() {
     const { editor } = this;
+    for (const [band, button] of this.bands) {
+      button.classList.toggle('on', band === editor.band);
+      button.setAttribute('aria-pressed', String(band === editor.band));
+    }
     for (const [name, card] of this.cards) {
-      const region = editor.document.recipe.regions[name];
+      const region = editor.numbersOf(name);
       const unit = unitOf(region);
       const put = (input, value) => {
         if (document.activeElement !== input || input.type === 'range') input.value = value;

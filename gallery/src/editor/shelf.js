@@ -2,7 +2,7 @@
 // States that are kept to compare with, faces to pick from, and the way between two of them.
 import { el } from '../dom.js';
 import { post } from './api.js';
-import { between, headAlone } from './recipe.js';
+import { bandOf, between, headAlone, withBand } from './recipe.js';
 
 const mostKept = 12;
 const mostOffered = 400; // faces of the crowd to go between; others are opened and kept first
@@ -148,7 +148,10 @@ export class Shelf {
     const [from, to] = [this.ends.get(this.from.value), this.ends.get(this.to.value)];
     const mixed = between(editor.job, from, to, Number(this.way.value));
     const stay = this.ends.get('this face');
-    for (const name of editor.lockedNames()) mixed.recipe.regions[name] = stay.recipe.regions[name];
+    const { regions } = mixed.recipe;
+    for (const [name, band] of editor.lockedParts()) {
+      regions[name] = withBand(editor.job, regions[name], band, bandOf(editor.job, stay.recipe.regions[name], band));
+    }
     mixed.recipe.id = stay.recipe.id;
     editor.preview(mixed);
   }

@@ -57,6 +57,7 @@ Json crowd_to_json(const Config& config, const std::vector<CastFace>& crowd, con
   json["seed"] = config.crowd.seed;
   json["version"] = kVersion;
   json["regions"] = config.regions.names;
+  if (!names.bands.empty()) json["bands"] = names.bands;
   json["pictures"] = config.output.contact_sheet.has_value();
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < names.heads.size(); ++h) {
