@@ -90,6 +90,7 @@ if [ -n "$mask" ]; then
   figure fig10 --set "regions.mask=$mask"
 fi
 figure fig11
+figure bands
 figure fig12_exact
 for levels in cubic basis; do
   figure "fig12_$levels" --set "output.contact_sheet.compare=$PWD/$folder/fig12_exact"

@@ -55,7 +55,7 @@ TEST_F(ExampleConfigs, ThoseOfThePapersFiguresAreRead) {
     ASSERT_TRUE(read_config(copy, {}, problems_)) << entry.path() << told();
     ++figures;
   }
-  EXPECT_EQ(figures, 12);
+  EXPECT_EQ(figures, 13);
 }
 
 /// The YAML blocks of a page.
