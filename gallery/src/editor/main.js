@@ -67,7 +67,8 @@ class Editor {
       kept: (state.kept ?? []).map((entry) => ({ ...entry, document: again(entry.document) })),
     } : { kept: [] };
     const fits = documents.every(({ recipe, anchors }) => headIndex(this.job, recipe.target) >= 0 && known(anchors) &&
-      known(recipe.mixture) && Object.values(recipe.regions).every((region) => known(region.weights)));
+      known(recipe.mixture) && Object.values(recipe.regions).every((region) =>
+        known(region.weights) && Object.values(region.bands ?? {}).every((band) => known(band.weights))));
     return fits ? result : { kept: [] };
   }
 
