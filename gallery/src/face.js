@@ -252,7 +252,8 @@ export class FacePage {
   key(event) {
     const table = this.turntable;
     const keys = {
-      ArrowRight: () => this.step(1), ArrowLeft: () => this.step(-1), Escape: () => this.go(null),
+      ArrowRight: () => this.step(1), ArrowLeft: () => this.step(-1),
+      Home: () => this.go(this.faces[0]), End: () => this.go(this.faces.at(-1)), Escape: () => this.go(null),
       Backspace: () => this.go(null), n: () => this.side.querySelector('textarea').focus(),
       f: () => table?.view('front'), q: () => table?.view('three_quarter'),
       p: () => table?.view('profile'), t: () => this.compare(this.compared === 'target' ? 'face' : 'target'),

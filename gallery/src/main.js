@@ -211,7 +211,8 @@ class Page {
 
   walk(by) {
     const at = this.faces.indexOf(this.selected);
-    const next = at < 0 ? 0 : Math.max(0, Math.min(this.faces.length - 1, at + by));
+    const end = this.faces.length - 1;
+    const next = at < 0 && by < Infinity ? 0 : Math.max(0, Math.min(end, at + by));
     if (this.faces[next]) this.select(this.faces[next]);
   }
 

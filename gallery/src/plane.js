@@ -6,6 +6,9 @@ import { picture } from './grid.js';
 // Okabe & Ito's colours (2008), which colour-blind eyes tell apart too, then lighter ones.
 const colours = ['#56b4e9', '#e69f00', '#3fbf96', '#d98cb8', '#f0e442', '#5a8fd6', '#e07b4f',
   '#a8c686', '#b79be0', '#8fd3d1', '#d6c3a5', '#c7667f'];
+/// Of a list of any length, each another: beyond those above hues a golden angle apart, lighter and darker in turn.
+export const colourOf = (k) => colours[k] ??
+  `hsl(${((k * 137.508) % 360).toFixed(1)} ${k % 2 ? 75 : 45}% ${[72, 52, 62][k % 3]}%)`;
 const markColours = { keep: '#86bd92', reject: '#d17a6e' };
 export const side = 460;
 
@@ -99,7 +102,7 @@ export class Plane {
     this.colourBy = by;
     const names = by === 'target' ? this.crowd.targets : by === 'family' ? this.crowd.families : [];
     const colour = (name) => (names.indexOf(name) < 0 ? '#8d8c88'
-      : colours[names.indexOf(name) % colours.length]);
+      : colourOf(names.indexOf(name)));
     this.colour = (face) => (by === 'mark'
       ? markColours[this.review.of(face)?.verdict] ?? '#8d8c88'
       : colour(by === 'target' ? face.target : face.family));

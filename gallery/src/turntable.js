@@ -14,10 +14,11 @@ function bytesOf(base64) {
 
 /// Points: three whole numbers of 16 bits each, steps from the frame's low corner; then normals,
 /// two numbers each on the unfolded octahedron (Meyer et al. 2010, "On floating-point normal
-/// vectors").
+/// vectors"); where the face has textures a colour for each point, three bytes.
 export function unpackFace(base64, mesh) {
-  const values = new Uint16Array(bytesOf(base64).buffer);
+  const bytes = bytesOf(base64);
   const count = mesh.vertices;
+  const values = new Uint16Array(bytes.buffer, 0, 5 * count);
   const points = new Float32Array(3 * count);
   const normals = new Float32Array(3 * count);
   for (let i = 0; i < 3 * count; i += 1) points[i] = mesh.low[i % 3] + mesh.step * values[i];
@@ -31,7 +32,16 @@ export function unpackFace(base64, mesh) {
     const length = Math.hypot(x, y, z);
     normals.set([x / length, y / length, z / length], 3 * i);
   }
-  return { points, normals };
+  const colours = bytes.length > 10 * count ? linearColours(bytes.subarray(10 * count)) : null;
+  return { points, normals, colours };
+}
+
+/// Nostrils and the inside of the mouth, where they are looked into, are seen from behind: dark.
+function darkenBacks(material) {
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace('#include <color_fragment>',
+      '#include <color_fragment>\n if (!gl_FrontFacing) diffuseColor.rgb *= 0.3;');
+  };
 }
 
 export class Turntable extends Stage {
@@ -43,8 +53,9 @@ export class Turntable extends Stage {
     const geometry = new BufferGeometry();
     const bytes = bytesOf(mesh.triangles);
     geometry.setIndex(new BufferAttribute(new Uint32Array(bytes.buffer), 1));
-    geometry.setAttribute('color', new BufferAttribute(linearColours(bytesOf(mesh.colours)), 3));
+    this.colours = linearColours(bytesOf(mesh.colours));
     const material = skinMaterial();
+    darkenBacks(material);
     if (mesh.eyes) {
       const places = new Uint32Array(bytesOf(mesh.eyes.places).buffer);
       paintEyes(material, geometry,
@@ -61,10 +72,11 @@ export class Turntable extends Stage {
   async show(path, name) {
     await this.prepare();
     await loadScript(path);
-    const { points, normals } = unpackFace(window.crowdface.faces[name], this.mesh);
+    const { points, normals, colours } = unpackFace(window.crowdface.faces[name], this.mesh);
     const { geometry } = this.object;
     geometry.setAttribute('position', new BufferAttribute(points, 3));
     geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+    geometry.setAttribute('color', new BufferAttribute(colours ?? this.colours, 3));
     geometry.computeBoundingSphere();
     this.shown = name;
     this.draw();

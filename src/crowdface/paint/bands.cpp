@@ -12,11 +12,12 @@ namespace crowdface {
 namespace {
 
 // Lengths are parts of the way from mouth to eyes. Borders between the bands: under the brows, and
-// between nose and lips; half as wide to either side as they are soft.
-constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.12;
+// between nose and lips; half as wide to either side as they are soft. Bands are of different people, often
+// by a centimetre: where that has less room than four centimetres it is seen as a ridge.
+constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
 // Ears are painted this far around what stands out; the neck begins this far below chin and ears.
 constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSoft = 0.12,
-                 kBelowChin = 0.12;
+                 kBelowChin = 0.12, kNeckSoft = 0.12;
 
 /// How much of the ears each place is.
 double ear_share(const EarBox& ears, double face, double side, double height, double front) {
@@ -90,7 +91,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   }
   const RegionWeights::Alpha level = level_bands(heights, marks.eyes, marks.mouth);
   RegionWeights::Alpha alpha = RegionWeights::Alpha::Zero(positions.rows(), count);
-  const double soft = kSoft * marks.face();
+  const double soft = kNeckSoft * marks.face();
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double front = dot3(p, axes.front);

@@ -54,11 +54,13 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
     write_file(path, bytes);
     return FileDigest{bytes.size(), hash_bytes(bytes)};
   };
-  const std::string picture =
-      textures != nullptr ? render_png(single, *textures) : render_png(single, target);
-  WrittenPictures written{put(directory.render(id), picture), std::nullopt};
+  const std::optional<TextureCoat> coat =
+      textures != nullptr ? own_coat(*textures) : coat_of(target);
+  const TextureCoat* worn = coat ? &*coat : nullptr;
+  WrittenPictures written{put(directory.render(id), render_png(single, nullptr, worn)),
+                          std::nullopt};
   if (gallery_ != nullptr) {
-    written.preview = put(directory.gallery_face(id), gallery_->face_script(id, single));
+    written.preview = put(directory.gallery_face(id), gallery_->face_script(id, single, worn));
   }
   return written;
 }
@@ -66,6 +68,16 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
 Rgb8Image CrowdRenders::render_front(const Positions& positions,
                                      const VertexColours* colours) const {
   return renderer_.render(positions, cameras_.front(), colours);
+}
+
+std::optional<TextureCoat> CrowdRenders::own_coat(
+    const std::vector<BlendedPicture>& textures) const {
+  if (!textured_) return std::nullopt;
+  return crowdface::coat_of(textures_.blended.layout, textures, most_texels_);
+}
+
+std::optional<TextureCoat> CrowdRenders::coat_of(Index head) const {
+  return textured_ ? coat_of_head(textures_, head, most_texels_) : std::nullopt;
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, const VertexColours* colours,
@@ -79,14 +91,12 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 
 std::string CrowdRenders::render_png(const Positions& positions,
                                      const std::vector<BlendedPicture>& textures) const {
-  if (!textured_) return render_png(positions, nullptr, nullptr);
-  const TextureCoat coat = coat_of(textures_.blended.layout, textures, most_texels_);
-  return render_png(positions, nullptr, &coat);
+  const std::optional<TextureCoat> coat = own_coat(textures);
+  return render_png(positions, nullptr, coat ? &*coat : nullptr);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
-  const std::optional<TextureCoat> coat =
-      textured_ ? coat_of_head(textures_, head, most_texels_) : std::nullopt;
+  const std::optional<TextureCoat> coat = coat_of(head);
   return render_png(positions, nullptr, coat ? &*coat : nullptr);
 }
 

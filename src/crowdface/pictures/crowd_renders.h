@@ -52,6 +52,9 @@ class CrowdRenders {
  private:
   std::string render_png(const Positions& positions, const VertexColours* colours,
                          const TextureCoat* coat) const;
+  /// What pictures show of a face's own textures, or of a head's, if they show any.
+  std::optional<TextureCoat> own_coat(const std::vector<BlendedPicture>& textures) const;
+  std::optional<TextureCoat> coat_of(Index head) const;
 
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;

@@ -16,7 +16,10 @@
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/face_json.h"
 #include "crowdface/pictures/surfaces.h"
+#include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
+#include "crowdface/render/openness.h"
+#include "crowdface/render/shading.h"
 #include "crowdface/render/vertex_colours.h"
 
 namespace crowdface {
@@ -109,6 +112,16 @@ void add_eyes(const Config& config, const Inputs& inputs, const ReducedMesh& mes
                   {"colour", colour(SurfaceKind::kIris)}};
 }
 
+std::array<std::uint8_t, 3> bytes_of(const Light& light) {
+  const Eigen::Array3f srgb = 255 * to_srgb(light);
+  std::array<std::uint8_t, 3> bytes{};
+  for (int c = 0; c < 3; ++c) {
+    bytes[static_cast<std::size_t>(c)] =
+        static_cast<std::uint8_t>(std::lround(std::clamp(srgb[c], 0.0F, 255.0F)));
+  }
+  return bytes;
+}
+
 /// Removes scripts of faces that the crowd no longer has.
 void remove_others(const fs::path& folder, const std::set<std::string>& names) {
   std::error_code ignored;
@@ -161,7 +174,19 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   for (const SurfaceKind kind : surfaces_of(config, inputs).kinds) {
     drawn.push_back(kind != SurfaceKind::kHidden);
   }
-  mesh_ = reduce_mesh(faces.topology, mean_head(faces), drawn, kMostTriangles);
+  const Positions mean = mean_head(faces);
+  mesh_ = reduce_mesh(faces.topology, mean, drawn, kMostTriangles);
+  // The page takes the side that a triangle shows from how it is wound.
+  if (winding(faces.topology, mean) < 0) {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); t += 3) {
+      std::swap(mesh_.triangles[t], mesh_.triangles[t + 1]);
+    }
+  }
+  const Surfaces surfaces = surfaces_of(config, inputs);
+  colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(
+      mesh_.vertices, Eigen::placeholders::all);
+  open_ = vertex_openness(faces.topology, surfaces.kinds, mean, mesh_.vertices);
+  corner_ = find_corners(faces);
   const std::vector<const Positions*> heads = positions_of(faces);
   frame_ = PackingFrame::around(heads);
   low_ = heads.front()->colwise().minCoeff().transpose();
@@ -172,16 +197,51 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   }
 }
 
-std::string GalleryMeshes::shared_script() const {
-  const VertexColours colours =
-      surface_colours(inputs_.faces.topology, surfaces_of(config_, inputs_),
-                      mean_head(inputs_.faces), config_.faces.front);
-  std::string shades;
-  for (const std::uint32_t vertex : mesh_.vertices) {
-    for (int c = 0; c < 3; ++c) {
-      shades += static_cast<char>(std::lround(255 * colours(vertex, c)));
+std::vector<GalleryMeshes::Corner> GalleryMeshes::find_corners(const FaceSet& faces) const {
+  const Topology& topology = faces.topology;
+  std::vector<Corner> of_vertex(static_cast<std::size_t>(topology.vertex_count));
+  for (Index f = 0; faces.uvs.rows() > 0 && f < topology.face_count(); ++f) {
+    const auto uvs = topology.face_uvs(f);
+    for (std::size_t c = 0; c < uvs.size(); ++c) {
+      Corner& corner = of_vertex[topology.face(f)[c]];
+      if (uvs[c] == kNoIndex || corner.face >= 0) continue;
+      corner = {f, faces.uvs.row(uvs[c]).transpose().cast<float>()};
     }
   }
+  std::vector<Corner> corners;
+  for (const std::uint32_t vertex : mesh_.vertices) corners.push_back(of_vertex[vertex]);
+  return corners;
+}
+
+VertexColours GalleryMeshes::textured(const TextureCoat& coat) const {
+  VertexColours colours = colours_;
+  for (std::size_t v = 0; v < corner_.size(); ++v) {
+    if (corner_[v].face < 0) continue;
+    const std::uint32_t texture = coat.of_face[static_cast<std::size_t>(corner_[v].face)];
+    if (texture == TextureCoat::kNone) continue;
+    const Light light = colour_at(*coat.textures[texture], corner_[v].uv);
+    colours.row(static_cast<Index>(v)) = to_srgb(light).matrix().transpose();
+  }
+  return colours;
+}
+
+std::string GalleryMeshes::shades(const VertexColours& colours) const {
+  std::string bytes;
+  for (Index v = 0; v < colours.rows(); ++v) {
+    const Light light = from_srgb(colours.row(v).transpose().array());
+    const Light left = light * open_[static_cast<std::size_t>(v)];
+    for (const std::uint8_t byte : bytes_of(left)) bytes += static_cast<char>(byte);
+  }
+  return bytes;
+}
+
+std::optional<TextureCoat> GalleryMeshes::coat_of(Index head) const {
+  const Config::ContactSheet& sheet = *config_.output.contact_sheet;
+  if (sheet.texture == SheetTexture::kNo) return std::nullopt;
+  return coat_of_head(inputs_.textures, head, shown_texels(sheet));
+}
+
+std::string GalleryMeshes::shared_script() const {
   Json json;
   json["vertices"] = mesh_.vertices.size();
   json["up"] = axis_to_json(config_.faces.up);
@@ -190,13 +250,15 @@ std::string GalleryMeshes::shared_script() const {
   json["step"] = frame_.step;
   json["box"] = {to_json(low_), to_json(high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
-  json["colours"] = base64(shades);
+  json["colours"] = base64(shades(colours_));
   add_eyes(config_, inputs_, mesh_, json);
   return call("setMesh", json);
 }
 
-std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions) const {
-  const std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions);
+std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions,
+                                       const TextureCoat* coat) const {
+  std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions);
+  if (coat != nullptr) bytes += shades(textured(*coat));
   return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), "\");\n");
 }
 
@@ -207,10 +269,13 @@ void write_gallery(const CrowdDirectory& directory, const Config& config, const 
   std::set<std::string> ids;
   for (const CastFace& face : crowd) ids.insert(face.id);
   remove_others(directory.gallery_face("").parent_path(), ids);
-  for (const Head& head : meshes.heads()) {
+  for (std::size_t h = 0; h < meshes.heads().size(); ++h) {
+    const Head& head = meshes.heads()[h];
+    const std::optional<TextureCoat> coat = meshes.coat_of(static_cast<Index>(h));
     // A face may bear a head's name.
     write_file(directory.gallery_head(head.name),
-               meshes.face_script(concat("head ", head.name), head.positions));
+               meshes.face_script(concat("head ", head.name), head.positions,
+                                  coat ? &*coat : nullptr));
   }
   write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
   write_file(directory.gallery() / "data/crowd.js",

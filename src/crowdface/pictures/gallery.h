@@ -11,6 +11,8 @@
 #include "crowdface/crowd/likeness_file.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/preview/packed_face.h"
+#include "crowdface/render/texture.h"
+#include "crowdface/render/vertex_colours.h"
 
 namespace crowdface {
 
@@ -30,6 +32,12 @@ Digest gallery_page_digest(const Config& config);
 /// The meshes of a gallery: reduced, and packed into scripts, because a page opened from disk may
 /// load nothing else. What all faces share is prepared once.
 class GalleryMeshes {
+  /// Of a vertex: a face at it, and its place in that face's texture.
+  struct Corner {
+    Index face = -1;
+    Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  };
+
  public:
   /// \param inputs  must outlive this object.
   GalleryMeshes(const Config& config, const Inputs& inputs);
@@ -37,16 +45,28 @@ class GalleryMeshes {
   /// data/mesh.js: triangles, colours, the frame of the positions.
   std::string shared_script() const;
   /// data/faces/NAME.js or data/heads/NAME.js.
-  std::string face_script(const std::string& name, const Positions& positions) const;
+  /// \param coat  the face's textures, or null: it has the colours that all share.
+  std::string face_script(const std::string& name, const Positions& positions,
+                          const TextureCoat* coat) const;
 
   const std::vector<Head>& heads() const { return inputs_.faces.heads; }
+  /// What a head wears in pictures.
+  std::optional<TextureCoat> coat_of(Index head) const;
 
  private:
+  /// Colours as the page shows them, three bytes a vertex, darker where little light arrives.
+  std::string shades(const VertexColours& colours) const;
+  VertexColours textured(const TextureCoat& coat) const;
+  std::vector<Corner> find_corners(const FaceSet& faces) const;
+
   const Config& config_;
   const Inputs& inputs_;
   ReducedMesh mesh_;
   FacesAround around_;
   PackingFrame frame_;
+  VertexColours colours_;       ///< of the surfaces themselves, one a vertex of the reduced mesh
+  std::vector<float> open_;     ///< how much light arrives there, on the mean head
+  std::vector<Corner> corner_;  ///< where each lies in a texture
   Eigen::Vector3d low_, high_;  ///< of the heads' boxes
 };
 

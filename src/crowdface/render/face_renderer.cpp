@@ -178,6 +178,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
   const Stage stage{*scene,
                     std::move(normals),
+                    sign,
                     colours,
                     prepared_->quads,
                     prepared_->quad_kinds,

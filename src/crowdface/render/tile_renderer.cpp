@@ -74,6 +74,13 @@ struct Meeting {
   Openness key, sky;
 };
 
+/// A normal that does not look away from the viewer: at the edge of a coarse ear the normals of vertices
+/// may, though the face between them is seen.
+Vector towards(const Vector& viewer, const Vector& normal) {
+  const float away = std::min(0.0F, normal.dot(viewer));
+  return (normal - away * viewer).normalized();
+}
+
 Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const Quad& quad = stage.quads[hit.primitive];
   const Eigen::Vector4f weights = shares(quad, hit.u, hit.v);
@@ -90,19 +97,20 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   meeting.surface.albedo = stage.colours != nullptr
                                ? from_srgb(colour.array())
                                : own_albedo(stage, hit.primitive, weights, meeting.point);
-  // The side that is seen is told by the vertices' normals, which winding() has turned outwards.
-  const Vector geometric = hit.normal.dot(normal) < 0 ? Vector(-hit.normal) : hit.normal;
+  const Vector geometric = stage.winding * hit.normal;
   meeting.surface.inside = geometric.dot(direction) > 0;
   const float side = meeting.surface.inside ? -1.0F : 1.0F;
-  meeting.surface.normal = side * normal.normalized();
   meeting.surface.to_eye = -direction.normalized();
+  meeting.surface.normal = towards(meeting.surface.to_eye, side * normal.normalized());
   meeting.asks_key = faces_key(meeting.surface);
   // Rays start above the facets, on the smooth surface that the normals speak of, lest facets show
   // where light grazes them (Hanika 2021, "Hacking the shadow terminator").
+  // At a sharp edge a vertex's normal may look away from the face: such a lift would lead below it.
   Vector lift = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
     const Vector n = side * stage.normals[vertex];
+    if (n.dot(side * geometric) <= 0) continue;
     lift -= weights[c] * std::min(0.0F, (meeting.point - stage.scene.point(vertex)).dot(n)) * n;
   }
   meeting.start = meeting.point + lift + kClearance * side * geometric.normalized();

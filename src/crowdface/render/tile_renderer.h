@@ -30,7 +30,8 @@ struct TexturedQuad {
 /// the image's side as unit.
 struct Stage {
   const RayScene& scene;
-  std::vector<Eigen::Vector3f> normals;  ///< #V
+  std::vector<Eigen::Vector3f> normals;  ///< #V, outwards
+  float winding;                         ///< −1 where the faces' own normals look inwards
   const VertexColours* colours;          ///< #V in place of all others, or nullptr
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;            ///< #quads

@@ -21,11 +21,11 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   require(size >= 1, "a mask of ", size, " pixels");
   using synth::row_unit;
   using synth::strip_v;
-  // Between brow and eye, and between nose and lips; half as far to either side.
+  // Between brow and eye, and between nose and lips. Where two people meet in less, a ridge is seen.
   const double brow = strip_v(row_unit(2)), under_eye = strip_v(row_unit(3));
   const double nose = strip_v(row_unit(5)), lips = strip_v(row_unit(6));
-  const double eye = (brow + under_eye) / 2, half = (brow - under_eye) / 4;
-  const double upper = eye + 1.2 * half, lower = (nose + lips) / 2;
+  const double eye = (brow + under_eye) / 2, half = 0.55 * (brow - under_eye);
+  const double upper = eye + 0.3 * (brow - under_eye), lower = (nose + lips) / 2;
   std::vector<std::uint8_t> out;
   for (int row = 0; row < size; ++row) {
     const double v = 1 - (row + 0.5) / size;
