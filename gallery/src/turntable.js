@@ -36,13 +36,6 @@ export function unpackFace(base64, mesh) {
   return { points, normals, colours };
 }
 
-/// Nostrils and the inside of the mouth, where they are looked into, are seen from behind: dark.
-function darkenBacks(material) {
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace('#include <color_fragment>',
-      '#include <color_fragment>\n if (!gl_FrontFacing) diffuseColor.rgb *= 0.3;');
-  };
-}
 
 export class Turntable extends Stage {
   /// The triangles and colours that all faces share.
@@ -55,7 +48,6 @@ export class Turntable extends Stage {
     geometry.setIndex(new BufferAttribute(new Uint32Array(bytes.buffer), 1));
     this.colours = linearColours(bytesOf(mesh.colours));
     const material = skinMaterial();
-    darkenBacks(material);
     if (mesh.eyes) {
       const places = new Uint32Array(bytesOf(mesh.eyes.places).buffer);
       paintEyes(material, geometry,

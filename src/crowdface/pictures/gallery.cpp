@@ -16,7 +16,6 @@
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/face_json.h"
 #include "crowdface/pictures/surfaces.h"
-#include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/openness.h"
 #include "crowdface/render/shading.h"
@@ -176,12 +175,6 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   }
   const Positions mean = mean_head(faces);
   mesh_ = reduce_mesh(faces.topology, mean, drawn, kMostTriangles);
-  // The page takes the side that a triangle shows from how it is wound.
-  if (winding(faces.topology, mean) < 0) {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); t += 3) {
-      std::swap(mesh_.triangles[t], mesh_.triangles[t + 1]);
-    }
-  }
   const Surfaces surfaces = surfaces_of(config, inputs);
   colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(
       mesh_.vertices, Eigen::placeholders::all);
@@ -229,7 +222,8 @@ std::string GalleryMeshes::shades(const VertexColours& colours) const {
   std::string bytes;
   for (Index v = 0; v < colours.rows(); ++v) {
     const Light light = from_srgb(colours.row(v).transpose().array());
-    const Light left = light * open_[static_cast<std::size_t>(v)];
+    // The page's lamps cast no shadows: the root keeps what one of them still reaches, under the chin, say.
+    const Light left = light * std::sqrt(open_[static_cast<std::size_t>(v)]);
     for (const std::uint8_t byte : bytes_of(left)) bytes += static_cast<char>(byte);
   }
   return bytes;
