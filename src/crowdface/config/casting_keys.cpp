@@ -113,7 +113,12 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_flipped", &Believability::max_flipped, number(0, 1)),
       key("max_intersecting", &Believability::max_intersecting, number(0, 1)),
       key("max_gap", &Believability::max_gap_mm, length(kMaxDistance)),
-      key("max_exposed", &Believability::max_exposed_mm2, number(0, 1e6)),
+      key("max_exposed", &Believability::max_exposed_mm2, number(0, 1e6))
+          .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
+            if (facts.vertices > kMostJudged) return std::nullopt;
+            return StarterLines{"0.5",
+                                "mm² of skin that shows its back: specks at nostrils and lips"};
+          }),
       word_key("meshes", &Believability::meshes)
           .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertices > kMostJudged) return std::nullopt;

@@ -267,9 +267,9 @@ void write_gallery(const CrowdDirectory& directory, const Config& config, const 
     const Head& head = meshes.heads()[h];
     const std::optional<TextureCoat> coat = meshes.coat_of(static_cast<Index>(h));
     // A face may bear a head's name.
-    write_file(directory.gallery_head(head.name),
-               meshes.face_script(concat("head ", head.name), head.positions,
-                                  coat ? &*coat : nullptr));
+    write_file(
+        directory.gallery_head(head.name),
+        meshes.face_script(concat("head ", head.name), head.positions, coat ? &*coat : nullptr));
   }
   write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
   write_file(directory.gallery() / "data/crowd.js",

@@ -25,8 +25,7 @@ constexpr float kClearance = 5e-4F;
 
 }  // namespace
 
-std::vector<float> vertex_openness(const Topology& topology,
-                                   const std::vector<SurfaceKind>& kinds,
+std::vector<float> vertex_openness(const Topology& topology, const std::vector<SurfaceKind>& kinds,
                                    const Positions& positions,
                                    std::span<const std::uint32_t> vertices) {
   require(kinds.empty() || static_cast<Index>(kinds.size()) == topology.face_count(),

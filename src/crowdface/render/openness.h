@@ -14,8 +14,7 @@ namespace crowdface {
 /// and at teeth. What pictures do not show hides nothing.
 /// \param kinds      #F, or empty: all skin.
 /// \param positions  #V by 3, any unit.
-std::vector<float> vertex_openness(const Topology& topology,
-                                   const std::vector<SurfaceKind>& kinds,
+std::vector<float> vertex_openness(const Topology& topology, const std::vector<SurfaceKind>& kinds,
                                    const Positions& positions,
                                    std::span<const std::uint32_t> vertices);
 
