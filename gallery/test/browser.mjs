@@ -91,6 +91,8 @@ await page.selectOption('select[name=sort]', 'plan');
 
 // Walk and mark with the keys.
 await page.locator('.summary').click();
+await page.keyboard.press('End');
+assert.equal(await page.locator('.cell.selected').getAttribute('data-id'), all.at(-1));
 await page.keyboard.press('Home');
 await page.keyboard.press('ArrowRight');
 assert.equal(await page.locator('.cell.selected').getAttribute('data-id'), all[1]);
@@ -113,6 +115,13 @@ const front = await shades();
 assert.ok(front.colours > 50, `the 3D view shows ${front.colours} colours`);
 assert.ok(!(await page.locator('main.face').innerText()).includes('[object'), 'raw objects on the page');
 await take('face');
+for (const width of [700, 900]) {
+  await page.setViewportSize({ width, height: 700 });
+  const picture = await page.locator('.box').boundingBox();
+  const verdicts = await page.locator('.verdicts').boundingBox();
+  assert.ok(verdicts.x >= picture.x + picture.width, `Keep and Reject stand beside the picture at ${width} pixels`);
+}
+await page.setViewportSize({ width: 1440, height: 900 });
 const box = await page.locator('.turntable').boundingBox();
 await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
 await page.mouse.down();
