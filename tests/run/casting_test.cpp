@@ -463,7 +463,8 @@ TEST(Casting, ChildrenResembleBothParentsThroughGenerations) {
   EXPECT_LE(mm("pair_01", "pair_02"), 1 + kTolerance) << "twins";
   EXPECT_LT(mm("green_01", "green_02"), mm("green_01", "brown_01")) << "siblings, cousins";
   EXPECT_LT(mm("brown_01", "brown_02"), mm("brown_01", "green_02"));
-  for (const json& family : testing::read_json(folder.out() / "casting.json").at("families")) {
+  const json casting = testing::read_json(folder.out() / "casting.json");
+  for (const json& family : casting.at("families")) {
     EXPECT_LE(family.at("to_founder_mm").at("max").get<double>(), 1.5 + kTolerance);
   }
 
