@@ -33,6 +33,7 @@ render 3
 synth 3
 morph 3
 parts 3
+lod 4
 paint 4
 shapes 4
 blend 4

@@ -7,6 +7,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/run/output_check.h"
@@ -31,6 +32,7 @@ void look_at_output(const Job& job) {
 void describe(const Job& job) {
   const Inputs& inputs = job.inputs;
   const auto& boundary = inputs.adjacency.boundary;
+  const std::string levels = describe_levels(inputs);
   print(concat(
       job.config.file.string(), " is fine\n", "heads       ", job.names.heads.size(), ": ",
       join(job.names.heads), "\ntopology    ", inputs.faces.topology.vertex_count, " vertices, ",
@@ -41,9 +43,9 @@ void describe(const Job& job) {
       format_fixed(
           size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm), 1),
       " mm\n", "parts       ", describe_parts(job.config, inputs), "\nregions     ",
-      join(job.names.regions), "\n", "faces       ", job.config.crowd.count, " sampled, ",
-      job.config.recipes.size(), " by hand\n", "output      ", job.config.output.directory.string(),
-      "\n"));
+      join(job.names.regions), "\n", levels.empty() ? "" : concat("lods        ", levels, "\n"),
+      "faces       ", job.config.crowd.count, " sampled, ", job.config.recipes.size(), " by hand\n",
+      "output      ", job.config.output.directory.string(), "\n"));
 }
 
 /// One picture a region, its mask on the mean head.

@@ -20,6 +20,7 @@
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/io/mesh_format.h"
+#include "crowdface/io/usda_text.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/skin_contacts.h"
 #include "crowdface/plane/layout.h"
@@ -132,6 +133,8 @@ struct Config {
     std::vector<std::string> names;            ///< #files
   } shapes;
 
+  std::filesystem::path points;  ///< that follow the face: a file; empty: none
+
   struct Textures {
     TextureBlend blend = TextureBlend::kAuto;
     std::optional<std::uint64_t> size;  ///< texels of the longer side; none: the largest head's
@@ -182,7 +185,9 @@ struct Config {
   };
   struct Output {
     std::filesystem::path directory;
-    std::vector<MeshFormat> meshes = {MeshFormat::kObj};         ///< each once; may be empty
+    std::vector<MeshFormat> meshes = {MeshFormat::kObj};  ///< each once; may be empty
+    std::vector<double> lods;  ///< levels of detail: percent of the triangles, descending
+    Subdivision subdivision = Subdivision::kNone;  ///< what USD meshes say of themselves
     std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
     Gallery gallery = Gallery::kAuto;
     std::map<std::string, SurfaceChoice> surfaces;  ///< by the material's name

@@ -51,6 +51,7 @@ std::vector<fs::path> input_files(const Config& config) {
   files.insert(files.end(), config.faces.files.begin(), config.faces.files.end());
   if (!config.shapes.files.empty()) files.push_back(config.shapes.neutral);
   files.insert(files.end(), config.shapes.files.begin(), config.shapes.files.end());
+  if (!config.points.empty()) files.push_back(config.points);
   for (const std::string& mask : config.regions.mask) add_image(mask, files);
   if (config.distance.mask) add_image(*config.distance.mask, files);
   files.insert(files.end(), config.review.files.begin(), config.review.files.end());

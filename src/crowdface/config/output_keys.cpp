@@ -71,6 +71,48 @@ void read_surfaces(const YamlNode& node, Output& output, ConfigDraft& draft) {
   }
 }
 
+/// The number of "20 %", above 0 and below 100.
+std::optional<double> parse_percent(std::string_view text) {
+  if (!text.ends_with('%')) return std::nullopt;
+  text.remove_suffix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  const auto percent = parse_double(text);
+  if (!percent || !(*percent > 0 && *percent < 100)) return std::nullopt;
+  return percent;
+}
+
+/// "LOD1" and so on: what stands after the id in a level's files.
+bool is_level_name(std::string_view name) {
+  return name.starts_with("LOD") && parse_unsigned(name.substr(3)).has_value();
+}
+
+void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
+  constexpr std::size_t kMostLevels = 8;
+  constexpr const char* kExpected = "a list of up to 8 levels, each smaller, [50 %, 20 %, 5 %]";
+  draft.complaints.expect_list(node, kExpected);
+  for (const YamlNode& child : node.items) {
+    const auto percent =
+        child.kind == YamlNode::Kind::kScalar ? parse_percent(child.text) : std::nullopt;
+    if (!percent || (!output.lods.empty() && *percent >= output.lods.back()) ||
+        output.lods.size() == kMostLevels) {
+      return draft.complaints.expected(child, kExpected);
+    }
+    output.lods.push_back(*percent);
+  }
+  if (output.lods.empty()) return;
+  const auto& names = draft.config.shapes.names;
+  const auto name = std::find_if(names.begin(), names.end(), is_level_name);
+  if (name != names.end()) {
+    draft.complaints.about(node, concat("a shape is called ", *name, ", like a level of detail"));
+  }
+}
+
+std::string write_lods(const Output& output, const ConfigWriting&) {
+  std::vector<std::string> items;
+  for (const double percent : output.lods) items.push_back(concat(percent, " %"));
+  return flow_list(items);
+}
+
 std::string write_surfaces(const Output& output, const ConfigWriting&) {
   std::vector<std::string> entries;
   for (const auto& [name, surface] : output.surfaces) {
@@ -155,6 +197,8 @@ const Keys<Output>& output_keys() {
       key("meshes", &Output::meshes,
           words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
           .in_starter({"[obj]", "and ply, glb, points; [] for pictures only"}),
+      {"lods", read_lods, write_lods},
+      word_key("subdivision", &Output::subdivision),
       word_key("gallery", &Output::gallery),
       {"surfaces", read_surfaces, write_surfaces},
       {"contact_sheet", read_contact_sheet, write_contact_sheet, {}, starter_sheet}};

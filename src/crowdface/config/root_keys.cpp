@@ -109,6 +109,18 @@ void check_plane(const YamlNode& node, bool sound, ConfigDraft& draft) {
   }
 }
 
+void read_points(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  if (is_word(node, "none")) return;
+  const auto file = path("none, or a YAML file of points").read(node, draft);
+  if (!file) return;
+  expect_file(node, *file, draft);
+  config.points = *file;
+}
+
+std::string write_points(const Config& config, const ConfigWriting& writing) {
+  return config.points.empty() ? "none" : path("").write(config.points, writing);
+}
+
 void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kScalar && !node.quoted && parse_unsigned(node.text) == 1U)
     return;
@@ -130,6 +142,7 @@ const Keys<Config>& root_keys() {
       section_key("blending", &Config::blending, blending_keys()),
       {"parts", read_parts, write_parts},
       {"shapes", read_shapes, write_shapes},
+      {"points", read_points, write_points},
       section_key("textures", &Config::textures, textures_keys()),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
       section_key("sampling", &Config::sampling, sampling_keys()),

@@ -72,6 +72,8 @@ inline const auto& all_words() {
                     {"none", Meshes::kNone},
                     {"judge", Meshes::kJudge}},
       Words<Verdict>{{"keep", Verdict::kKeep}, {"reject", Verdict::kReject}},
+      Words<Subdivision>{{"none", Subdivision::kNone},
+                         {"catmull_clark", Subdivision::kCatmullClark}},
       Words<Gallery>{{"auto", Gallery::kAuto}, {"none", Gallery::kNone}},
       Words<View>{{"front", View::kFront},
                   {"three_quarter", View::kThreeQuarter},

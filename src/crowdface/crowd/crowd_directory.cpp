@@ -50,7 +50,7 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
 std::vector<fs::path> record_files(const CrowdDirectory& directory) {
   return {directory.plan(),     directory.founders(), directory.table(),    directory.casting(),
           directory.report(),   directory.ledger(),   directory.likeness(), directory.timings(),
-          directory.rejected(), directory.planned()};
+          directory.rejected(), directory.planned(),  directory.stage()};
 }
 
 /// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
@@ -64,7 +64,7 @@ void remove_crowd(const CrowdDirectory& directory) {
            const std::string name = path.filename().string();
            const std::size_t plus = name.find('+');
            return plus != std::string::npos && known.contains(name.substr(0, plus)) &&
-                  mesh_format_of(path).has_value();
+                  (mesh_format_of(path).has_value() || name.ends_with("+points.json"));
          })) {
       remove_file(file);
     }
@@ -291,8 +291,8 @@ std::vector<fs::path> CrowdDirectory::kept_reviews() const {
 }
 
 fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format,
-                              const std::string& shape) const {
-  return meshes() / concat(id, shape.empty() ? "" : "+", shape, extension_of(format));
+                              const std::string& part) const {
+  return meshes() / concat(id, part.empty() ? "" : "+", part, extension_of(format));
 }
 
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,

@@ -54,10 +54,12 @@ struct CrowdDirectory {
   std::vector<std::filesystem::path> ledgers() const;
   std::filesystem::path meshes() const { return root / "meshes"; }
   std::filesystem::path renders() const { return root / "renders"; }
+  /// One USD layer that references those of all faces.
+  std::filesystem::path stage() const { return root / "crowd.usda"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
-  /// \param shape  of one of the face's shapes, or of all (no face's id holds the '+' between)
+  /// \param part  a level of detail, a shape, or all shapes (no face's id holds the '+' between)
   std::filesystem::path mesh(const std::string& id, MeshFormat format,
-                             const std::string& shape = {}) const;
+                             const std::string& part = {}) const;
   /// Arrays that say how positions alone (MeshFormat::kPoints) form faces.
   std::filesystem::path topology() const { return meshes() / "topology"; }
   /// Textures of faces' own, which their material files name.

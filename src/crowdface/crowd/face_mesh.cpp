@@ -7,6 +7,7 @@
 #include "crowdface/io/npy.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/ply_template.h"
+#include "crowdface/io/usda_template.h"
 
 namespace crowdface {
 
@@ -27,6 +28,9 @@ Positions read_face(const CrowdDirectory& directory, const std::string& id,
       break;
     case MeshFormat::kGlb:
       positions = read_glb_positions(path, vertices);
+      break;
+    case MeshFormat::kUsd:
+      positions = read_usda_positions(path, vertices);
       break;
     case MeshFormat::kPoints:
       positions = read_npy(path);

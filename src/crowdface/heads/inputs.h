@@ -7,13 +7,22 @@
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/io/obj_file.h"
+#include "crowdface/lod/detail_level.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
+#include "crowdface/shapes/point_set.h"
 #include "crowdface/shapes/shape_set.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
 namespace crowdface {
+
+/// A level of detail, and how far it is from the whole mesh.
+struct MeasuredLevel {
+  DetailLevel level;
+  LevelError heads;   ///< over all heads, mm
+  LevelError shapes;  ///< over all shapes of the template, mm; 0 without
+};
 
 /// Everything a job reads, checked: heads, their topology, masks, and what follows from them.
 struct Inputs {
@@ -27,6 +36,9 @@ struct Inputs {
   Components skin;  ///< the components with all skin joined into the largest
   ShapeSet shapes;
   Digest shapes_digest;  ///< if there are any
+  std::vector<MeasuredLevel> levels;
+  PointSet points;
+  Digest points_digest;  ///< if there are any
   RegionWeights regions;
   std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without
   double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads

@@ -13,6 +13,8 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/alignment_check.h"
+#include "crowdface/heads/find_levels.h"
+#include "crowdface/heads/load_points.h"
 #include "crowdface/heads/load_shapes.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
@@ -352,7 +354,9 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   compute_digests(inputs);
   read_textures(config, inputs, problems);
   load_shapes(config, inputs, problems);
+  load_points(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;
+  find_levels(config, inputs);
   return inputs;
 }
 

@@ -5,11 +5,9 @@
 #include "crowdface/io/glb_template.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
@@ -17,6 +15,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/glb_scene.h"
 #include "crowdface/io/little_endian.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/io/split_vertices.h"
@@ -25,10 +24,8 @@ namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using namespace gltf;
 
-// Codes of the glTF 2.0 specification.
-constexpr int kFloat = 5126, kUnsignedInt = 5125;
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
@@ -62,107 +59,17 @@ std::string texture_coordinates(const SplitVertices& split, const TextureCoordin
   return bytes;
 }
 
-std::string vertex_ids(const SplitVertices& split) {
+std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32_t>& ids) {
   std::string bytes;
   bytes.reserve(split.vertices.size() * sizeof(float));
   // The specification forbids unsigned int here, and 16 bits are too few.
   for (const std::uint32_t vertex : split.vertices) {
-    append_number(bytes, static_cast<float>(vertex));
+    append_number(bytes, static_cast<float>(ids.empty() ? vertex : ids[vertex]));
   }
   return bytes;
 }
 
-double tidy(double value) {
-  const double rounded = std::round(value * 1e4) / 1e4;
-  return rounded == 0 ? 0.0 : rounded;
-}
-
-Json material_json(const GlbMaterial& material) {
-  Json json = Json::object();
-  if (!material.name.empty()) json["name"] = material.name;
-  Json colour = Json::array();
-  for (const float part : material.colour) colour.push_back(tidy(static_cast<double>(part)));
-  json["pbrMetallicRoughness"] = {
-      {"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.6}};
-  if (material.image) {
-    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *material.image}};
-  }
-  if (material.colour[3] < 1) json["alphaMode"] = "BLEND";
-  json["doubleSided"] = true;  // heads are open at the neck
-  return json;
-}
-
-/// Turns `up` to +Y and `front` to +Z: x, y, z and w of a unit quaternion.
-std::array<double, 4> rotation_to_gltf(Axis up, Axis front) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
-  turn(1, up.index) = up.sign;
-  turn(2, front.index) = front.sign;
-  turn.row(0) = turn.row(1).cross(turn.row(2));
-  const Eigen::Quaterniond q(turn);
-  return {q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w() + 0.0};  // no negative zero
-}
-
-Json node_json(const GlbOptions& options) {
-  Json node = {{"mesh", 0}, {"name", ""}};
-  const auto rotation = rotation_to_gltf(options.up, options.front);
-  if (rotation[3] != 1) node["rotation"] = rotation;
-  constexpr double kMmPerMetre = 1000;
-  const double scale = mm_per(options.unit) / kMmPerMetre;
-  if (scale != 1) node["scale"] = {scale, scale, scale};
-  return node;
-}
-
-/// Adds arrays to a glTF buffer, one view each, and describes them.
-class BufferLayout {
- public:
-  explicit BufferLayout(Json& scene) : scene_(scene) {
-    scene_["buffers"] = Json::array();
-    scene_["bufferViews"] = Json::array();
-    scene_["accessors"] = Json::array();
-  }
-  /// \return which view it is.
-  std::size_t add_view(std::size_t size, int target = 0) {
-    Json view = {{"buffer", 0}, {"byteOffset", size_}, {"byteLength", size}};
-    if (target != 0) view["target"] = target;
-    scene_["bufferViews"].push_back(std::move(view));
-    size_ += size;
-    return scene_["bufferViews"].size() - 1;
-  }
-  /// \param offset  bytes from where the last view begins.
-  /// \return which accessor it is.
-  std::size_t add_accessor(int component, const char* type, std::size_t count,
-                           std::size_t offset = 0) {
-    Json accessor = {{"bufferView", scene_["bufferViews"].size() - 1}};
-    if (offset > 0) accessor["byteOffset"] = offset;
-    accessor["componentType"] = component;
-    accessor["count"] = count;
-    accessor["type"] = type;
-    scene_["accessors"].push_back(std::move(accessor));
-    return scene_["accessors"].size() - 1;
-  }
-  /// Of vectors that are zero but for some. \return which accessor it is.
-  std::size_t add_sparse(std::size_t count, std::size_t some, std::size_t indices,
-                         std::size_t values) {
-    Json accessor = {{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}};
-    accessor["sparse"] = {{"count", some},
-                          {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
-                          {"values", {{"bufferView", values}}}};
-    scene_["accessors"].push_back(std::move(accessor));
-    return scene_["accessors"].size() - 1;
-  }
-  /// Of zeros.
-  std::size_t add_zeros(std::size_t count) {
-    scene_["accessors"].push_back({{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}});
-    return scene_["accessors"].size() - 1;
-  }
-  void finish() { scene_["buffers"].push_back(Json::object({{"byteLength", size_}})); }
-
- private:
-  Json& scene_;
-  std::size_t size_ = 0;
-};
-
-Json attributes_json(BufferLayout& buffer, std::size_t vertices, bool has_uvs) {
+Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_uvs) {
   Json attributes = Json::object();
   buffer.add_view(vertices * kVectorSize, kArrayBuffer);
   attributes["POSITION"] = buffer.add_accessor(kFloat, "VEC3", vertices);
@@ -178,7 +85,7 @@ Json attributes_json(BufferLayout& buffer, std::size_t vertices, bool has_uvs) {
 }
 
 /// One primitive a material; materials without triangles are left out.
-void add_primitives(Json& scene, BufferLayout& buffer, const std::vector<Triangles>& groups,
+void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>& groups,
                     const Json& attributes, const GlbOptions& options) {
   std::size_t size = 0;
   for (const Triangles& group : groups) size += group.size() * sizeof(group[0]);
@@ -283,7 +190,9 @@ void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32
 
 GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
                          const GlbOptions& options)
-    : vertices_(topology.vertex_count), images_(options.images) {
+    : vertices_(topology.vertex_count),
+      images_(options.images),
+      points_(static_cast<Index>(options.points.size())) {
   constexpr Index kMostVertices = 1 << 24;
   if (vertices_ > kMostVertices || topology.face_count() == 0) {
     throw InvalidInput(concat("GLB: expected a mesh with faces and at most ", kMostVertices,
@@ -299,7 +208,11 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   scene["scene"] = 0;
   scene["scenes"] = Json::array({Json::object({{"nodes", Json::array({0})}})});
   scene["nodes"] = Json::array({node_json(options)});
-  BufferLayout buffer(scene);
+  for (const std::string& point : options.points) {
+    scene["nodes"][0]["children"].push_back(scene["nodes"].size());
+    scene["nodes"].push_back({{"name", point}, {"translation", {0.0, 0.0, 0.0}}});
+  }
+  GlbBuffer buffer(scene);
   const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty());
   add_primitives(scene, buffer, groups, attributes, options);
   std::string indices;
@@ -333,7 +246,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   add_images(scene, options);
   json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 
-  shared_ = texture_coordinates(split, uvs) + vertex_ids(split);
+  shared_ = texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
   for (const Triangles& group : groups) {
     shared_.append(reinterpret_cast<const char*>(group.data()), group.size() * sizeof(group[0]));
   }
@@ -351,7 +264,8 @@ std::size_t GlbTemplate::memory_bytes() const {
 
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
                                 const std::string& name, std::span<const Displacements> moves,
-                                std::span<const std::string_view> images) const {
+                                std::span<const std::string_view> images,
+                                const Positions& points) const {
   require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
   require(images.size() == images_, "a GLB file with ", images.size(), " images for ", images_);
   require_finite(positions, vertices_, name);
@@ -365,6 +279,10 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
     Json& accessor = scene["accessors"][targets_[t].accessor];
     accessor["min"] = to_json(least);
     accessor["max"] = to_json(most);
+  }
+  require_finite(points, points_, name);
+  for (Index p = 0; p < points_; ++p) {
+    scene["nodes"][static_cast<std::size_t>(p + 1)]["translation"] = to_json(points.row(p));
   }
   scene["nodes"][0]["name"] = name;
   scene["meshes"][0]["name"] = name;

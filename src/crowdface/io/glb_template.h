@@ -1,49 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "crowdface/core/units.h"
 #include "crowdface/io/encoded_file.h"
+#include "crowdface/io/glb_options.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
 
-/// How a surface looks where textures are not read.
-struct GlbMaterial {
-  std::string name;                            ///< may be empty
-  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
-  std::optional<std::size_t> image = {};  ///< its colours, times `colour`: one of the file's images
-};
-
-/// A morph target that every file has: its name, and the vertices that it moves, ascending.
-struct GlbTarget {
-  std::string name;
-  std::vector<std::uint32_t> vertices;
-};
-
-struct GlbOptions {
-  LengthUnit unit = LengthUnit::kMetre;  ///< of the positions; the file's node scales to metres
-  Axis up = {1, 1};                      ///< of the positions; the node turns them to +Y …
-  Axis front = {2, 1};                   ///< … and +Z, which is glTF's front
-  std::vector<GlbMaterial> materials;
-  std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
-  std::vector<GlbTarget> targets;
-  std::size_t images = 0;                ///< that each file brings along …
-  std::string image_type = "image/png";  ///< … and of which format
-};
-
 /// Binary glTF 2.0 files of one topology. What all faces share (texture coordinates, triangles,
 /// the split of vertices at seams; see SplitVertices) is made once and referred to by each file.
 /// Positions stay in their own unit and axes. The attribute `_VERTEX_ID` holds the original vertex
-/// of each; the first #V vertices are the original ones in their order.
+/// of each, or what is given for it; the first #V vertices are the original ones in their order.
 class GlbTemplate {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
@@ -54,12 +28,14 @@ class GlbTemplate {
   /// The file with these positions; refers to this object.
   /// \param normals  #V by 3, unit; always needed, because a viewer shades a mesh without them flat.
   /// \param name     of the mesh, in the file and in messages.
+  /// \param points   #points by 3, in the positions' unit.
   /// \param images   files, as many as the options say; must outlive the result.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   /// \param moves    #targets: of their vertices, from `positions`.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
-                     std::span<const std::string_view> images = {}) const;
+                     std::span<const std::string_view> images = {},
+                     const Positions& points = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;
@@ -77,6 +53,7 @@ class GlbTemplate {
 
   Index vertices_;
   std::size_t images_;
+  Index points_;
   std::vector<std::uint32_t> split_;  ///< original vertices of the split ones from #V on
   std::string shared_;                ///< the part of the buffer that all faces share
   std::vector<Target> targets_;

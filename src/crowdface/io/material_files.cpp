@@ -2,7 +2,6 @@
 #include "crowdface/io/material_files.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -14,6 +13,7 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/utf8.h"
+#include "crowdface/io/mesh_format.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -66,10 +66,9 @@ std::string with_forward_slashes(std::string_view text) {
 /// Whether a file of this name beside meshes could be one that crowdface writes there: a mesh, or an
 /// array of their common topology.
 bool is_name_of_ours(const fs::path& relative) {
-  constexpr std::array<std::string_view, 4> kMeshes = {".obj", ".ply", ".glb", ".npy"};
   const fs::path normal = relative.lexically_normal();
   const bool is_mesh = std::any_of(normal.begin(), normal.end(), [&](const fs::path& part) {
-    return std::count(kMeshes.begin(), kMeshes.end(), lower_case(part.extension().string())) > 0;
+    return mesh_format_of(part).has_value();
   });
   const std::string folder = lower_case(normal.begin()->string());
   return is_mesh || folder == "topology" || folder == kBlendedFolder;

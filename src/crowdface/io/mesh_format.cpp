@@ -12,13 +12,14 @@ namespace {
 struct Known {
   std::string_view name, extension;
 };
-constexpr Known kKnown[] = {{"obj", ".obj"}, {"ply", ".ply"}, {"glb", ".glb"}, {"points", ".npy"}};
+constexpr Known kKnown[] = {
+    {"obj", ".obj"}, {"ply", ".ply"}, {"glb", ".glb"}, {"points", ".npy"}, {"usd", ".usda"}};
 
 }  // namespace
 
 const std::vector<MeshFormat>& all_mesh_formats() {
   static const std::vector<MeshFormat> all = {MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kGlb,
-                                              MeshFormat::kPoints};
+                                              MeshFormat::kPoints, MeshFormat::kUsd};
   return all;
 }
 

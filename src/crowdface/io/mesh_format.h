@@ -14,6 +14,7 @@ enum class MeshFormat {
   kPly,     ///< binary
   kGlb,     ///< binary glTF 2.0
   kPoints,  ///< positions alone, .npy
+  kUsd,     ///< a layer of USD as text, .usda
 };
 
 /// All of them, in the order in which they are named.

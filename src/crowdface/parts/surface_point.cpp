@@ -25,6 +25,7 @@ void try_face(std::span<const std::uint32_t> face, const Positions& positions,
                             row3(positions, corners[2]), point);
     const Eigen::Vector3d place = point_on(positions, corners, shares);
     const double distance = length3(point - place);
+    if (std::isnan(distance)) continue;  // a triangle without area
     if (distance < best.distance || best.corners[0] == best.corners[1]) {
       best = {corners, shares, place, distance};
     }

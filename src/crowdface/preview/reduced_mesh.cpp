@@ -24,6 +24,15 @@ std::vector<unsigned int> triangles_of(const Topology& topology, const std::vect
   return triangles;
 }
 
+void reduce(std::vector<unsigned int>& triangles, const Positions& positions, std::size_t most) {
+  if (triangles.size() <= 3 * most) return;
+  const std::vector<float> points(positions.data(), positions.data() + positions.size());
+  constexpr float kAnyError = 1e30F;  // the count alone decides when to stop
+  triangles.resize(meshopt_simplify(triangles.data(), triangles.data(), triangles.size(),
+                                    points.data(), points.size() / 3, 3 * sizeof(float), 3 * most,
+                                    kAnyError, 0, nullptr));
+}
+
 /// Numbers the vertices anew in the order in which triangles first use them, which suits both the
 /// graphics card and compression.
 ReducedMesh compact(const std::vector<unsigned int>& triangles, std::size_t vertex_count) {
@@ -51,16 +60,24 @@ ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
   if (!typical.allFinite()) throw InvalidInput("a mesh to reduce needs finite positions");
   std::vector<unsigned int> triangles = triangles_of(topology, drawn);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  if (triangles.size() > 3 * most_triangles) {
-    const std::vector<float> points(typical.data(), typical.data() + typical.size());
-    constexpr float kAnyError = 1e30F;  // the count alone decides when to stop
-    const std::size_t kept =
-        meshopt_simplify(triangles.data(), triangles.data(), triangles.size(), points.data(),
-                         vertices, 3 * sizeof(float), 3 * most_triangles, kAnyError, 0, nullptr);
-    triangles.resize(kept);
-  }
+  reduce(triangles, typical, most_triangles);
   meshopt_optimizeVertexCache(triangles.data(), triangles.data(), triangles.size(), vertices);
   return compact(triangles, vertices);
+}
+
+std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
+                                       const Positions& positions, std::size_t most) {
+  std::vector<unsigned int> corners;
+  corners.reserve(3 * triangles.size());
+  for (const Triangle& triangle : triangles) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  reduce(corners, positions, most);
+  meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(),
+                              static_cast<std::size_t>(positions.rows()));
+  std::vector<Triangle> reduced(corners.size() / 3);
+  for (std::size_t c = 0; c < corners.size(); ++c) reduced[c / 3][c % 3] = corners[c];
+  return reduced;
 }
 
 }  // namespace crowdface

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/mesh/topology.h"
+#include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
 
@@ -25,5 +25,12 @@ struct ReducedMesh {
 /// \throws BrokenPrecondition if sizes do not fit, InvalidInput if a position is not finite.
 ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
                         const std::vector<bool>& drawn, std::size_t most_triangles);
+
+/// The same of triangles. Open borders, and seams (borders at which several vertices have one
+/// position), keep their course: their edges collapse along them alone, and what cannot be collapsed
+/// so is kept, be it more than `most`.
+/// \param positions  #V by 3, finite.
+std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
+                                       const Positions& positions, std::size_t most);
 
 }  // namespace crowdface

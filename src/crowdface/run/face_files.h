@@ -13,13 +13,20 @@
 
 namespace crowdface {
 
-/// Which of a face's mesh files: the face, or what it has of its shapes.
+/// Which of a face's mesh files: the face, or what it has of its shapes, on a level of detail.
 struct MeshName {
   MeshFormat format = MeshFormat::kObj;
   std::string shape = {};  ///< of one shape; kAllShapes; empty: the face
+  std::size_t level = 0;   ///< of detail; 0: the whole mesh
 };
 /// The displacements of all shapes.
 inline constexpr const char* kAllShapes = "shapes";
+/// The points that follow the face, a JSON file (under kPoints).
+inline constexpr const char* kFollowingPoints = "points.json";
+/// What stands after the face's id in the file's name: "LOD1+smile", or nothing.
+std::string part_of(const MeshName& name);
+/// The whole of it: "+LOD1+smile.obj".
+std::string file_end(const MeshName& name);
 
 /// A face's file as it was written.
 struct MeshFile {

@@ -20,6 +20,11 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   hasher.add(config.output.meshes.size());
   for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
   if (!job.inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(job.inputs.shapes_digest);
+  if (!job.inputs.points.empty()) hasher.add(kPointsVersion).add(job.inputs.points_digest);
+  if (!job.inputs.levels.empty()) {
+    hasher.add(kLevelsVersion);
+    for (const MeasuredLevel& level : job.inputs.levels) hasher.add(level.level.share);
+  }
   hasher.add(static_cast<int>(config.faces.units));
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
@@ -90,7 +95,7 @@ Digest FaceLedger::key_of(const CastFace& face) const {
 std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   const auto entry = ledger_.proven(item_of(face), key_of(face));
   if (!entry) return std::nullopt;
-  const std::vector<MeshName> names = mesh_names(job_.config.output.meshes, job_.inputs.shapes);
+  const std::vector<MeshName> names = mesh_names(job_.config.output.meshes, job_.inputs);
   const std::vector<std::string> own =
       own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);
   const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);
@@ -117,7 +122,7 @@ void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
   LedgerEntry entry{item_of(face), key_of(face), {}, {}};
   for (const MeshFile& mesh : files.meshes) {
     entry.files.push_back(
-        {directory_.relative(directory_.mesh(face.id, mesh.name.format, mesh.name.shape)),
+        {directory_.relative(directory_.meshes() / (face.id + file_end(mesh.name))),
          {mesh.bytes, mesh.digest}});
   }
   const std::vector<std::string> own =

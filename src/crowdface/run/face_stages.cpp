@@ -154,7 +154,7 @@ class FaceOutput {
     const Busy busy(write_);
     for (const EncodedMesh& mesh : meshes) {
       files.meshes.push_back(
-          write_mesh(mesh, directory_.mesh(face.id, mesh.name.format, mesh.name.shape)));
+          write_mesh(mesh, directory_.meshes() / (face.id + file_end(mesh.name))));
     }
     if (own_ == nullptr) return;
     for (const OwnFile& file : own_->files(face, formats_, std::move(textures))) {

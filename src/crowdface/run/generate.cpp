@@ -24,6 +24,7 @@
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/copy_materials.h"
 #include "crowdface/run/crowd_sheets.h"
+#include "crowdface/run/crowd_stage.h"
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/face_stages.h"
 #include "crowdface/run/lazy.h"
@@ -232,7 +233,11 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
 
   std::vector<std::string> warnings;
   if (!cast_job.planned()) warnings = write_materials(job, directory, cast, ledger);
-  write_shared_arrays(job.inputs, job.config.output.meshes, directory, ledger);
+  const auto& formats = job.config.output.meshes;
+  if (!cast_job.planned() && std::ranges::find(formats, MeshFormat::kUsd) != formats.end()) {
+    write(directory.stage(), format_stage(job.config, job.inputs, crowd));
+  }
+  write_shared_arrays(job.inputs, formats, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
                                            cast_job.textures.get().blender());

@@ -12,60 +12,34 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/io/npy.h"
-#include "crowdface/render/shading.h"
-#include "crowdface/render/surface_kind.h"
+#include "crowdface/io/single_precision.h"
+#include "crowdface/run/glb_form.h"
 #include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 namespace {
 
-/// The colour of the renders. What they do not draw (lashes, shells over the eye) cannot be seen
-/// here either: without its texture it would hide the eye.
-GlbMaterial glb_material(const std::string& name) {
-  const SurfaceKind kind = surface_kind_of_material(name);
-  const Light colour = albedo_of(kind);
-  const float opacity = kind == SurfaceKind::kHidden ? 0.0F : 1.0F;
-  return {name, {colour(0), colour(1), colour(2), opacity}};
+std::vector<std::uint32_t> skin_of(const Inputs& inputs) {
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
+    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
+  }
+  return skin;
 }
 
-/// A material for each that faces have together with a picture of their own textures.
-void add_textured_materials(const Config& config, const Inputs& inputs, GlbOptions& options) {
-  options.images = inputs.textures.names.size();
-  if (config.textures.formats.front() == TextureFormat::kJpeg) options.image_type = "image/jpeg";
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
-  for (std::size_t f = 0; f < options.face_materials.size(); ++f) {
-    const std::uint32_t material = options.face_materials[f];
-    const std::uint32_t picture = inputs.textures.blended.layout.of_face[f];
-    const auto [row, is_new] =
-        known.emplace(std::pair(material, picture), static_cast<std::uint32_t>(known.size()));
-    options.face_materials[f] = row->second;
-    if (!is_new) continue;
-    GlbMaterial made = glb_material(inputs.materials.names[material]);
-    if (picture != kNoIndex) {
-      made.colour = {1, 1, 1, made.colour[3]};
-      made.image = picture;
-    }
-    options.materials.push_back(std::move(made));
+EncodedFile encode_points(const std::vector<std::string>& names, const Positions& points,
+                          const std::string& id) {
+  require_finite(points, static_cast<Index>(names.size()), id);
+  std::string text = concat("{\n  \"face\": \"", id, "\",\n  \"points\": {\n");
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    std::string row = usda_rows(points.row(static_cast<Index>(p)));
+    row.front() = '[';
+    row.back() = ']';
+    text += concat("    \"", names[p], "\": ", row, p + 1 < names.size() ? ",\n" : "\n");
   }
-}
-
-GlbOptions glb_options(const Config& config, const Inputs& inputs) {
-  GlbOptions options;
-  options.unit = config.faces.units;
-  options.up = config.faces.up;
-  options.front = config.faces.front;
-  options.face_materials = inputs.materials.of_face;
-  for (const Shape& shape : inputs.shapes.shapes) {
-    options.targets.push_back({shape.name, shape.moves.vertices});
-  }
-  if (inputs.textures.blend()) {
-    add_textured_materials(config, inputs, options);
-  } else {
-    for (const std::string& name : inputs.materials.names) {
-      options.materials.push_back(glb_material(name));
-    }
-  }
-  return options;
+  EncodedFile file;
+  file.add(text + "  }\n}\n");
+  return file;
 }
 
 std::size_t normals_bytes(const Topology& topology) {
@@ -81,21 +55,44 @@ std::size_t shape_bytes(const ShapeSet& shapes) {
 
 }  // namespace
 
-std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const ShapeSet& shapes) {
+std::string part_of(const MeshName& name) {
+  if (name.level == 0) return name.shape;
+  return concat("LOD", name.level, name.shape.empty() ? "" : "+", name.shape);
+}
+
+std::string file_end(const MeshName& name) {
+  const std::string part = part_of(name);
+  if (part == kFollowingPoints) return concat('+', part);
+  return concat(part.empty() ? "" : "+", part, extension_of(name.format));
+}
+
+std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const Inputs& inputs) {
   std::vector<MeshName> names;
-  for (const MeshFormat format : formats) names.push_back({format, {}});
-  if (shapes.shapes.empty()) return names;
-  for (const MeshFormat format : formats) {
-    if (format == MeshFormat::kPoints) names.push_back({format, kAllShapes});
-    if (format != MeshFormat::kObj) continue;
-    for (const Shape& shape : shapes.shapes) names.push_back({format, shape.name});
+  const std::vector<Shape>& shapes = inputs.shapes.shapes;
+  for (std::size_t level = 0; level <= inputs.levels.size(); ++level) {
+    for (const MeshFormat format : formats) {
+      if (level == 0 || format != MeshFormat::kPoints) names.push_back({format, {}, level});
+    }
+    for (const MeshFormat format : formats) {
+      if (format == MeshFormat::kPoints && level == 0 && !shapes.empty()) {
+        names.push_back({format, kAllShapes});
+      }
+      if (format != MeshFormat::kObj) continue;
+      for (const Shape& shape : shapes) names.push_back({format, shape.name, level});
+    }
+  }
+  if (!inputs.points.empty() && !formats.empty()) {
+    names.push_back({MeshFormat::kPoints, kFollowingPoints});
   }
   return names;
 }
 
 MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
                          std::vector<MeshFormat> formats, std::span<const CastFace> crowd)
-    : inputs_(inputs), formats_(std::move(formats)), names_(mesh_names(formats_, inputs.shapes)) {
+    : config_(config),
+      inputs_(inputs),
+      formats_(std::move(formats)),
+      names_(mesh_names(formats_, inputs)) {
   const FaceSet& faces = inputs.faces;
   std::set<Index> targets;
   for (const CastFace& face : crowd) targets.insert(face.recipe.target);
@@ -106,9 +103,16 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
   }
+  if (has(MeshFormat::kUsd)) {
+    usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs), config.output.subdivision);
+  }
   if (need_normals) fans_.emplace(faces.topology);
-  if (!inputs.shapes.shapes.empty() && (has(MeshFormat::kGlb) || names_.size() > formats_.size())) {
+  if (!inputs.shapes.shapes.empty() && formats_ != std::vector{MeshFormat::kPly}) {
     shapes_.emplace(faces, inputs.adjacency, inputs.parts, head_axes(config), inputs.shapes);
+  }
+  if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
+  for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
+    levels_.emplace_back(config, inputs, level, formats_);
   }
 }
 
@@ -130,15 +134,16 @@ bool MeshWriters::had_normals(Index target) const {
 
 /// Those of an OBJ file are its own affair: several may meet at a vertex.
 bool MeshWriters::needs_normals(Index target) const {
-  return has(MeshFormat::kGlb) || (has(MeshFormat::kPly) && had_normals(target));
+  return has(MeshFormat::kGlb) || has(MeshFormat::kUsd) ||
+         (has(MeshFormat::kPly) && had_normals(target)) ||
+         (has(MeshFormat::kObj) && !inputs_.levels.empty());
 }
 
-EncodedFile MeshWriters::encode(const MeshName& mesh, const CastFace& face,
-                                const Positions& positions, const Positions& normals,
-                                std::span<const Displacements> moves,
-                                std::span<const std::string_view> textures) const {
-  const std::string& id = face.id;
-  const Index target = face.recipe.target;
+EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) const {
+  const auto& [id, target, positions, normals, moves, textures, texture_names, points] = face;
+  if (mesh.level > 0) {
+    return levels_[mesh.level - 1].encode(mesh, face, had_normals(target));
+  }
   switch (mesh.format) {
     case MeshFormat::kObj: {
       if (mesh.shape.empty()) return obj_.at(target).encode(positions, id);
@@ -152,8 +157,11 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const CastFace& face,
     case MeshFormat::kPly:
       return ply_->encode(positions, had_normals(target) ? normals : Positions(), id);
     case MeshFormat::kGlb:
-      return glb_->encode(positions, normals, id, moves, textures);
+      return glb_->encode(positions, normals, id, moves, textures, points);
+    case MeshFormat::kUsd:
+      return usd_->encode(positions, normals, id, moves, texture_names, points);
     case MeshFormat::kPoints:
+      if (mesh.shape == kFollowingPoints) return encode_points(inputs_.points.names, points, id);
       return mesh.shape.empty() ? encode_npy(positions, id) : encode_npy(moves, id);
   }
   throw BrokenPrecondition("MeshWriters: an unknown format");
@@ -167,9 +175,14 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   }
   std::vector<Displacements> moves;
   if (shapes_) moves = shapes_->carry(face.recipe.target, positions);
+  Positions points;
+  if (points_) points = points_->carry(face.recipe.target, positions);
+  const std::vector<std::string> texture_names = own_texture_names(config_, inputs_, face.id);
+  const WholeFace whole{face.id, face.recipe.target, positions,     normals,
+                        moves,   textures,           texture_names, points};
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
-    meshes.push_back({name, encode(name, face, positions, normals, moves, textures)});
+    meshes.push_back({name, encode(name, whole)});
     if (name.format == MeshFormat::kObj && !textures.empty()) {
       meshes.back().file.replace_line("mtllib", concat("mtllib ", material_file_name(face.id)));
     }
@@ -182,7 +195,9 @@ std::size_t MeshWriters::memory_bytes() const {
   for (const auto& [target, form] : obj_) bytes += form.memory_bytes();
   if (ply_) bytes += ply_->memory_bytes();
   if (glb_) bytes += glb_->memory_bytes();
+  if (usd_) bytes += usd_->memory_bytes();
   if (shapes_) bytes += shape_bytes(inputs_.shapes);
+  for (const LevelWriter& level : levels_) bytes += level.memory_bytes();
   return bytes;
 }
 
@@ -194,6 +209,8 @@ std::size_t MeshWriters::encode_bytes() const {
                       (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
   if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
   if (glb_) bytes += glb_->encode_bytes();
+  if (usd_) bytes += usd_->encode_bytes();
+  for (const LevelWriter& level : levels_) bytes += level.encode_bytes();
   if (has(MeshFormat::kPoints)) bytes += npy_encode_bytes(inputs_.faces.topology.vertex_count);
   return bytes;
 }
@@ -209,6 +226,8 @@ std::uint64_t estimate_mesh_bytes(const Inputs& inputs, const std::vector<MeshFo
   const auto corners = static_cast<std::uint64_t>(inputs.faces.topology.corner_count());
   constexpr std::uint64_t kVector = 3 * sizeof(float);
   std::uint64_t obj = 0, bytes = 0, moved = 0;
+  double levels = 1;
+  for (const MeasuredLevel& level : inputs.levels) levels += level.level.share;
   for (const Shape& shape : inputs.shapes.shapes) moved += shape.moves.vertices.size();
   for (const ObjFile& file : inputs.files) obj += file.file.bytes().size();
   for (const MeshFormat format : formats) {
@@ -223,12 +242,16 @@ std::uint64_t estimate_mesh_bytes(const Inputs& inputs, const std::vector<MeshFo
         bytes += 3 * kVector * vertices + kVector * (corners - 2 * faces) +
                  (kVector + sizeof(std::uint32_t)) * moved;
         break;
+      case MeshFormat::kUsd:  // a number takes some ten characters, an index six
+        bytes += 10 * (6 * vertices + 2 * static_cast<std::uint64_t>(inputs.faces.uvs.rows())) +
+                 12 * corners + 36 * moved;
+        break;
       case MeshFormat::kPoints:
         bytes += kVector * vertices + (kVector + 2 * sizeof(std::uint32_t)) * moved;
         break;
     }
   }
-  return bytes;
+  return static_cast<std::uint64_t>(levels * static_cast<double>(bytes));
 }
 
 }  // namespace crowdface

@@ -18,8 +18,11 @@
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/ply_template.h"
+#include "crowdface/io/usda_template.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/face_files.h"
+#include "crowdface/run/level_writer.h"
+#include "crowdface/shapes/point_carrier.h"
 #include "crowdface/shapes/shape_transfer.h"
 
 namespace crowdface {
@@ -32,14 +35,15 @@ struct EncodedMesh {
 
 /// The files that each face has in these formats, the faces' own first. With shapes an OBJ file has
 /// one beside it for each of them, and points have their displacements; a GLB file holds them.
-std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const ShapeSet& shapes);
+/// Those of levels of detail follow, level by level, but for points, which have no faces.
+std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const Inputs& inputs);
 
 /// Writes the faces of a crowd in the formats asked for. What the faces share is prepared once;
 /// encoding and writing then need no more than positions, and may be done by different threads.
 class MeshWriters {
  public:
-  /// \param inputs  must outlive this object and all that it encodes.
-  /// \param crowd   the recipes of all faces that are to be written.
+  /// \param config, inputs  must outlive this object and all that it encodes.
+  /// \param crowd  the recipes of all faces that are to be written.
   /// \throws InvalidInput if a format cannot hold such a mesh.
   MeshWriters(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
               std::span<const CastFace> crowd);
@@ -59,20 +63,22 @@ class MeshWriters {
  private:
   void add_obj_templates(const std::vector<Index>& targets);
   bool has(MeshFormat format) const;
-  EncodedFile encode(const MeshName& mesh, const CastFace& face, const Positions& positions,
-                     const Positions& normals, std::span<const Displacements> moves,
-                     std::span<const std::string_view> textures) const;
+  EncodedFile encode(const MeshName& mesh, const WholeFace& face) const;
   bool needs_normals(Index target) const;
   bool had_normals(Index target) const;
 
+  const Config& config_;
   const Inputs& inputs_;
   std::vector<MeshFormat> formats_;
   std::map<Index, ObjTemplate> obj_;  ///< of each head that is a target
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
+  std::optional<UsdaTemplate> usd_;
   std::vector<MeshName> names_;
   std::optional<ShapeTransfer> shapes_;  ///< if there are any that a format holds
-  std::optional<NormalFans> fans_;       ///< of the vertices, if a format needs normals
+  std::optional<PointCarrier> points_;   ///< if there are any
+  std::vector<LevelWriter> levels_;
+  std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
 };
 
 /// Writes what `encode` made and tells what it was.

@@ -64,6 +64,18 @@ std::vector<std::string> own_file_names(const Config& config, const Inputs& inpu
   return names;
 }
 
+std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
+                                           const std::string& id) {
+  std::vector<std::string> names;
+  if (!inputs.textures.blend()) return names;
+  for (const PictureName& picture : inputs.textures.names) {
+    names.push_back("./" + file_name(id, picture,
+                                     picture.tile == 0 ? "" : std::to_string(picture.tile),
+                                     config.textures.formats.front()));
+  }
+  return names;
+}
+
 OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
                          std::span<const CastFace> crowd)
     : config_(config), inputs_(inputs) {

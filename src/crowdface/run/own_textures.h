@@ -27,6 +27,11 @@ struct OwnFile {
 std::vector<std::string> own_file_names(const Config& config, const Inputs& inputs,
                                         std::span<const MeshFormat> meshes, const std::string& id);
 
+/// Where a face's pictures lie for its mesh, one each, in the first of the formats: "./blended/ID.png".
+/// None if faces get no textures of their own.
+std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
+                                           const std::string& id);
+
 /// "ID.mtl".
 std::string material_file_name(const std::string& id);
 

@@ -84,6 +84,22 @@ Json bands_to_json(const Job& job, const std::vector<CastFace>& crowd) {
   return bands;
 }
 
+Json error_to_json(const LevelError& error) {
+  return {{"rms", rounded(error.root_mean_square)}, {"max", rounded(error.most)}};
+}
+
+Json lods_to_json(const Inputs& inputs) {
+  Json lods = Json::array();
+  for (const auto& [level, heads, shapes] : inputs.levels) {
+    lods.push_back({{"share", level.share},
+                    {"triangles", level.topology.face_count()},
+                    {"vertices", level.vertices.size()},
+                    {"error_mm", error_to_json(heads)}});
+    if (!inputs.shapes.shapes.empty()) lods.back()["error_in_shapes_mm"] = error_to_json(shapes);
+  }
+  return lods;
+}
+
 Json smoothing_to_json(const Job& job, const Prepared& prepared, const Cast& cast) {
   const Inputs& inputs = job.inputs;
   Json smoothing = {
@@ -117,10 +133,16 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
     Json face = {{"id", cast.crowd[i].id}};
     for (const MeshFile& mesh : files[i].meshes) {
       const MeshName& name = mesh.name;
-      if (name.shape.empty()) {
+      const std::string file =
+          name.level > 0 || !name.shape.empty() ? file_end(name).substr(1) : "";
+      if (name.level > 0) {
+        face["lods"][file] = mesh.digest.hex();
+      } else if (name.shape == kFollowingPoints) {
+        face["following_points"] = mesh.digest.hex();
+      } else if (name.shape.empty()) {
         face[report_key(name.format)] = mesh.digest.hex();
       } else {
-        face["shapes"][name.shape + std::string(extension_of(name.format))] = mesh.digest.hex();
+        face["shapes"][file] = mesh.digest.hex();
       }
     }
     if (files[i].skin) {
@@ -150,6 +172,7 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
   report["settings"] = job.settings.hex();
   report["topology"] = topology_to_json(job.inputs);
+  if (!job.inputs.levels.empty()) report["lods"] = lods_to_json(job.inputs);
   report["smoothing"] = smoothing_to_json(job, prepared, cast);
   report["heads"] = heads_to_json(job, cast);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},

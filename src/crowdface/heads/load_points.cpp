@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/load_points.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crowdface/config/yaml.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/name.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kMostPoints = 1000;
+
+std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints& complaints) {
+  Eigen::RowVector3d position;
+  bool good = node.kind == YamlNode::Kind::kList && node.items.size() == 3;
+  for (Index c = 0; good && c < 3; ++c) {
+    const auto number = parse_double(node.items[static_cast<std::size_t>(c)].text);
+    good = number.has_value();
+    if (good) position[c] = *number;
+  }
+  if (good) return position;
+  complaints.expected(node, "a position, [x, y, z]");
+  return std::nullopt;
+}
+
+/// Reads `{name: [x, y, z]}`. \param names  those known already, in their order; filled by the first.
+Positions read_set(const YamlNode& node, std::vector<std::string>& names, Complaints& complaints) {
+  if (!complaints.expect_map(node, "a mapping from names to positions, {eye_L: [3.1, 2.5, 7]}")) {
+    return {};
+  }
+  if (names.empty()) {
+    for (const YamlEntry& entry : node.entries) {
+      if (!is_name(entry.key)) complaints.about(entry.value, "its name is none");
+      names.push_back(entry.key);
+    }
+    if (names.empty() || names.size() > kMostPoints) {
+      complaints.expected(node, concat("1 to ", kMostPoints, " points"));
+    }
+  }
+  Positions positions(static_cast<Index>(names.size()), 3);
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    const YamlEntry* entry = node.find(names[p]);
+    if (entry == nullptr) {
+      complaints.about(node, concat("the point ", crowdface::quoted(names[p]), " is missing"));
+      continue;
+    }
+    if (const auto position = read_position(entry->value, complaints)) {
+      positions.row(static_cast<Index>(p)) = *position;
+    }
+  }
+  for (const YamlEntry& entry : node.entries) {
+    if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+    complaints.about(entry.value, "the first head has no such point");
+  }
+  return positions;
+}
+
+void read_heads(const YamlNode& node, Inputs& inputs, Complaints& complaints) {
+  if (!complaints.expect_map(node, "a mapping from heads to points")) return;
+  PointSet& points = inputs.points;
+  for (const Head& head : inputs.faces.heads) {
+    const YamlEntry* entry = node.find(head.name);
+    if (entry == nullptr) {
+      complaints.about(node, concat("the head ", quoted(head.name), " is missing"));
+      continue;
+    }
+    points.positions.push_back(read_set(entry->value, points.names, complaints));
+    points.meshes.push_back(head.positions);
+  }
+}
+
+Positions read_template(const std::filesystem::path& file, const Inputs& inputs) {
+  ObjFile mesh = read_obj(file);
+  const std::string difference = first_difference(inputs.faces.topology, mesh.topology);
+  if (difference.empty()) return std::move(mesh.positions);
+  throw InvalidInput(concat(file.string(), ": not the same mesh as the heads: ", difference));
+}
+
+/// The mesh beside which one set of points stands.
+Positions template_of(const YamlNode& root, const std::filesystem::path& file, const Inputs& inputs,
+                      Complaints& complaints) {
+  const YamlEntry* entry = root.find("template");
+  if (entry == nullptr) {
+    if (inputs.shapes.neutral.rows() > 0) return inputs.shapes.neutral;
+    complaints.about(root, "the key template is missing: the OBJ file beside which points stand");
+    return {};
+  }
+  return read_template(file.parent_path() / entry->value.text, inputs);
+}
+
+void read_file(const std::filesystem::path& file, const YamlNode& root, Inputs& inputs,
+               Complaints& complaints) {
+  constexpr const char* kExpected =
+      "a mapping with the keys template, points, or with the key heads";
+  if (!complaints.expect_map(root, kExpected)) return;
+  for (const YamlEntry& entry : root.entries) {
+    if (entry.key == "template" || entry.key == "points" || entry.key == "heads") continue;
+    complaints.add(entry.key_place, concat("unknown key ", quoted(entry.key)));
+  }
+  const YamlEntry *points = root.find("points"), *heads = root.find("heads");
+  if ((points == nullptr) == (heads == nullptr)) return complaints.expected(root, kExpected);
+  if (heads != nullptr) return read_heads(heads->value, inputs, complaints);
+  inputs.points.positions = {read_set(points->value, inputs.points.names, complaints)};
+  inputs.points.meshes = {template_of(root, file, inputs, complaints)};
+}
+
+}  // namespace
+
+void load_points(const Config& config, Inputs& inputs, Problems& problems) {
+  if (config.points.empty()) return;
+  Complaints complaints;
+  try {
+    if (const auto root = read_yaml(config.points.string(), complaints)) {
+      read_file(config.points, *root, inputs, complaints);
+    }
+  } catch (const Error& error) {
+    problems.add(error);
+  }
+  complaints.tell(problems);
+  Hasher hasher;
+  for (const std::string& name : inputs.points.names) hasher.add(name);
+  for (const auto* sets : {&inputs.points.positions, &inputs.points.meshes}) {
+    for (const Positions& rows : *sets) {
+      hasher.add_array(std::span<const double>(rows.data(), static_cast<std::size_t>(rows.size())));
+    }
+  }
+  inputs.points_digest = hasher.digest();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/core/units.h"
+
+namespace crowdface {
+
+/// How a surface looks where textures are not read.
+struct GlbMaterial {
+  std::string name;                            ///< may be empty
+  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
+  std::optional<std::size_t> image = {};  ///< its colours, times `colour`: one of the file's images
+};
+
+/// A morph target that every file has: its name, and the vertices that it moves, ascending.
+struct GlbTarget {
+  std::string name;
+  std::vector<std::uint32_t> vertices;
+};
+
+struct GlbOptions {
+  LengthUnit unit = LengthUnit::kMetre;  ///< of the positions; the file's node scales to metres
+  Axis up = {1, 1};                      ///< of the positions; the node turns them to +Y …
+  Axis front = {2, 1};                   ///< … and +Z, which is glTF's front
+  std::vector<GlbMaterial> materials;
+  std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
+  std::vector<GlbTarget> targets;
+  std::vector<std::string> points;        ///< nodes below the face's, at places of its own
+  std::vector<std::uint32_t> vertex_ids;  ///< #V, what `_VERTEX_ID` says; empty: 0, 1, 2, …
+  std::size_t images = 0;                 ///< that each file brings along …
+  std::string image_type = "image/png";   ///< … and of which format
+};
+
+}  // namespace crowdface

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/io/glb_options.h"
+
+namespace crowdface {
+
+/// Codes of the glTF 2.0 specification.
+namespace gltf {
+inline constexpr int kFloat = 5126, kUnsignedInt = 5125;
+inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+}  // namespace gltf
+
+nlohmann::ordered_json material_json(const GlbMaterial& material);
+/// The node of a face, without a name: unit and axes.
+nlohmann::ordered_json node_json(const GlbOptions& options);
+
+/// Adds arrays to a glTF buffer, one view each, and describes them.
+class GlbBuffer {
+ public:
+  explicit GlbBuffer(nlohmann::ordered_json& scene);
+  /// \return which view it is.
+  std::size_t add_view(std::size_t size, int target = 0);
+  /// \param offset  bytes from where the last view begins.
+  /// \return which accessor it is.
+  std::size_t add_accessor(int component, const char* type, std::size_t count,
+                           std::size_t offset = 0);
+  /// Of vectors that are zero but for some. \return which accessor it is.
+  std::size_t add_sparse(std::size_t count, std::size_t some, std::size_t indices,
+                         std::size_t values);
+  /// Of vectors that are all zero. \return which accessor it is.
+  std::size_t add_zeros(std::size_t count);
+  void finish();
+
+ private:
+  nlohmann::ordered_json& scene_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace crowdface

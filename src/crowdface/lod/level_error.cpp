@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/lod/level_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/surface_point.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::ptrdiff_t kVerticesPerBlock = 1024;
+
+double distance_to(const Positions& rows, const Triangle& triangle, const Eigen::Vector3d& point) {
+  const double to_corner = length3(point - row3(rows, triangle[0]));
+  if (triangle[0] == triangle[1]) return to_corner;
+  const auto shares = nearest_in_triangle(row3(rows, triangle[0]), row3(rows, triangle[1]),
+                                          row3(rows, triangle[2]), point);
+  const double distance = length3(point - point_on(rows, triangle, shares));
+  return std::isnan(distance) ? to_corner : distance;
+}
+
+/// Walks on from a triangle, two rings of faces at each step.
+double walk(const DetailLevel& level, const FacesAround& around, const Positions& rows,
+            std::uint32_t start, const Eigen::Vector3d& point) {
+  constexpr int kMostSteps = 16;
+  SurfacePoint best = nearest_around(level.topology, around, rows, start, point);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const auto most = std::max_element(best.shares.begin(), best.shares.end());
+    const std::uint32_t vertex = best.corners[static_cast<std::size_t>(most - best.shares.begin())];
+    const SurfacePoint next = nearest_around(level.topology, around, rows, vertex, point);
+    if (!(next.distance < best.distance)) break;
+    best = next;
+  }
+  return best.distance;
+}
+
+/// For each vertex of the whole mesh that of a level which is nearest along the edges, by its number on the
+/// level: lips that nearly touch are far apart so. kNoIndex where none is in reach.
+std::vector<std::uint32_t> nearest_along_edges(const Adjacency& whole, const DetailLevel& level,
+                                               const Positions& positions) {
+  std::vector<std::uint32_t> nearest(static_cast<std::size_t>(whole.vertex_count()), kNoIndex);
+  std::vector<double> distances(nearest.size(), std::numeric_limits<double>::infinity());
+  using Place = std::pair<double, std::uint32_t>;
+  std::priority_queue<Place, std::vector<Place>, std::greater<>> front;
+  for (std::uint32_t i = 0; i < level.vertices.size(); ++i) {
+    const std::uint32_t v = level.vertices[i];
+    nearest[v] = i;
+    distances[v] = 0;
+    front.emplace(0.0, v);
+  }
+  while (!front.empty()) {
+    const auto [distance, v] = front.top();
+    front.pop();
+    if (distance > distances[v]) continue;
+    for (const std::uint32_t next : whole.of(v)) {
+      const double reached = distance + length3(row3(positions, next) - row3(positions, v));
+      if (reached >= distances[next]) continue;
+      distances[next] = reached;
+      nearest[next] = nearest[v];
+      front.emplace(reached, next);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const DetailLevel& level,
+                      const Positions& typical) {
+  std::vector<bool> dropped(static_cast<std::size_t>(whole.vertex_count), false);
+  for (const std::uint32_t vertex : whole.corner_vertices) dropped[vertex] = true;
+  for (const std::uint32_t vertex : level.vertices) dropped[vertex] = false;
+  LevelMap map;
+  for (std::uint32_t v = 0; v < dropped.size(); ++v) {
+    if (dropped[v]) map.vertices.push_back(v);
+  }
+  if (level.vertices.empty()) return map;
+  const Positions rows = level.of(typical);
+  std::vector<std::uint32_t> all(level.vertices.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const PointGrid grid(rows, all);
+  const FacesAround around(level.topology);
+  const std::vector<std::uint32_t> starts = nearest_along_edges(adjacency, level, typical);
+  map.triangles.resize(map.vertices.size());
+  parallel_for_each(map.vertices.size(), kVerticesPerBlock, [&](std::size_t i) {
+    const Eigen::Vector3d point = row3(typical, map.vertices[i]);
+    const std::uint32_t start = starts[map.vertices[i]];
+    const SurfacePoint place =
+        nearest_from(level.topology, around, rows,
+                     start == kNoIndex ? grid.nearest(point).vertex : start, point);
+    map.triangles[i] = place.corners;
+  });
+  return map;
+}
+
+LevelError level_error(const DetailLevel& level, const LevelMap& map,
+                       std::span<const Positions* const> meshes) {
+  const FacesAround around(level.topology);
+  std::vector<double> distances(map.triangles.size());
+  const auto mean_square = [&] {
+    double sum = 0;
+    for (const double distance : distances) sum += distance * distance;
+    return sum / static_cast<double>(std::max<std::size_t>(1, distances.size()));
+  };
+  LevelError error;
+  double squares = 0;
+  for (const Positions* mesh : meshes) {
+    const Positions rows = level.of(*mesh);
+    const auto point = [&](std::size_t i) { return row3(*mesh, map.vertices[i]); };
+    parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
+      distances[i] = distance_to(rows, map.triangles[i], point(i));
+    });
+    const double far = 4 * std::sqrt(mean_square());
+    parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
+      if (distances[i] <= far) return;
+      distances[i] =
+          std::min(distances[i], walk(level, around, rows, map.triangles[i][0], point(i)));
+    });
+    squares += mean_square() / static_cast<double>(meshes.size());
+    for (const double distance : distances) error.most = std::max(error.most, distance);
+  }
+  error.root_mean_square = std::sqrt(squares);
+  return error;
+}
+
+}  // namespace crowdface

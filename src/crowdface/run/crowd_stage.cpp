@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/crowd_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/io/usda_text.h"
+#include "crowdface/run/face_files.h"
+
+namespace crowdface {
+namespace {
+
+/// Where the faces stand, in the stage's axes.
+struct Rows {
+  Eigen::Vector3d side, back;  ///< from one face to the next
+  std::size_t columns = 1;
+
+  Eigen::Vector3d place(std::size_t face) const {
+    const double middle = static_cast<double>(columns - 1) / 2;
+    const auto column = static_cast<double>(face % columns);
+    return (column - middle) * side + static_cast<double>(face / columns) * back;
+  }
+};
+
+/// How far the heads reach along an axis, and a third more.
+double room(const Inputs& inputs, Eigen::Index axis) {
+  double most = 0;
+  for (const Head& head : inputs.faces.heads) {
+    const auto along = head.positions.col(axis);
+    most = std::max(most, along.maxCoeff() - along.minCoeff());
+  }
+  return std::ceil(400 * most / 3) / 100;
+}
+
+Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
+  const Axis up = config.faces.up, front = config.faces.front;
+  const Eigen::Index side = 3 - up.index - front.index;
+  const bool as_it_is = up.sign > 0 && up.index > 0;  // see UsdaTemplate
+  Rows rows;
+  rows.side = Eigen::Vector3d::Unit(as_it_is ? side : 0) * room(inputs, side);
+  const Axis to_front = as_it_is ? front : Axis{2, 1};
+  rows.back = Eigen::Vector3d::Unit(to_front.index) * -to_front.sign * room(inputs, front.index);
+  rows.columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(faces))));
+  return rows;
+}
+
+/// "prepend references = @./meshes/ID.usda@".
+std::string reference(const std::string& id, std::size_t level) {
+  const CrowdDirectory here{"."};
+  const MeshName name{MeshFormat::kUsd, {}, level};
+  return concat("prepend references = @./",
+                here.relative(here.mesh(id, MeshFormat::kUsd, part_of(name))), "@\n");
+}
+
+std::string face_text(const std::string& prim, const std::string& id, std::size_t levels,
+                      const Eigen::Vector3d& place) {
+  std::string metadata = "        " + reference(id, 0), variants;
+  if (levels > 0) {
+    metadata =
+        "        variants = {\n            string LOD = \"LOD0\"\n        }\n"
+        "        prepend variantSets = \"LOD\"\n";
+    variants = "        variantSet \"LOD\" = {\n";
+    for (std::size_t level = 0; level <= levels; ++level) {
+      variants += concat("            \"LOD", level, "\" (\n                ", reference(id, level),
+                         "            ) {\n            }\n");
+    }
+    variants += "        }\n";
+  }
+  return concat("\n    def Xform \"", prim, "\" (\n", metadata,
+                "    )\n    {\n        double3 xformOp:translate = (", place.x() + 0.0, ", ",
+                place.y() + 0.0, ", ", place.z() + 0.0,
+                ")\n        uniform token[] xformOpOrder = [\"xformOp:translate\"]\n", variants,
+                "    }\n");
+}
+
+}  // namespace
+
+std::string format_stage(const Config& config, const Inputs& inputs,
+                         std::span<const CastFace> crowd) {
+  const std::string root = usda_name(config.crowd.name);
+  std::string text = concat("#usda 1.0\n(\n    defaultPrim = \"", root, "\"\n",
+                            usda_frame(config.faces.units, config.faces.up), ")\n\ndef Xform \"",
+                            root, "\" (\n    kind = \"group\"\n)\n{\n");
+  const Rows rows = rows_of(config, inputs, crowd.size());
+  UsdaNames names;
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    text += face_text(names.add(crowd[i].id), crowd[i].id, inputs.levels.size(), rows.place(i));
+  }
+  return text + "}\n";
+}
+
+}  // namespace crowdface

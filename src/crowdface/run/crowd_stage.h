@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "crowdface/cast/cast_face.h"
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+
+namespace crowdface {
+
+/// A USD layer in a crowd's folder that references the layers of its faces, who stand in rows one
+/// behind the other; with levels of detail each has a variant set `LOD`.
+std::string format_stage(const Config& config, const Inputs& inputs,
+                         std::span<const CastFace> crowd);
+
+}  // namespace crowdface

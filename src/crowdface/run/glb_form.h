@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/io/glb_template.h"
+
+namespace crowdface {
+
+/// How GLB files of this crowd are written: frame, materials, textures, shapes.
+GlbOptions glb_options(const Config& config, const Inputs& inputs);
+
+/// The same for a level of detail. \param whole  of the whole mesh.
+GlbOptions glb_options(GlbOptions whole, const DetailLevel& level, const ShapeSet& shapes);
+
+}  // namespace crowdface

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/io/encoded_file.h"
+#include "crowdface/io/glb_template.h"
+#include "crowdface/io/plain_obj_template.h"
+#include "crowdface/io/ply_template.h"
+#include "crowdface/io/usda_template.h"
+#include "crowdface/run/face_files.h"
+
+namespace crowdface {
+
+/// A face as it is on all levels of detail.
+struct WholeFace {
+  const std::string& id;
+  Index target;
+  const Positions& positions;            ///< #V by 3
+  const Positions& normals;              ///< #V by 3; light falls on a level as on the whole mesh
+  std::span<const Displacements> moves;  ///< #shapes, or none
+  std::span<const std::string_view> textures;  ///< files of its own pictures, or none …
+  std::span<const std::string> texture_names;  ///< … and where they lie, from its mesh
+  const Positions& points;                     ///< that follow it, or none
+};
+
+/// Writes faces on one level of detail, in the formats that hold faces.
+class LevelWriter {
+ public:
+  /// \param inputs  must outlive this object and all that it encodes.
+  /// \param level   from 1
+  LevelWriter(const Config& config, const Inputs& inputs, std::size_t level,
+              const std::vector<MeshFormat>& formats);
+
+  /// \param name  of this level. \param ply_normals  whether PLY files have any.
+  EncodedFile encode(const MeshName& name, const WholeFace& face, bool ply_normals) const;
+
+  /// What this object itself takes, and what the encoding of one face takes at most.
+  std::size_t memory_bytes() const;
+  std::size_t encode_bytes() const;
+
+ private:
+  const Inputs& inputs_;
+  const DetailLevel& level_;
+  std::optional<PlainObjTemplate> obj_;
+  std::optional<PlyTemplate> ply_;
+  std::optional<GlbTemplate> glb_;
+  std::optional<UsdaTemplate> usd_;
+};
+
+}  // namespace crowdface

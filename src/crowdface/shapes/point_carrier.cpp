@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/point_carrier.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/rigid_motion.h"
+
+namespace crowdface {
+namespace {
+
+double nearest(const Eigen::Vector3d& point, const Positions& mesh,
+               std::span<const std::uint32_t> vertices) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t v : vertices) least = std::min(least, length3(row3(mesh, v) - point));
+  return least;
+}
+
+/// Whether a point is nearer to the middle of an eyeball than its surface is.
+bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Part& eyeball) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const std::uint32_t v : eyeball.surface) middle += row3(mesh, v);
+  middle /= static_cast<double>(eyeball.surface.size());
+  return length3(point - middle) < nearest(middle, mesh, eyeball.surface);
+}
+
+}  // namespace
+
+PointCarrier::PointCarrier(const PointSet& points, const PartList& parts,
+                           std::span<const std::uint32_t> skin)
+    : points_(points), anchors_(points.meshes.size()) {
+  for (std::size_t m = 0; m < anchors_.size(); ++m) {
+    for (std::size_t p = 0; p < points.names.size(); ++p) {
+      anchors_[m].push_back(anchor_of(row3(points.positions[m], static_cast<Index>(p)),
+                                      points.meshes[m], parts, skin));
+    }
+  }
+}
+
+PointCarrier::Anchor PointCarrier::anchor_of(const Eigen::Vector3d& point, const Positions& mesh,
+                                             const PartList& parts,
+                                             std::span<const std::uint32_t> skin) {
+  const auto whole = [](const std::vector<std::uint32_t>& vertices) {
+    return Anchor{vertices, std::vector<double>(vertices.size(), 1.0)};
+  };
+  const double to_skin = nearest(point, mesh, skin);
+  for (const Part& part : parts.parts) {
+    if (part.eyeball && is_in_eyeball(point, mesh, part)) return whole(part.surface);
+  }
+  for (const Part& part : parts.parts) {
+    if (part.part_class == PartClass::kRigid && nearest(point, mesh, part.vertices) < to_skin) {
+      return whole(part.vertices);
+    }
+  }
+  // Half as far again as the nearest skin, so that what lies deep hears of all that is around it.
+  constexpr double kFurther = 1.5;
+  constexpr std::size_t kFewest = 60;
+  std::vector<std::pair<double, std::uint32_t>> by_distance;
+  for (const std::uint32_t v : skin) by_distance.emplace_back(length3(row3(mesh, v) - point), v);
+  std::sort(by_distance.begin(), by_distance.end());
+  const std::size_t fewest = std::min(kFewest, by_distance.size());
+  const double reach = std::max(kFurther * to_skin, by_distance[fewest - 1].first);
+  const double fades = 1.05 * reach;
+  Anchor anchor;
+  for (const auto& [distance, vertex] : by_distance) {
+    if (distance > reach) break;
+    const double left = 1 - distance * distance / (fades * fades);
+    anchor.vertices.push_back(vertex);
+    anchor.weights.push_back(left * left);
+  }
+  return anchor;
+}
+
+Positions PointCarrier::carry(Index target, const Positions& face) const {
+  const std::size_t m = points_.meshes.size() > 1 ? static_cast<std::size_t>(target) : 0;
+  Positions carried(static_cast<Index>(points_.names.size()), 3);
+  for (Index p = 0; p < carried.rows(); ++p) {
+    const Anchor& anchor = anchors_[m][static_cast<std::size_t>(p)];
+    const RigidMotion motion =
+        fit_rigid_motion(points_.meshes[m], face, anchor.vertices, anchor.weights);
+    carried.row(p) = motion.apply(row3(points_.positions[m], p)).transpose();
+  }
+  return carried;
+}
+
+}  // namespace crowdface
