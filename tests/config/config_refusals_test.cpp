@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"output: {meshes: obj}", "5:18", "expected a list"},
         Wrong{"output: {meshes: [obj, obj]}", "5:24", "twice"},
         Wrong{"output: {meshes: [fbx]}", "5:19",
-              "expected obj or ply or glb or points, found \"fbx\""},
+              "expected obj or ply or glb or points or usd, found \"fbx\""},
         Wrong{"output: {directory: ''}", "5:21", "expected a folder"},
         Wrong{"output: {directory: \"a\\0b\"}", "5:21", "expected a folder"},
         Wrong{"output: {lods: [50 %, 0.2]}", "5:23", "a list of up to 8 levels"},
