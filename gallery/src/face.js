@@ -4,7 +4,7 @@ import { bandsOf, locksAll, relativesOf } from './crowd.js';
 import { picture } from './grid.js';
 import { Turntable } from './turntable.js';
 
-const viewNames = { front: 'Front', three_quarter: 'Three-quarter', profile: 'Profile' };
+const viewNames = { front: 'Front', three_quarter: 'Three-quarter', profile: 'Profile', back: 'Back' };
 
 /// One face: a view to turn, marks, recipe, neighbours, renders.
 export class FacePage {

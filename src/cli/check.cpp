@@ -48,28 +48,45 @@ void describe(const Job& job) {
       "output      ", job.config.output.directory.string(), "\n"));
 }
 
+/// The regions' colours, #R by 3: as they were painted where they are the channels of one picture.
+VertexColours painted_colours(const Config::Regions& regions, Index count) {
+  const bool channels = regions.mask.size() == 1 && count > 1;
+  VertexColours colours(count, 3);
+  for (Index k = 0; k < count; ++k) {
+    if (channels && k < 3) {
+      constexpr float kFull = 0.85F, kRest = 0.12F;
+      colours.row(k).setConstant(kRest);
+      colours(k, k) = kFull;
+    } else {
+      colours.row(k) = palette_colour(k).transpose();
+    }
+  }
+  return colours;
+}
+
 /// One picture a region, its mask on the mean head.
 void write_masks(const Job& job, const std::filesystem::path& directory) {
   const Positions mean = mean_head(job.inputs.faces);
   Config::ContactSheet sheet;
   sheet.cell = 512;
-  sheet.views = {View::kFront, View::kThreeQuarter};
+  sheet.views = {View::kFront, View::kThreeQuarter, View::kBack};
   const CrowdRenders renders(job.config, sheet, job.inputs);
   const auto file_of = [&](const std::string& name) { return directory / concat(name, ".png"); };
   const std::vector<std::filesystem::path> inputs = input_files(job.config);
   for (const std::string& name : job.names.regions) refuse_to_write_over(inputs, file_of(name));
   refuse_to_write_over(inputs, file_of("all"));
   make_directories(directory);
-  const auto write = [&](const std::string& name, const VertexColours& colours) {
-    write_file(file_of(name), renders.render_png(mean, colours));
+  const auto write = [&](const std::string& name, const VertexColours& shown) {
+    write_file(file_of(name), renders.render_png(mean, shown));
     log_info(file_of(name).string());
   };
   const auto& alpha = job.inputs.regions.alpha;
+  const VertexColours colours = painted_colours(job.config.regions, alpha.cols());
   for (Index k = 0; k < alpha.cols(); ++k) {
     write(job.names.regions[static_cast<std::size_t>(k)],
-          mask_colours(alpha.col(k), palette_colour(k)));
+          mask_colours(alpha.col(k), colours.row(k)));
   }
-  if (alpha.cols() > 1) write("all", region_colours(alpha));
+  if (alpha.cols() > 1) write("all", region_colours(alpha, colours));
 }
 
 }  // namespace

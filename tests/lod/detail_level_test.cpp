@@ -19,8 +19,6 @@
 namespace crowdface {
 namespace {
 
-using testing::grid_topology;
-
 constexpr std::uint32_t kColumns = 40, kRows = 30;
 
 /// A flat sheet, one unit a quad, with a hole; its texture is torn along a column, where the right part

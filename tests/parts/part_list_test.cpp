@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/synth/synthetic_head.h"
+
 #include "parts/scene.h"
 
 namespace crowdface {
@@ -137,6 +139,22 @@ TEST(JoinSkin, MakesOneOfAllSkin) {
   for (std::size_t v = 0; v < joined.of_vertex.size(); ++v) {
     const std::uint32_t c = components.of_vertex[v];
     EXPECT_EQ(joined.of_vertex[v], c == HeadComponent::kRightEye ? 0U : c);
+  }
+}
+
+// Rows of teeth were eyeballs from 400,000 vertices on.
+TEST(Parts, OfAHeadAreTheSameAtEveryResolution) {
+  for (const Index vertices : {5000, 20000, 150000, 400000, 1200000}) {
+    SCOPED_TRACE(vertices);
+    const SyntheticHeads heads(vertices, SyntheticHeads::Parts::kEyesAndTeeth);
+    const PartList list = parts_of({heads.topology(), heads.positions(1, 1), heads.uvs()});
+    std::vector<bool> eyeballs;
+    for (const Part& part : list.parts) {
+      EXPECT_EQ(part.part_class, PartClass::kRigid);
+      EXPECT_EQ(part.components.size(), 1U);
+      eyeballs.push_back(part.eyeball);
+    }
+    EXPECT_EQ(eyeballs, (std::vector<bool>{true, true, false, false}));
   }
 }
 

@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-constexpr View kViews[] = {View::kFront, View::kThreeQuarter, View::kProfile};
+constexpr View kViews[] = {View::kFront, View::kThreeQuarter, View::kProfile, View::kBack};
 
 /// Two boxes of points, unlike in size and place.
 std::vector<Positions> two_heads() {
@@ -62,7 +62,7 @@ TEST(Camera, ViewsShareTheDistanceOfTheFurthest) {
   for (const View view : kViews) {
     furthest = std::max(furthest, fit_camera(pointers(heads), {}, view).distance);
   }
-  ASSERT_EQ(cameras.size(), 3U);
+  ASSERT_EQ(cameras.size(), 4U);
   for (const Camera& camera : cameras) EXPECT_EQ(camera.distance, furthest);
 }
 
@@ -73,8 +73,28 @@ TEST(Camera, StandsWhereTheFaceLooks) {
   EXPECT_EQ(front.right, Eigen::Vector3d::UnitX());
   const Camera profile = fit_camera(pointers(heads), {}, View::kProfile);
   EXPECT_TRUE(profile.back.isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+  const Camera back = fit_camera(pointers(heads), {}, View::kBack);
+  EXPECT_TRUE(back.back.isApprox(-Eigen::Vector3d::UnitZ(), 1e-12));
   // What lies in front of the face appears on the left.
   EXPECT_LT(testing::project(profile, profile.target + Eigen::Vector3d::UnitZ()).x(), 0.5);
+}
+
+// Shoulders reach further back than the head, which stood left of the middle.
+TEST(Camera, PutsTheHeadInTheMiddleNotTheBust) {
+  const Positions head = make_sphere(1).positions;
+  const Positions shoulders = (0.8 * head).rowwise() + Eigen::RowVector3d(0, -1.9, -1);
+  Positions bust(head.rows() + shoulders.rows(), 3);
+  bust << head, shoulders;
+  const Positions* heads[] = {&bust};
+  for (const View view : {View::kFront, View::kThreeQuarter, View::kProfile, View::kBack}) {
+    const Camera camera = fit_camera(heads, {}, view);
+    EXPECT_NEAR(testing::project(camera, Eigen::RowVector3d::Zero()).x(), 0.5, 0.005);
+    for (Index i = 0; i < bust.rows(); ++i) {
+      const Eigen::Vector2d place = testing::project(camera, bust.row(i));
+      EXPECT_GE(place.minCoeff(), 0.06 - 1e-9);
+      EXPECT_LE(place.maxCoeff(), 0.94 + 1e-9);
+    }
+  }
 }
 
 TEST(Camera, FollowsTheAxesOfTheConfig) {

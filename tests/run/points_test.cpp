@@ -45,7 +45,7 @@ class PointsOfACrowd : public ::testing::Test {
   }
   void expect_refused(const std::string& text, const std::string& told) {
     folder_.folder().write("rig.yaml", text);
-    testing::expect_error(ExitCode::kUsage, {"rig.yaml", told.c_str()}, [&] { run("[glb]"); });
+    testing::expect_error(ExitCode::kUsage, {"rig.yaml", told}, [&] { run("[glb]"); });
   }
   fs::path mesh(const std::string& name) const { return folder_.out() / "meshes" / name; }
 

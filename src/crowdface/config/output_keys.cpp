@@ -127,7 +127,7 @@ const Keys<Sheet>& contact_sheet_keys() {
       key("columns", &Sheet::columns, whole(1, 32)),
       key("rows", &Sheet::rows, whole(1, 64)),
       key("cell", &Sheet::cell, whole(32, 2048)),
-      key("views", &Sheet::views, words<View>("a list of views, [front, three_quarter, profile]")),
+      key("views", &Sheet::views, words<View>("a list of views, [front, three_quarter, profile, back]")),
       key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]")),
       word_key("order", &Sheet::order),
       {"compare", read_comparison, write_comparison},

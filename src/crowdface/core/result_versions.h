@@ -9,7 +9,7 @@ namespace crowdface {
 inline constexpr int kBlendVersion =
     3;  ///< positions of a face's skin; in `settings` of every recipe
 inline constexpr int kPartsVersion =
-    3;  ///< where parts come to lie; in `settings` of heads with parts
+    4;  ///< where parts come to lie; in `settings` of heads with parts
 /// Entries of the cache, and so the faces made of them.
 inline constexpr int kPrepareVersion = 4;
 /// A picture, what is found about a skin, or a mesh file of the same positions.

@@ -33,10 +33,11 @@ Value word_in(const Json& body, const std::string& key) {
 View view_in(const Json& body) {
   if (!body.contains("view")) return View::kFront;
   if (!body["view"].is_object()) return word_in<View>(body, "view");
-  constexpr double kFrontUpTo = 17.5, kThreeQuarterUpTo = 62.5;
+  constexpr double kFrontUpTo = 17.5, kThreeQuarterUpTo = 62.5, kProfileUpTo = 135;
   const double yaw = std::abs(number_in(body["view"], "yaw", -360, 360));
   if (yaw <= kFrontUpTo) return View::kFront;
-  return yaw <= kThreeQuarterUpTo ? View::kThreeQuarter : View::kProfile;
+  if (yaw <= kThreeQuarterUpTo) return View::kThreeQuarter;
+  return yaw <= kProfileUpTo ? View::kProfile : View::kBack;
 }
 
 Json file_json(const std::filesystem::path& file) {

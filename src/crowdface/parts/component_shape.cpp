@@ -99,15 +99,19 @@ double distance_to(const PointGrid& skin, const Positions& positions,
   return *at;
 }
 
-}  // namespace
-
-double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices) {
+Eigen::Vector3d box_sides(const Positions& positions, std::span<const std::uint32_t> vertices) {
   Eigen::Vector3d low = positions.row(vertices[0]).transpose(), high = low;
   for (const std::uint32_t v : vertices) {
     low = low.cwiseMin(positions.row(v).transpose());
     high = high.cwiseMax(positions.row(v).transpose());
   }
-  return (high - low).norm();
+  return high - low;
+}
+
+}  // namespace
+
+double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices) {
+  return box_sides(positions, vertices).norm();
 }
 
 std::vector<ComponentShape> component_shapes(const Topology& topology, const Adjacency& adjacency,
@@ -139,7 +143,9 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
     ComponentShape& shape = shapes[c];
     shape.vertices = static_cast<Index>(members[c].size());
     if (area[c] > 0) shape.openness = perimeter[c] * perimeter[c] / (4 * kPi * area[c]);
-    shape.extent = extent_of(positions, members[c]);
+    const Eigen::Vector3d sides = box_sides(positions, members[c]);
+    shape.extent = sides.norm();
+    shape.thickness = sides.minCoeff();
   }
   const std::uint32_t skin = components.largest();
   const PointGrid skin_grid(positions, members[skin]);

@@ -24,9 +24,9 @@ constexpr double kOpen = 0.7;            // a hemisphere has an openness of 0.5,
 constexpr double kBoundDistance = 0.04;  // lashes stand a few per cent off the lids
 constexpr double kTouch = 0.006;         // teeth stand side by side
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
-/// A ball's bounding box is 3.5 radii across, half a ball's 3; a row of teeth lies on an arc as well,
-/// but its box is smaller.
-constexpr double kWhole = 2.6;
+/// A ball's bounding box is 3.5 radii across, half a ball's 3, and nowhere thinner than a radius. A row of
+/// teeth lies on an arc as well, but is half as thick.
+constexpr double kWhole = 2.6, kThick = 0.8;
 constexpr double kRound = 0.1;  // roughness of an eyeball as a share of its radius: the cornea
 static_assert(kBoundDistance < kFarFromSkin);
 
@@ -39,7 +39,8 @@ PartClass class_by_shape(const ComponentShape& shape, double extent) {
 
 bool is_eyeball(const ComponentShape& shape, double extent) {
   return shape.radius > kEyeRadius[0] * extent && shape.radius < kEyeRadius[1] * extent &&
-         shape.extent > kWhole * shape.radius && shape.roughness < kRound * shape.radius;
+         shape.extent > kWhole * shape.radius && shape.thickness > kThick * shape.radius &&
+         shape.roughness < kRound * shape.radius;
 }
 
 /// How a component stands in the head, along the side, up and front.

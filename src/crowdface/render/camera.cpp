@@ -24,9 +24,14 @@ double turn_degrees(View view) {
       return 35;
     case View::kProfile:
       return 90;
+    case View::kBack:
+      return 180;
   }
   return 0;
 }
+
+/// Heads, not busts, stand in the middle of a picture: what lies higher than this share of all.
+constexpr double kNeck = 0.45;
 
 Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
   require(frame.up.index != frame.front.index, "camera: up ", name_of(frame.up), ", front ",
@@ -55,26 +60,31 @@ struct Wedge {
     positive = std::max(positive, z + x / slope);
     negative = std::max(negative, z - x / slope);
   }
-  double distance() const { return (positive + negative) / 2; }
   double centre() const { return slope * (positive - negative) / 2; }
+  double distance_from(double c) const {
+    return std::max(positive - c / slope, negative + c / slope);
+  }
 };
 
-/// The height below which vertices need not be seen.
-double lowest_shown(std::span<const Positions* const> heads, const Eigen::Vector3d& up,
-                    double cut_below) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+struct Heights {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  double at(double share) const { return low + share * (high - low); }
+};
+
+Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3d& up) {
+  Heights heights;
   for (const Positions* head : heads) {
     for (Index i = 0; i < head->rows(); ++i) {
       const double height = head->row(i).dot(up);
       if (!head->row(i).allFinite()) {
         throw InvalidInput(concat("a camera needs finite positions, vertex ", i + 1, " is not"));
       }
-      low = std::min(low, height);
-      high = std::max(high, height);
+      heights.low = std::min(heights.low, height);
+      heights.high = std::max(heights.high, height);
     }
   }
-  return low + cut_below * (high - low);
+  return heights;
 }
 
 }  // namespace
@@ -83,9 +93,9 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
                   const FramingOptions& options) {
   Camera camera = aim(frame, view, options);
   const double slope = camera.half_tangent * (1 - 2 * options.margin);
-  Wedge across{slope};
-  Wedge along{slope};
-  const double lowest = lowest_shown(heads, camera.up, options.cut_below);
+  Wedge across{slope}, along{slope}, head_across{slope};
+  const Heights heights = heights_of(heads, camera.up);
+  const double lowest = heights.at(options.cut_below), neck = heights.at(kNeck);
   double nearest = -std::numeric_limits<double>::infinity();
   double furthest = std::numeric_limits<double>::infinity();
   for (const Positions* head : heads) {
@@ -94,17 +104,19 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
       const double z = point.dot(camera.back);
       nearest = std::max(nearest, z);
       furthest = std::min(furthest, z);
-      if (point.dot(camera.up) < lowest) continue;
-      across.add(point.dot(camera.right), z);
-      along.add(point.dot(camera.up), z);
+      const double height = point.dot(camera.up), x = point.dot(camera.right);
+      if (height >= neck) head_across.add(x, z);
+      if (height < lowest) continue;
+      across.add(x, z);
+      along.add(height, z);
     }
   }
   require(nearest >= furthest, "camera: no vertex to look at");
   // The target lies half-way through the heads, so that half_extent() is about a head's size.
   const double middle = (nearest + furthest) / 2;
-  camera.target =
-      across.centre() * camera.right + along.centre() * camera.up + middle * camera.back;
-  camera.distance = std::max(across.distance(), along.distance()) - middle;
+  const double x = head_across.centre(), y = along.centre();
+  camera.target = x * camera.right + y * camera.up + middle * camera.back;
+  camera.distance = std::max(across.distance_from(x), along.distance_from(y)) - middle;
   if (camera.distance <= nearest - middle)
     camera.distance = nearest - middle + 1;  // a single point
   return camera;

@@ -31,12 +31,9 @@ Eigen::Vector3f palette_colour(Eigen::Index k) {
   return {c[0], c[1], c[2]};
 }
 
-VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha) {
-  VertexColours colours = VertexColours::Zero(alpha.rows(), 3);
-  for (Eigen::Index k = 0; k < alpha.cols(); ++k) {
-    colours += alpha.col(k).cast<float>() * palette_colour(k).transpose();
-  }
-  return colours;
+VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha,
+                             const VertexColours& colours) {
+  return alpha.cast<float>() * colours;
 }
 
 VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,

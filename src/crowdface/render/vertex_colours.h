@@ -19,8 +19,10 @@ using VertexColours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 Eigen::Vector3f palette_colour(Eigen::Index k);
 
 /// Each region in its own colour, mixed where regions overlap.
-/// \param alpha  #V by #R shares of the regions, rows summing to one.
-VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha);
+/// \param alpha    #V by #R shares of the regions, rows summing to one.
+/// \param colours  #R by 3
+VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha,
+                             const VertexColours& colours);
 
 /// The colours that a render gives the surfaces themselves, irises painted where the eyes look.
 /// \param front  where the face looks.

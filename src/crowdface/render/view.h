@@ -3,7 +3,7 @@
 
 namespace crowdface {
 
-/// Where the camera stands: before the face, turned by 35 degrees, or at its side.
-enum class View { kFront, kThreeQuarter, kProfile };
+/// Where the camera stands: before the face, turned by 35 degrees, at its side, or behind it.
+enum class View { kFront, kThreeQuarter, kProfile, kBack };
 
 }  // namespace crowdface

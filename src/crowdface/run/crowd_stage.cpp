@@ -19,8 +19,8 @@ struct Rows {
 
   Eigen::Vector3d place(std::size_t face) const {
     const double middle = static_cast<double>(columns - 1) / 2;
-    const auto column = static_cast<double>(face % columns);
-    return (column - middle) * side + static_cast<double>(face / columns) * back;
+    const std::size_t row = face / columns, column = face % columns;
+    return (static_cast<double>(column) - middle) * side + static_cast<double>(row) * back;
   }
 };
 
