@@ -18,7 +18,7 @@ constexpr double kFarFromSkin = 0.05;
 struct ComponentShape {
   Index vertices = 0;
   Index faces = 0;
-  double extent = 0;    ///< diagonal of its bounding box
+  double extent = 0;     ///< diagonal of its bounding box
   double thickness = 0;  ///< shortest side of the bounding box
   /// Perimeter² / (4π · area) of its open edges: 0 of a closed surface, ½ of a hemisphere, 1 of a
   /// disc, more of a strip; of any number of vertices.
