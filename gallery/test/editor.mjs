@@ -276,7 +276,14 @@ if (await editor('editor.job.can_paint')) {
   await page.keyboard.press('f');
   await page.keyboard.press('m');
   const placeBefore = await editor('editor.view.place()');
+  // The mouse is let go while the stroke's first points are still on their way: the others belong to it.
+  const slowly = async (route) => {
+    await new Promise((done) => { setTimeout(done, 1500); });
+    await route.continue();
+  };
+  await page.route('**/masks/stroke', slowly);
   const more = await painted(() => drag(canvas, 60, 90));
+  await page.unroute('**/masks/stroke', slowly);
   assert.ok(more > 5, `a stroke adds ${more} vertices' worth`);
   assert.deepEqual(await editor('editor.view.place()'), placeBefore, 'the brush does not turn the view');
   const sums = await page.evaluate(() => {

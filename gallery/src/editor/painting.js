@@ -114,8 +114,8 @@ export class Painting {
   }
 
   begin(hit) {
-    this.stroke = { begin: true, last: performance.now() };
-    this.waiting.push(hit);
+    this.stroke = { last: performance.now() };
+    this.waiting.push({ ...hit, begin: true });
     this.send();
   }
 
@@ -125,7 +125,7 @@ export class Painting {
     this.showRing(hit);
     if (!this.stroke || !hit || performance.now() - this.stroke.last < pause) return;
     this.stroke.last = performance.now();
-    this.waiting.push(hit);
+    this.waiting.push({ ...hit, begin: false });
     this.send();
   }
 
@@ -144,12 +144,13 @@ export class Painting {
     this.up();
   }
 
-  /// One request at a time; what is painted meanwhile goes with the next.
+  /// One request at a time; what is painted meanwhile goes with the next, up to where a stroke begins.
   async send() {
     if (this.sending || this.waiting.length === 0) return;
-    const points = this.waiting.splice(0).map(({ triangle, u, v }) => ({ triangle, u, v }));
-    const begin = this.stroke?.begin ?? true;
-    if (this.stroke) this.stroke.begin = false;
+    const another = this.waiting.findIndex((point, i) => i > 0 && point.begin);
+    const taken = this.waiting.splice(0, another < 0 ? this.waiting.length : another);
+    const points = taken.map(({ triangle, u, v }) => ({ triangle, u, v }));
+    const { begin } = taken[0];
     this.sending = true;
     await this.changed(postForBinary('masks/stroke', {
       region: this.region, mode: this.mode, points, begin, mirror: this.mirror.checked,
