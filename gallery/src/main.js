@@ -217,7 +217,7 @@ class Page {
   }
 
   key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog')) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
     const typing = event.target.matches('textarea, select, input:not([type=range])');
     if (typing) {
       if (event.key === 'Escape') event.target.blur();

@@ -474,7 +474,7 @@ class Editor {
   }
 
   key(event) {
-    if (document.querySelector('dialog')) return;
+    if (document.querySelector('dialog[open]')) return;
     const letter = event.key.toLowerCase();
     if (event.ctrlKey || event.metaKey) {
       const held = {

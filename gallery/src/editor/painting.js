@@ -46,7 +46,7 @@ export class Painting {
     const ask = (text, act, title = '') => el('button', { title, onclick: () => this.editor.attempt(act) }, text);
     const node = el('section', { class: 'painting', hidden: true, 'aria-label': 'Masks' },
       el('header', {}, el('h2', {}, 'Masks'), el('span', { class: 'grow' }),
-        ask('Undo stroke', () => this.changed(postForBinary('masks/undo', {}))),
+        el('button', { onclick: () => this.undo() }, 'Undo stroke'),
         ask('Save masks', () => this.save(), 'As images in the layout of the textures'),
         el('button', { onclick: () => this.setOn(false), 'aria-label': 'Stop painting' }, '✕')),
       el('div', { class: 'choices', role: 'group', 'aria-label': 'Region to paint' }, this.regionButtons),
@@ -144,25 +144,32 @@ export class Painting {
     this.up();
   }
 
-  /// One request at a time; what is painted meanwhile goes with the next, up to where a stroke begins.
+  undo() {
+    this.waiting.push({ undo: true });
+    this.send();
+  }
+
+  /// One request at a time; what is painted meanwhile goes with the next, up to where a stroke begins or is taken back.
   async send() {
     if (this.sending || this.waiting.length === 0) return;
-    const another = this.waiting.findIndex((point, i) => i > 0 && point.begin);
-    const taken = this.waiting.splice(0, another < 0 ? this.waiting.length : another);
-    const points = taken.map(({ triangle, u, v }) => ({ triangle, u, v }));
-    const { begin } = taken[0];
+    const another = this.waiting.findIndex((point, i) => i > 0 && (point.begin || point.undo));
+    const [first, ...others] = this.waiting.splice(0, another < 0 ? this.waiting.length : another);
     this.sending = true;
-    await this.changed(postForBinary('masks/stroke', {
-      region: this.region, mode: this.mode, points, begin, mirror: this.mirror.checked,
-      radius_mm: Number(this.radius.input.value), strength: Number(this.strength.input.value),
-      falloff: Number(this.falloff.input.value),
-    }));
+    await this.editor.attempt(async () => {
+      const { alpha } = await (first.undo ? postForBinary('masks/undo', {}) : this.paint([first, ...others]));
+      this.editor.masksChanged(alpha);
+    });
     this.sending = false;
     this.send();
   }
 
-  async changed(answer) {
-    await this.editor.attempt(async () => this.editor.masksChanged((await answer).alpha));
+  paint(points) {
+    return postForBinary('masks/stroke', {
+      region: this.region, mode: this.mode, mirror: this.mirror.checked, begin: points[0].begin,
+      points: points.map(({ triangle, u, v }) => ({ triangle, u, v })),
+      radius_mm: Number(this.radius.input.value), strength: Number(this.strength.input.value),
+      falloff: Number(this.falloff.input.value),
+    });
   }
 
   /// Images in the layout of the textures, which a config names.
