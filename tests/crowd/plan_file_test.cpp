@@ -169,6 +169,7 @@ TEST(PlanFile, BandsThatCannotBeAreRefusedWithTheirPlace) {
       {with("\"skin\":{\"position\"", "\"fur\":{\"position\""), "skin: expected a value"},
       {with("\"iterations\":2000", "\"iterations\":9001"), "skin.iterations: expected at most"},
       {with("{\"bob\":1.0},\"smoothness\":0.1", "{\"bob\":1.0},\"smoothness\":2"), "smoothness"},
+      {with("\"bands\":{", "\"other\":{"), "bands: expected an object of 1 bands"},
       {with("\"bands\":{", "\"bands\":7,\"other\":{"), "bands: expected an object of 1 bands"},
   };
   for (const auto& [line, field] : cases) {

@@ -129,6 +129,36 @@ TEST(GenerateBands, ChildrenInheritByBand) {
   }
 }
 
+// Bands of two parents, put together, began above those before them, and blending ended in a bug's words.
+TEST(GenerateBands, OfParentsWithOtherLevelsKeepTheirOrder) {
+  SmallCrowd crowd = banded();
+  crowd.heads = 6;
+  crowd.count = 3;
+  crowd.more =
+      "recipes:\n"
+      "  - {id: fine, target: ann, regions: {all: {weights: {ann: 1}, iterations: 10, bands: "
+      "{b_features: {iterations: 6}, c_skin: {iterations: 2}}}}}\n"
+      "  - {id: coarse, target: bob, regions: {all: {weights: {bob: 1}, iterations: 24, bands: "
+      "{b_features: {iterations: 22}, c_skin: {iterations: 20}}}}}\n"
+      "families: [{name: kin, members: 2, parents: {mother: fine, father: coarse}, inherit: "
+      "{a_build: mother, b_features: father, c_skin: father}, max_distance: 20 mm, "
+      "min_distance: 0 mm}]\ndiversity: {candidates: 2}\nbelievability: none\n";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  int children = 0;
+  for (const json& line : plan_lines(folder.out())) {
+    if (!line.contains("family") || line.at("family").is_null()) continue;
+    ++children;
+    for (int k = 1; k <= 3; ++k) {
+      const json& whole = region(line, k);
+      EXPECT_GE(whole.at("iterations"), whole.at("bands").at("b_features").at("iterations"));
+      EXPECT_GE(whole.at("bands").at("b_features").at("iterations"),
+                whole.at("bands").at("c_skin").at("iterations"));
+    }
+  }
+  EXPECT_EQ(children, 2);
+}
+
 TEST(GenerateBands, ThatOverlapAreRefused) {
   SmallCrowd crowd = banded();
   crowd.sampling = "{bands: {one: 0.5, two: [0.4, 0.6]}}";

@@ -42,6 +42,12 @@ class LevelsOfACrowd : public ::testing::Test {
     overrides.set = {"output.meshes=" + meshes, "output.lods=[60 %, 25 %]"};
     generate(folder_.config(), overrides, {folder_.cache(), replace, false});
   }
+  static std::string normal_lines(const fs::path& file) {
+    const std::string text = testing::read_text(file);
+    const std::size_t begin = text.find("\nvn ");
+    EXPECT_NE(begin, std::string::npos) << file;
+    return text.substr(begin, text.find("\nf ") - begin);
+  }
   fs::path mesh(const std::string& name) const { return folder_.out() / "meshes" / name; }
 
   SmallCrowdFolder folder_;
@@ -76,6 +82,7 @@ TEST_F(LevelsOfACrowd, HoldTheFacesOwnVerticesInEveryFormat) {
               whole.scene.at("materials").size());
     EXPECT_THAT(testing::read_text(mesh(stem + ".obj")), HasSubstr(concat("\no ", id, "_", level)));
     const ObjFile smiling = read_obj(mesh(stem + "+smile.obj"));
+    EXPECT_NE(normal_lines(mesh(stem + "+smile.obj")), normal_lines(mesh(stem + ".obj")));
     for (std::size_t i = 0; i < ply.points.size(); ++i) {
       EXPECT_EQ(ply.points[i], glb.points[i]);
       const auto vertex = static_cast<std::size_t>(glb.ids[i]);
@@ -87,6 +94,32 @@ TEST_F(LevelsOfACrowd, HoldTheFacesOwnVerticesInEveryFormat) {
     }
   }
   EXPECT_FALSE(fs::exists(mesh(id + "+LOD1.npy")));
+}
+
+// Rows of an empty matrix were read.
+TEST(LevelsWithoutNormals, AreWrittenAsPly) {
+  SmallCrowd crowd;
+  crowd.count = 1;
+  const SmallCrowdFolder folder(crowd);
+  ConfigOverrides overrides;
+  overrides.set = {"output.meshes=[ply]", "output.lods=[60 %]"};
+  generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+  const std::string id = testing::plan_lines(folder.out()).front().at("id");
+  const auto ply = testing::read_ply(folder.out() / "meshes" / (id + "+LOD1.ply"));
+  EXPECT_FALSE(ply.faces.empty());
+  EXPECT_THAT(ply.normals, IsEmpty());
+}
+
+TEST(SubdivisionOfUsd, IsPartOfWhatIsDone) {
+  SmallCrowd crowd;
+  crowd.count = 1;
+  const SmallCrowdFolder folder(crowd);
+  for (const char* scheme : {"none", "catmull_clark"}) {
+    ConfigOverrides overrides;
+    overrides.set = {"output.meshes=[usd]", concat("output.subdivision=", scheme)};
+    generate(folder.config(), overrides, {folder.cache(), Replace::kForce, false});
+    EXPECT_EQ(testing::read_json(folder.out() / "timings.json").at("faces"), 1) << scheme;
+  }
 }
 
 TEST_F(LevelsOfACrowd, TellTheirErrorInTheReport) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "crowdface/cast/ageing.h"
+#include "crowdface/cast/band_order.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
@@ -167,6 +168,7 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
                  ? of_parent(static_cast<std::size_t>(from), k, b, band)
                  : mixed(of_parent(0, k, b, band), of_parent(1, k, b, band), 0.5, casting_.scale);
     }
+    keep_order(region);
   }
   return face;
 }
@@ -219,6 +221,7 @@ void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
       band = mixed(band, of_parent(parent, k, b, band), kParentShare, casting_.scale);
       face.inherits.emplace_back(parent == 0 ? "mother" : "father");
     }
+    keep_order(region);
   }
   for (const KnownParent& parent : parents_) face.parents.push_back(parent.name);
 }

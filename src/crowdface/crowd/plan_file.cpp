@@ -166,10 +166,11 @@ class LineReader {
     RegionRecipe result;
     static_cast<BandRecipe&>(result) = band(json, name);
     const auto bands = json.find("bands");
-    if (bands == json.end()) return result;
     const std::size_t finer = std::max<std::size_t>(1, names_.bands.size()) - 1;
-    if (!bands->is_object() || bands->size() != finer) {
-      fail("bands", concat("an object of ", finer, " bands, all but the first"), bands->dump());
+    if (finer == 0 && bands == json.end()) return result;
+    if (bands == json.end() || !bands->is_object() || bands->size() != finer) {
+      fail("bands", concat("an object of ", finer, " bands, all but the first"),
+           bands == json.end() ? "none" : bands->dump());
     }
     for (std::size_t b = 1; b <= finer; ++b) {
       const std::string& own = names_.bands[b];

@@ -20,8 +20,9 @@ void move(const Casting& casting, Recipe& recipe, std::size_t region, double sha
   const PlanePoint at = (1 - share) * anchors[region % anchors.size()] +
                         share * anchors[(region + 1) % anchors.size()];
   recipe.regions[region].position = at;
-  recipe.regions[region].weights = weights_at(anchors, recipe.target, casting.sampling.sources, at,
-                                              casting.normalization, casting.sampling.max_sources);
+  recipe.regions[region].weights =
+      weights_at(anchors, recipe.target, sources_of(casting.sampling, 0), at, casting.normalization,
+                 casting.sampling.max_sources);
 }
 
 /// The median of some repetitions, in milliseconds.

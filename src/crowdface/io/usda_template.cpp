@@ -150,6 +150,9 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
   if (topology.face_count() == 0) throw InvalidInput("USD: expected a mesh with faces");
   add_mesh(topology, uvs, options);
   UsdaNames names, point_names;
+  for (const std::string& material : materials_) {  // subsets lie beside the shapes
+    if (!material.empty()) names.add(concat(material, "_faces"));
+  }
   for (const std::string& point : options.points) points_.push_back(point_names.add(point));
   for (const GlbTarget& target : options.targets) {
     shapes_.push_back(names.add(target.name));

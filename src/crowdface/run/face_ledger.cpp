@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/face_ledger.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/result_versions.h"
@@ -19,6 +21,9 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   hasher.add(kFaceFilesVersion).add(kPrepareVersion).add(job.settings);
   hasher.add(config.output.meshes.size());
   for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
+  if (std::ranges::count(config.output.meshes, MeshFormat::kUsd) > 0) {
+    hasher.add(static_cast<int>(config.output.subdivision));
+  }
   if (!job.inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(job.inputs.shapes_digest);
   if (!job.inputs.points.empty()) hasher.add(kPointsVersion).add(job.inputs.points_digest);
   if (!job.inputs.levels.empty()) {

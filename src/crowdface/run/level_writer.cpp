@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/level_writer.h"
 
-#include <algorithm>
-
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/glb_form.h"
@@ -48,11 +46,11 @@ LevelWriter::LevelWriter(const Config& config, const Inputs& inputs, std::size_t
 EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
                                 bool ply_normals) const {
   const std::string id = concat(face.id, "_LOD", name.level);
-  Positions positions = level_.of(face.positions);
-  const Positions normals = level_.of(face.normals);
+  const Positions positions = level_.of(face.positions);
   if (name.format == MeshFormat::kPly) {
-    return ply_->encode(positions, ply_normals ? normals : Positions(), id);
+    return ply_->encode(positions, ply_normals ? level_.of(face.normals) : Positions(), id);
   }
+  const Positions normals = level_.of(face.normals);
   if (name.format == MeshFormat::kGlb || name.format == MeshFormat::kUsd) {
     std::vector<Displacements> moves;
     for (const Displacements& shape : face.moves) moves.push_back(level_.of(shape));
@@ -67,12 +65,6 @@ EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
     head += concat("mtllib ", library, '\n');
   }
   head += concat("o ", id, '\n');
-  if (!name.shape.empty()) {
-    const std::vector<Shape>& shapes = inputs_.shapes.shapes;
-    const auto shape = std::find_if(shapes.begin(), shapes.end(),
-                                    [&](const Shape& known) { return known.name == name.shape; });
-    level_.of(face.moves[static_cast<std::size_t>(shape - shapes.begin())]).add_to(positions);
-  }
   return obj_->encode(head, positions, normals, concat(id, ", ", name.shape));
 }
 

@@ -139,20 +139,34 @@ bool MeshWriters::needs_normals(Index target) const {
          (has(MeshFormat::kObj) && !inputs_.levels.empty());
 }
 
-EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) const {
-  const auto& [id, target, positions, normals, moves, textures, texture_names, points] = face;
-  if (mesh.level > 0) {
-    return levels_[mesh.level - 1].encode(mesh, face, had_normals(target));
+Positions MeshWriters::in_shape(const WholeFace& face, const std::string& name) const {
+  const std::vector<Shape>& shapes = inputs_.shapes.shapes;
+  const auto shape = std::find_if(shapes.begin(), shapes.end(),
+                                  [&](const Shape& known) { return known.name == name; });
+  Positions moved = face.positions;
+  face.moves[static_cast<std::size_t>(shape - shapes.begin())].add_to(moved);
+  return moved;
+}
+
+EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& face) const {
+  const LevelWriter& level = levels_[mesh.level - 1];
+  if (mesh.format != MeshFormat::kObj || mesh.shape.empty()) {
+    return level.encode(mesh, face, had_normals(face.target));
   }
+  const Positions moved = in_shape(face, mesh.shape);
+  const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
+  const WholeFace acting{face.id,       face.target,        moved,      normals, face.moves,
+                         face.textures, face.texture_names, face.points};
+  return level.encode(mesh, acting, had_normals(face.target));
+}
+
+EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) const {
+  if (mesh.level > 0) return encode_level(mesh, face);
+  const auto& [id, target, positions, normals, moves, textures, texture_names, points] = face;
   switch (mesh.format) {
     case MeshFormat::kObj: {
       if (mesh.shape.empty()) return obj_.at(target).encode(positions, id);
-      const std::vector<Shape>& shapes = inputs_.shapes.shapes;
-      const auto shape = std::find_if(shapes.begin(), shapes.end(),
-                                      [&](const Shape& known) { return known.name == mesh.shape; });
-      Positions moved = positions;
-      moves[static_cast<std::size_t>(shape - shapes.begin())].add_to(moved);
-      return obj_.at(target).encode(moved, concat(id, ", ", mesh.shape));
+      return obj_.at(target).encode(in_shape(face, mesh.shape), concat(id, ", ", mesh.shape));
     }
     case MeshFormat::kPly:
       return ply_->encode(positions, had_normals(target) ? normals : Positions(), id);

@@ -64,6 +64,8 @@ class MeshWriters {
   void add_obj_templates(const std::vector<Index>& targets);
   bool has(MeshFormat format) const;
   EncodedFile encode(const MeshName& mesh, const WholeFace& face) const;
+  EncodedFile encode_level(const MeshName& mesh, const WholeFace& face) const;
+  Positions in_shape(const WholeFace& face, const std::string& name) const;
   bool needs_normals(Index target) const;
   bool had_normals(Index target) const;
 
