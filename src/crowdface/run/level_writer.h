@@ -22,10 +22,9 @@ namespace crowdface {
 struct WholeFace {
   const std::string& id;
   Index target;
-  const Positions& positions;  ///< #V by 3, in an OBJ file of a shape those of the shape
-  const Positions&
-      normals;  ///< #V by 3, or none where no format needs them; a level has the whole mesh's
-  std::span<const Displacements> moves;        ///< #shapes, or none
+  const Positions& positions;            ///< #V by 3, in an OBJ file of a shape those of the shape
+  const Positions& normals;              ///< #V by 3, or none where no format needs them
+  std::span<const Displacements> moves;  ///< #shapes, or none
   std::span<const std::string_view> textures;  ///< files of its own pictures, or none …
   std::span<const std::string> texture_names;  ///< … and where they lie, from its mesh
   const Positions& points;                     ///< that follow it, or none
