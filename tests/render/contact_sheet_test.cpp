@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/contact_sheet.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -72,6 +73,27 @@ TEST(ContactSheet, PicturesStandInTheirCellsAndNowhereElse) {
     EXPECT_TRUE(
         std::equal(kRed.begin(), kRed.end(), sheet.at(layout.left(i) + 59, layout.top(i) + 49)));
   }
+}
+
+// Under the pages of families, which are flat, the index had a gap as high as a page of faces.
+TEST(SheetInColumns, LeavesNoGapUnderFlatPictures) {
+  std::vector<SheetCell> cells = red_cells(1, 60, 200);
+  for (const SheetCell& flat : red_cells(5, 60, 30)) cells.push_back(flat);
+  const SheetOptions options = {.columns = 2, .title = "index", .note = "6 sheets"};
+  const SheetLayout layout = layout_sheet(CellSize{60, 200, 1}, 2, options);
+  const Rgb8Image sheet = sheet_in_columns(cells, options);
+  EXPECT_EQ(sheet.width, layout.width());
+  const int below = layout.label_height + layout.gap;
+  EXPECT_EQ(sheet.height, layout.header_height + std::max(200 + below, 5 * (30 + below)) -
+                              layout.gap + layout.margin)
+      << "the five flat ones stand beside the tall one";
+  const auto is_red = [&](int x, int y) { return sheet.at(x, y)[0] == kRed[0]; };
+  for (int i = 0; i < 5; ++i) {
+    const int top = layout.header_height + i * (30 + below);
+    EXPECT_TRUE(is_red(layout.left(1), top) && is_red(layout.left(1) + 59, top + 29)) << i;
+    EXPECT_FALSE(is_red(layout.left(1), top + 30)) << i;
+  }
+  EXPECT_TRUE(is_red(layout.left(0), layout.header_height + 199));
 }
 
 TEST(ContactSheet, ALabelChangesOnlyItsStrip) {

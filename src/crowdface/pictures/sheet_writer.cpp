@@ -57,19 +57,13 @@ void SheetWriter::add(const std::string& stem, const std::string& caption, const
 }
 
 void SheetWriter::write_index(const std::string& number) {
-  int width = 0, height = 0;
-  for (const SheetCell& cell : index_) {
-    width = std::max(width, cell.image.width);
-    height = std::max(height, cell.image.height);
-  }
-  for (SheetCell& cell : index_) cell.image = padded(cell.image, width, height);
   const auto columns = static_cast<int>(
       std::clamp(std::ceil(std::sqrt(static_cast<double>(index_.size()))), 1.0, 8.0));
   const std::size_t before = volumes_ * kPagesAVolume;
   const std::string note = number.empty()
                                ? concat(index_.size(), " sheets")
                                : concat("sheets ", before + 1, " to ", before + index_.size());
-  const Rgb8Image page = contact_sheet(
+  const Rgb8Image page = sheet_in_columns(
       index_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
   const std::string png = to_png(page);
   write(concat("index", number, ".png"), png);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
@@ -27,17 +29,17 @@ int lines_of(const std::string& label) {
 }
 
 /// One line of a label below the other, the first brightest.
-void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& layout, int cell) {
+void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& layout, int left,
+                int top) {
   const int line_height = layout.label_height / layout.label_lines;
   LabelStyle style;
   style.background = kBackground;
   style.text_px = std::max(9, line_height * 13 / 20);
-  int top = layout.top(cell) + layout.cell_height;
   for (std::size_t begin = 0; begin <= label.size(); top += line_height) {
     const std::size_t end = std::min(label.find('\n', begin), label.size());
     sheet.paste(
-        label_strip(label.substr(begin, end - begin), layout.cell_width, line_height, style),
-        layout.left(cell), top);
+        label_strip(label.substr(begin, end - begin), layout.cell_width, line_height, style), left,
+        top);
     style.text = {160, 161, 164};
     begin = end + 1;
   }
@@ -146,9 +148,39 @@ Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& op
   // Each cell is written by one task only.
   parallel_for_each(static_cast<int>(cells.size()), [&](int cell) {
     const SheetCell& content = cells[static_cast<std::size_t>(cell)];
-    sheet.paste(content.image, layout.left(cell), layout.top(cell));
-    draw_label(content.label, sheet, layout, cell);
+    const int left = layout.left(cell), top = layout.top(cell);
+    sheet.paste(content.image, left, top);
+    draw_label(content.label, sheet, layout, left, top + layout.cell_height);
   });
+  return sheet;
+}
+
+Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions& options) {
+  require(!cells.empty() && options.columns >= 1, "sheet in columns: ", cells.size(),
+          " pictures in ", options.columns, " columns");
+  CellSize size;
+  for (const SheetCell& cell : cells) {
+    size = {std::max(size.width, cell.image.width), std::max(size.height, cell.image.height),
+            std::max(size.label_lines, lines_of(cell.label))};
+  }
+  SheetOptions one_row = options;
+  one_row.rows = 1;
+  const SheetLayout layout = place_cells(size, one_row);
+  std::vector<int> ends(static_cast<std::size_t>(options.columns), layout.header_height);
+  std::vector<std::pair<int, int>> places;  // column, top
+  for (const SheetCell& cell : cells) {
+    const auto end = std::min_element(ends.begin(), ends.end());
+    places.emplace_back(static_cast<int>(end - ends.begin()), *end);
+    *end += cell.image.height + layout.label_height + layout.gap;
+  }
+  const int bottom = *std::max_element(ends.begin(), ends.end()) - layout.gap + layout.margin;
+  Rgb8Image sheet(layout.width(), bottom, kBackground);
+  if (!options.title.empty() || !options.note.empty()) draw_header(sheet, layout, options);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const int left = layout.left(places[i].first), top = places[i].second;
+    sheet.paste(cells[i].image, left, top);
+    draw_label(cells[i].label, sheet, layout, left, top + cells[i].image.height);
+  }
   return sheet;
 }
 

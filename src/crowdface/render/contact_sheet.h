@@ -67,6 +67,10 @@ int most_rows(const CellSize& cell, const SheetOptions& options);
 /// \throws InvalidInput as layout_sheet, MissingInput without the font.
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
+/// The same for pictures of different heights: each stands below those before it in the column that
+/// ends first, so that no cell is left half empty. The rows of the options, and their legend, are not used.
+Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions& options);
+
 /// A picture made smaller, each pixel the mean of those it covers (in linear light).
 /// \param width_px  1 … image.width; the height follows.
 Rgb8Image shrunk(const Rgb8Image& image, int width_px);
