@@ -7,7 +7,7 @@ namespace crowdface {
 // anew. What an older version made then counts as not done.
 
 inline constexpr int kBlendVersion =
-    3;  ///< positions of a face's skin; in `settings` of every recipe
+    4;  ///< positions of a face's skin; in `settings` of every recipe
 inline constexpr int kPartsVersion =
     4;  ///< where parts come to lie; in `settings` of heads with parts
 /// Entries of the cache, and so the faces made of them.
@@ -18,6 +18,6 @@ inline constexpr int kShapesVersion = 1;   ///< shapes carried to a face of the 
 inline constexpr int kPointsVersion = 1;   ///< points that follow a face of the same positions
 inline constexpr int kLevelsVersion = 1;   ///< levels of detail of the same heads
 inline constexpr int kTextureVersion = 1;  ///< textures of faces' own
-inline constexpr int kSheetVersion = 7;    ///< contact sheets and the gallery, of the same pictures
+inline constexpr int kSheetVersion = 8;    ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

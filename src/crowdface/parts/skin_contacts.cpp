@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "crowdface/core/fixed_order.h"
@@ -116,7 +117,9 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
   contact.begin = places_.size();
   for (ContactPlace& place : places_among(group, kSpacing * extent)) {
     cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, place);
-    if (!place.low.empty() && !place.high.empty()) places_.push_back(std::move(place));
+    if (place.low.empty() || place.high.empty()) continue;
+    clearances_.emplace_back(place, adjacency);
+    places_.push_back(std::move(place));
   }
   contact.end = places_.size();
   if (contact.begin == contact.end) return;
@@ -183,8 +186,8 @@ void SkinContacts::find_rises(Contact& contact) const {
 
 std::vector<double> SkinContacts::gaps(const Positions& positions) const {
   std::vector<double> gaps;
-  gaps.reserve(places_.size());
-  for (const ContactPlace& place : places_) gaps.push_back(place.gap(positions));
+  gaps.reserve(clearances_.size());
+  for (const Clearance& clearance : clearances_) gaps.push_back(clearance.gap(positions));
   return gaps;
 }
 
@@ -203,32 +206,28 @@ double SkinContacts::wider(const Positions& positions) const {
 /// way, so it is found in steps.
 std::vector<double> SkinContacts::solve(const Contact& contact, std::span<const Range> ranges,
                                         const Positions& positions) const {
-  std::vector<double> before;  // heights of all points of all profiles
-  for (std::size_t p = contact.begin; p < contact.end; ++p) {
-    for (const auto* profile : {&places_[p].low, &places_[p].high}) {
-      for (const EdgePoint& point : *profile) {
-        before.push_back(height_of(point, places_[p].up, positions));
-      }
-    }
-  }
   const std::size_t count = contact.end - contact.begin;
+  std::vector<std::vector<double>> heights(count);
+  std::vector<std::vector<Clearance::Opposite>> opposites(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    heights[i] = clearances_[contact.begin + i].heights(positions);
+    opposites[i] = clearances_[contact.begin + i].opposites(positions);
+  }
   std::vector<double> asked;
   for (int step = 0; step < kSteps; ++step) {
     std::vector<double> missing(count);
     bool any = false;
     std::size_t point = 0;
-    const auto extreme = [&](std::size_t points, double sign) {
-      double most = -1e300;
-      for (const std::size_t end = point + points; point < end; ++point) {
-        const double rise = asked.empty() ? 0 : fixed_dot(contact.rises[point], asked);
-        most = std::max(most, sign * (before[point] + rise));
-      }
-      return sign * most;
-    };
     for (std::size_t i = 0; i < count; ++i) {
-      const ContactPlace& place = places_[contact.begin + i];
-      const double highest = extreme(place.low.size(), 1);
-      const double gap = extreme(place.high.size(), -1) - highest;
+      std::vector<double> now = heights[i];
+      for (double& height : now) {
+        if (!asked.empty()) height += fixed_dot(contact.rises[point], asked);
+        ++point;
+      }
+      double gap = std::numeric_limits<double>::max();
+      for (const Clearance::Opposite& opposite : opposites[i]) {
+        gap = std::min(gap, opposite.gap(now));
+      }
       const Range& range = ranges[contact.begin + i];
       missing[i] = std::clamp(gap, range.least, range.most) - gap;
       any = any || std::abs(missing[i]) > tolerance_;

@@ -7,6 +7,7 @@
 
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
+#include "crowdface/parts/clearance.h"
 #include "crowdface/parts/contact_place.h"
 
 namespace crowdface {
@@ -75,6 +76,7 @@ class SkinContacts {
 
   double tolerance_ = 0;
   std::vector<ContactPlace> places_;
+  std::vector<Clearance> clearances_;  ///< of all places
   std::vector<Contact> contacts_;
   std::vector<std::vector<double>> head_gaps_;  ///< #heads by #places
 };

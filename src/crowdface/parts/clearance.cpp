@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b) {
+  const auto& around = adjacency.of(a);
+  return a == b || std::find(around.begin(), around.end(), b) != around.end();
+}
+
+/// A cut that passes one edge and then the other crosses one face between them: the edges share an end
+/// and the others are neighbours, or they are opposite sides of a quad.
+bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoint& q) {
+  const auto joined = [&](std::uint32_t qa, std::uint32_t qb) {
+    return are_neighbours(adjacency, p.a, qa) && are_neighbours(adjacency, p.b, qb);
+  };
+  const bool share_an_end = p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b;
+  return share_an_end || joined(q.a, q.b) || joined(q.b, q.a);
+}
+
+}  // namespace
+
+Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
+    : points_(place.low), up_(place.up), deep_(cross3(place.along, place.up)) {
+  points_.insert(points_.end(), place.high.begin(), place.high.end());
+  const auto add_pieces = [&](std::size_t begin, std::size_t end, std::vector<Piece>& pieces) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t j = i; j < end; ++j) {
+        if (i != j && !share_a_face(adjacency, points_[i], points_[j])) continue;
+        pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+      }
+    }
+  };
+  add_pieces(0, place.low.size(), low_);
+  add_pieces(place.low.size(), points_.size(), high_);
+}
+
+double Clearance::Opposite::gap(std::span<const double> heights) const {
+  return (1 - high_share) * heights[high[0]] + high_share * heights[high[1]] -
+         (1 - low_share) * heights[low[0]] - low_share * heights[low[1]];
+}
+
+std::vector<double> Clearance::heights(const Positions& positions) const {
+  std::vector<double> heights;
+  heights.reserve(points_.size());
+  for (const EdgePoint& point : points_) heights.push_back(height_of(point, up_, positions));
+  return heights;
+}
+
+std::vector<Clearance::Opposite> Clearance::opposites(const Positions& positions) const {
+  std::vector<double> depths;
+  for (const EdgePoint& point : points_) depths.push_back(height_of(point, deep_, positions));
+  const auto share_at = [&](const Piece& piece, double depth) {
+    const double span = depths[piece[1]] - depths[piece[0]];
+    return span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
+  };
+  std::vector<Opposite> opposites;
+  Opposite nearest{};
+  double least = std::numeric_limits<double>::max();
+  for (const Piece& low : low_) {
+    const auto [low_from, low_to] = std::minmax(depths[low[0]], depths[low[1]]);
+    for (const Piece& high : high_) {
+      const auto [high_from, high_to] = std::minmax(depths[high[0]], depths[high[1]]);
+      const double from = std::max(low_from, high_from), to = std::min(low_to, high_to);
+      const auto at = [&](double depth) {
+        return Opposite{low, high, share_at(low, depth), share_at(high, depth)};
+      };
+      if (from <= to) {
+        opposites.push_back(at(from));
+        if (from < to) opposites.push_back(at(to));
+      } else if (from - to < least) {
+        least = from - to;
+        nearest = at(from);
+      }
+    }
+  }
+  if (opposites.empty()) opposites.push_back(nearest);
+  return opposites;
+}
+
+double Clearance::gap(const Positions& positions) const {
+  const std::vector<double> heights = this->heights(positions);
+  double least = std::numeric_limits<double>::max();
+  for (const Opposite& opposite : opposites(positions)) {
+    least = std::min(least, opposite.gap(heights));
+  }
+  return least;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/parts/contact_place.h"
+
+namespace crowdface {
+
+/// How far apart the two profiles of a place are where one is above the other. Of an upper lip whose inner
+/// rim hangs down behind the lower one the lowest point tells nothing: the slit in front of it is seen.
+class Clearance {
+ public:
+  Clearance(const ContactPlace& place, const Adjacency& adjacency);
+
+  /// A point of the low profile and one of the high profile as deep as it, each between two points.
+  struct Opposite {
+    std::array<std::uint32_t, 2> low, high;  ///< low points first, high ones after them
+    double low_share, high_share;            ///< of the second point
+
+    /// \param heights  of all points
+    double gap(std::span<const double> heights) const;
+  };
+  /// Where the profiles' pieces begin or end above each other; at one of them the gap is smallest, since
+  /// pieces are straight. At least one: where nothing is above anything, the points nearest in depth.
+  std::vector<Opposite> opposites(const Positions& positions) const;
+  /// Of all points, low ones first.
+  std::vector<double> heights(const Positions& positions) const;
+  /// The smallest; negative where the profiles cross.
+  double gap(const Positions& positions) const;
+
+ private:
+  using Piece = std::array<std::uint32_t, 2>;  ///< two points next to each other
+
+  std::vector<EdgePoint> points_;  ///< low ones first
+  std::vector<Piece> low_, high_;
+  Eigen::Vector3d up_, deep_;
+};
+
+}  // namespace crowdface
