@@ -11,6 +11,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "crowdface/io/image.h"
 #include "crowdface/mesh/normals.h"
 
 #include "support/binary_reader.h"
@@ -121,6 +122,43 @@ TEST(GlbTemplate, HasOnePrimitiveAMaterial) {
   EXPECT_EQ(skin.alphaMode, "OPAQUE");
   EXPECT_EQ(lashes.name, "lashes");
   EXPECT_EQ(lashes.alphaMode, "BLEND");
+}
+
+// Eyeballs of one material were blank.
+TEST(GlbTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
+  SmallMesh mesh;
+  mesh.options.materials[1] = {"eye", {0.7F, 0.7F, 0.6F, 1}, std::nullopt, true};
+  const std::string png = encode_png(1, 1, 3, std::vector<std::uint8_t>{200, 100, 50});
+  mesh.options.overlay.emplace(GlbOverlay{png, {}});
+  for (std::uint16_t v = 0; v < 8; ++v) {
+    mesh.options.overlay->places.push_back({v, static_cast<std::uint16_t>(65535 - v)});
+  }
+  const Positions positions = testing::random_positions(8, 1);
+  const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
+  const tinygltf::Model model =
+      load(form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
+  const auto& primitives = model.meshes[0].primitives;
+  EXPECT_FALSE(primitives[0].attributes.contains("TEXCOORD_1"));
+  const int places = primitives[1].attributes.at("TEXCOORD_1");
+  EXPECT_TRUE(model.accessors[static_cast<std::size_t>(places)].normalized);
+  const auto found = numbers<std::uint16_t>(model, places);
+  const auto vertices = attribute(model, "_VERTEX_ID");
+  ASSERT_EQ(found.size(), 2 * vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    EXPECT_EQ(found[2 * i], vertices[i]);
+    EXPECT_EQ(found[2 * i + 1], 65535 - vertices[i]);
+  }
+  const auto& eye = model.materials[static_cast<std::size_t>(primitives[1].material)];
+  EXPECT_EQ(eye.pbrMetallicRoughness.baseColorTexture.texCoord, 1);
+  EXPECT_EQ(eye.pbrMetallicRoughness.baseColorTexture.index, 0);
+  EXPECT_EQ(eye.pbrMetallicRoughness.baseColorFactor, (std::vector<double>{1, 1, 1, 1}));
+  ASSERT_EQ(model.images.size(), 1U);
+  const auto& view = model.bufferViews[static_cast<std::size_t>(model.images[0].bufferView)];
+  const auto& bytes = model.buffers[0].data;
+  EXPECT_EQ(
+      std::string(bytes.begin() + static_cast<std::ptrdiff_t>(view.byteOffset),
+                  bytes.begin() + static_cast<std::ptrdiff_t>(view.byteOffset + view.byteLength)),
+      png);
 }
 
 TEST(GlbTemplate, TellsTheBoundsOfWhatItHolds) {

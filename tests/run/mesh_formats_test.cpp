@@ -127,6 +127,30 @@ TEST(MeshFormats, GlbCornersHaveTheTextureCoordinatesOfTheObj) {
   }
 }
 
+// Eyeballs of one material were blank where no texture showed their irises.
+TEST(MeshFormats, GlbEyesHaveAnIrisUnlessAColourIsGiven) {
+  SmallCrowd crowd;
+  crowd.bowl.materials = true;
+  crowd.count = 1;
+  const SmallCrowdFolder folder(crowd);
+  const auto textured = [&](const std::string& out, std::vector<std::string> set) {
+    set.emplace_back("output.meshes=[glb]");
+    run(folder, out, std::move(set));
+    const auto scene = testing::read_glb(folder / out / "meshes/mob_0001.glb").scene;
+    std::vector<std::string> names;
+    for (const auto& material : scene.at("materials")) {
+      const auto& look = material.at("pbrMetallicRoughness");
+      if (!look.contains("baseColorTexture")) continue;
+      EXPECT_EQ(look.at("baseColorTexture").at("texCoord"), 1);
+      names.push_back(material.at("name"));
+    }
+    EXPECT_EQ(scene.contains("images"), !names.empty());
+    return names;
+  };
+  EXPECT_EQ(textured("iris", {}), std::vector<std::string>{"eye"});
+  EXPECT_EQ(textured("green", {"output.surfaces={eye: \"#20a040\"}"}), std::vector<std::string>{});
+}
+
 TEST(MeshFormats, PointsHaveTheirTopologyOnceBeside) {
   const SmallCrowdFolder folder(SmallCrowd{});
   run(folder, "out", {"output.meshes=[points]"});

@@ -17,6 +17,13 @@ struct GlbMaterial {
   std::string name;                            ///< may be empty
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
   std::optional<std::size_t> image = {};  ///< its colours, times `colour`: one of the file's images
+  bool overlay = false;                   ///< its colours are the overlay's, opaque
+};
+
+/// A picture that all files have, such as an iris, and where on it each vertex lies.
+struct GlbOverlay {
+  std::string png;
+  std::vector<std::array<std::uint16_t, 2>> places;  ///< #V; 65535 is the right or lower edge
 };
 
 /// A morph target that every file has: its name, and the vertices that it moves, ascending.
@@ -36,6 +43,7 @@ struct GlbOptions {
   std::vector<std::uint32_t> vertex_ids;  ///< #V, what `_VERTEX_ID` says; empty: 0, 1, 2, …
   std::size_t images = 0;                 ///< that each file brings along …
   std::string image_type = "image/png";   ///< … and of which format
+  std::optional<GlbOverlay> overlay = {};
 };
 
 }  // namespace crowdface

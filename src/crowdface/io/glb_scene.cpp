@@ -30,15 +30,19 @@ std::array<double, 4> rotation_to_gltf(Axis up, Axis front) {
 
 }  // namespace
 
-Json material_json(const GlbMaterial& material) {
+Json material_json(const GlbMaterial& material, std::size_t overlay) {
   Json json = Json::object();
   if (!material.name.empty()) json["name"] = material.name;
   Json colour = Json::array();
-  for (const float part : material.colour) colour.push_back(tidy(static_cast<double>(part)));
+  for (const float part : material.colour) {
+    colour.push_back(material.overlay ? 1.0 : tidy(static_cast<double>(part)));
+  }
   json["pbrMetallicRoughness"] = {
       {"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.6}};
   if (material.image) {
     json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *material.image}};
+  } else if (material.overlay) {
+    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", overlay}, {"texCoord", 1}};
   }
   if (material.colour[3] < 1) json["alphaMode"] = "BLEND";
   json["doubleSided"] = true;  // heads are open at the neck
@@ -67,6 +71,12 @@ std::size_t GlbBuffer::add_view(std::size_t size, int target) {
   scene_["bufferViews"].push_back(std::move(view));
   size_ += size;
   return scene_["bufferViews"].size() - 1;
+}
+
+std::size_t GlbBuffer::pad() {
+  const std::size_t missing = (4 - size_ % 4) % 4;
+  size_ += missing;
+  return missing;
 }
 
 std::size_t GlbBuffer::add_accessor(int component, const char* type, std::size_t count,

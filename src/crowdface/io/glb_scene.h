@@ -11,11 +11,12 @@ namespace crowdface {
 
 /// Codes of the glTF 2.0 specification.
 namespace gltf {
-inline constexpr int kFloat = 5126, kUnsignedInt = 5125;
+inline constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123;
 inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 }  // namespace gltf
 
-nlohmann::ordered_json material_json(const GlbMaterial& material);
+/// \param overlay  which of the file's images that is.
+nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay);
 /// The node of a face, without a name: unit and axes.
 nlohmann::ordered_json node_json(const GlbOptions& options);
 
@@ -25,6 +26,8 @@ class GlbBuffer {
   explicit GlbBuffer(nlohmann::ordered_json& scene);
   /// \return which view it is.
   std::size_t add_view(std::size_t size, int target = 0);
+  /// Four divides where the next view begins. \return how many bytes that takes.
+  std::size_t pad();
   /// \param offset  bytes from where the last view begins.
   /// \return which accessor it is.
   std::size_t add_accessor(int component, const char* type, std::size_t count,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -69,6 +70,14 @@ std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32
   return bytes;
 }
 
+std::string places_on_overlay(const SplitVertices& split, const GlbOverlay& overlay) {
+  std::string bytes;
+  for (const std::uint32_t vertex : split.vertices) {
+    for (const std::uint16_t place : overlay.places[vertex]) append_number(bytes, place);
+  }
+  return bytes;
+}
+
 Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_uvs) {
   Json attributes = Json::object();
   buffer.add_view(vertices * kVectorSize, kArrayBuffer);
@@ -85,8 +94,10 @@ Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_uvs) {
 }
 
 /// One primitive a material; materials without triangles are left out.
+/// \param overlay  the accessor of the places on it, if there is one
 void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>& groups,
-                    const Json& attributes, const GlbOptions& options) {
+                    const Json& attributes, std::optional<std::size_t> overlay,
+                    const GlbOptions& options) {
   std::size_t size = 0;
   for (const Triangles& group : groups) size += group.size() * sizeof(group[0]);
   buffer.add_view(size, kElementArrayBuffer);
@@ -99,7 +110,8 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
         {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", 3 * groups[g].size(), offset)}};
     if (!options.materials.empty()) {
       primitive["material"] = materials.size();
-      materials.push_back(material_json(options.materials[g]));
+      materials.push_back(material_json(options.materials[g], options.images));
+      if (overlay && options.materials[g].overlay) primitive["attributes"]["TEXCOORD_1"] = *overlay;
     }
     primitives.push_back(std::move(primitive));
     offset += groups[g].size() * sizeof(groups[g][0]);
@@ -109,16 +121,17 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
 }
 
 /// Images come last in the buffer; how long they are, and where they lie, is filled in for each file.
-void add_images(Json& scene, const GlbOptions& options) {
-  if (options.images == 0) return;
-  scene["images"] = Json::array();
-  scene["textures"] = Json::array();
+/// \param overlay  the view that holds it, if there is one
+void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOptions& options) {
+  const auto add = [&](std::size_t view, const std::string& type) {
+    scene["textures"].push_back(Json::object({{"source", scene["images"].size()}}));
+    scene["images"].push_back({{"bufferView", view}, {"mimeType", type}});
+  };
   for (std::size_t i = 0; i < options.images; ++i) {
-    scene["images"].push_back(
-        {{"bufferView", scene["bufferViews"].size()}, {"mimeType", options.image_type}});
-    scene["textures"].push_back(Json::object({{"source", i}}));
+    add(scene["bufferViews"].size(), options.image_type);
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 0}});
   }
+  if (overlay) add(*overlay, "image/png");
 }
 
 /// \param size  of the buffer without them. \return its size with them.
@@ -214,7 +227,15 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   }
   GlbBuffer buffer(scene);
   const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty());
-  add_primitives(scene, buffer, groups, attributes, options);
+  std::optional<std::size_t> places, picture;
+  if (options.overlay) {
+    require(options.overlay->places.size() == static_cast<std::size_t>(vertices_),
+            "GlbTemplate: a place of each vertex on the overlay");
+    buffer.add_view(split.vertices.size() * sizeof(options.overlay->places[0]), kArrayBuffer);
+    places = buffer.add_accessor(kUnsignedShort, "VEC2", split.vertices.size());
+    scene["accessors"][*places]["normalized"] = true;
+  }
+  add_primitives(scene, buffer, groups, attributes, places, options);
   std::string indices;
   std::vector<std::size_t> views;
   for (const GlbTarget& target : options.targets) {
@@ -222,6 +243,11 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     targets_.push_back({target_rows(target, vertices_, split_, indices), 0});
     if (target.vertices.empty()) continue;
     views.push_back(buffer.add_view(indices.size() - before));
+  }
+  if (options.overlay) {
+    picture = buffer.add_view(options.overlay->png.size());
+    indices += options.overlay->png;
+    indices.append(buffer.pad(), '\0');
   }
   Json accessors = Json::array(), names = Json::array(), weights = Json::array();
   for (std::size_t t = 0, view = 0; t < targets_.size(); ++t) {
@@ -243,10 +269,11 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     mesh["extras"] = {{"targetNames", std::move(names)}};
   }
   buffer.finish();
-  add_images(scene, options);
+  add_images(scene, picture, options);
   json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 
   shared_ = texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
+  if (options.overlay) shared_ += places_on_overlay(split, *options.overlay);
   for (const Triangles& group : groups) {
     shared_.append(reinterpret_cast<const char*>(group.data()), group.size() * sizeof(group[0]));
   }

@@ -1,42 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/glb_form.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <optional>
+#include <tuple>
 #include <utility>
 
+#include "crowdface/io/plain_png.h"
+#include "crowdface/pictures/surfaces.h"
+#include "crowdface/render/eyeballs.h"
+#include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/shading.h"
-#include "crowdface/render/surface_kind.h"
+#include "crowdface/render/vertex_colours.h"
 
 namespace crowdface {
 namespace {
 
 /// The colour of the renders. What they do not draw (lashes, shells over the eye) cannot be seen
 /// here either: without its texture it would hide the eye.
-GlbMaterial glb_material(const std::string& name) {
-  const SurfaceKind kind = surface_kind_of_material(name);
-  const Light colour = albedo_of(kind);
+GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
+                         const std::optional<Eigen::Array3f>& paint) {
+  const Light colour = paint ? from_srgb(*paint) : albedo_of(kind);
   const float opacity = kind == SurfaceKind::kHidden ? 0.0F : 1.0F;
   return {name, {colour(0), colour(1), colour(2), opacity}};
 }
 
-/// A material for each that faces have together with a picture of their own textures.
-void add_textured_materials(const Config& config, const Inputs& inputs, GlbOptions& options) {
-  options.images = inputs.textures.names.size();
-  if (config.textures.formats.front() == TextureFormat::kJpeg) options.image_type = "image/jpeg";
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+/// An eyeball as seen from where it looks, from edge to edge.
+std::string iris_png() {
+  constexpr int kSide = 64;
+  const PlacedEye eye{Eigen::Vector3f::Zero(), 1};
+  const Eigen::Vector3f gaze = Eigen::Vector3f::UnitZ();
+  const auto at = [](int pixel) { return (2 * static_cast<float>(pixel) + 1) / kSide - 1; };
+  Rgb8Image picture(kSide, kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const auto colour = to_srgb8(eye_albedo(eye, gaze, {at(x), at(y), 0.5F}));
+      std::copy(colour.begin(), colour.end(), picture.at(x, y));
+    }
+  }
+  return plain_png(kSide, kSide, picture.pixels);
+}
+
+/// Irises where the renders paint them. They lie on the eyes of the mean head, which parts follow.
+std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& inputs,
+                                       const Surfaces& surfaces) {
+  const auto eyes =
+      eye_coordinates(inputs.faces.topology, surfaces, mean_head(inputs.faces), config.faces.front);
+  if (!eyes) return std::nullopt;
+  GlbOverlay overlay{iris_png(), {}};
+  for (Index v = 0; v < eyes->rows(); ++v) {
+    std::array<std::uint16_t, 2> place{};
+    for (Index c = 0; c < 2; ++c) {
+      const float share = std::clamp(((*eyes)(v, c) + 1) / 2, 0.0F, 1.0F);
+      place[static_cast<std::size_t>(c)] = static_cast<std::uint16_t>(std::lround(65535 * share));
+    }
+    overlay.places.push_back(place);
+  }
+  return overlay;
+}
+
+/// A material for each that faces have, together with what they are and with their own textures' picture.
+void add_materials(const Inputs& inputs, const Surfaces& surfaces, GlbOptions& options) {
+  std::map<std::tuple<std::uint32_t, std::uint32_t, SurfaceKind>, std::uint32_t> known;
   for (std::size_t f = 0; f < options.face_materials.size(); ++f) {
     const std::uint32_t material = options.face_materials[f];
-    const std::uint32_t picture = inputs.textures.blended.layout.of_face[f];
-    const auto [row, is_new] =
-        known.emplace(std::pair(material, picture), static_cast<std::uint32_t>(known.size()));
+    const std::uint32_t picture =
+        options.images > 0 ? inputs.textures.blended.layout.of_face[f] : kNoIndex;
+    const SurfaceKind kind = surfaces.kinds[f];
+    const auto [row, is_new] = known.emplace(std::tuple(material, picture, kind),
+                                             static_cast<std::uint32_t>(known.size()));
     options.face_materials[f] = row->second;
     if (!is_new) continue;
-    GlbMaterial made = glb_material(inputs.materials.names[material]);
+    const auto paint = surfaces.paints.empty() ? std::nullopt : surfaces.paints[f];
+    GlbMaterial made = glb_material(inputs.materials.names[material], kind, paint);
+    made.overlay = options.overlay && kind == SurfaceKind::kEye && !paint && picture == kNoIndex;
     if (picture != kNoIndex) {
       made.colour = {1, 1, 1, made.colour[3]};
       made.image = picture;
     }
     options.materials.push_back(std::move(made));
+  }
+  const auto is_overlaid = [](const GlbMaterial& material) { return material.overlay; };
+  if (std::none_of(options.materials.begin(), options.materials.end(), is_overlaid)) {
+    options.overlay.reset();
   }
 }
 
@@ -53,12 +102,12 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs) {
     options.targets.push_back({shape.name, shape.moves.vertices});
   }
   if (inputs.textures.blend()) {
-    add_textured_materials(config, inputs, options);
-  } else {
-    for (const std::string& name : inputs.materials.names) {
-      options.materials.push_back(glb_material(name));
-    }
+    options.images = inputs.textures.names.size();
+    if (config.textures.formats.front() == TextureFormat::kJpeg) options.image_type = "image/jpeg";
   }
+  const Surfaces surfaces = surfaces_of(config, inputs);
+  options.overlay = painted_eyes(config, inputs, surfaces);
+  add_materials(inputs, surfaces, options);
   return options;
 }
 
@@ -70,6 +119,13 @@ GlbOptions glb_options(GlbOptions whole, const DetailLevel& level, const ShapeSe
   }
   for (std::size_t t = 0; t < whole.targets.size(); ++t) {
     whole.targets[t].vertices = level.of(shapes.shapes[t].moves).vertices;
+  }
+  if (whole.overlay) {
+    std::vector<std::array<std::uint16_t, 2>> places;
+    for (const std::uint32_t vertex : level.vertices) {
+      places.push_back(whole.overlay->places[vertex]);
+    }
+    whole.overlay->places = std::move(places);
   }
   whole.vertex_ids = level.vertices;
   whole.points.clear();  // those of the whole mesh are the face's
