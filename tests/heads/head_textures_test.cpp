@@ -9,12 +9,15 @@
 #include "crowdface/io/image.h"
 #include "crowdface/run/generate.h"
 
+#include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
 namespace crowdface {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using testing::expect_error;
 using ::testing::HasSubstr;
 using testing::TemporaryFolder;
@@ -148,6 +151,37 @@ TEST(HeadTextures, WarningsOfASharedMaterialFileAreToldOnce) {
   const HeadTextures textures = load(heads, 8);
   EXPECT_EQ(textures.coats[0].of_face, textures.coats[1].of_face);
   EXPECT_EQ(textures.warnings.size(), 1U);
+}
+
+// Each head has a material file of its own, as scans do. It was told for each head, and twice.
+TEST(HeadTextures, MissingOnesAreToldOnceWhicheverFilesNameThem) {
+  const TemporaryFolder folder;
+  write_png(folder, "heads/left.png", 1, {9, 9, 9});
+  for (const std::string name : {"a", "b", "c"}) {
+    std::string text = kHead;
+    folder.write("heads/" + name + ".obj", text.replace(text.find("head.mtl"), 8, name + ".mtl"));
+    folder.write("heads/" + name + ".mtl",
+                 "newmtl skin left\nmap_Kd left.png\nnewmtl right\nmap_Kd gone.png\n");
+  }
+  const auto config = folder.write(
+      "config.yaml",
+      "schema: 1\ncrowd: {name: t, count: 0}\nfaces: {directory: heads, units: cm, align: none}\n"
+      "smoothing: {max_iterations: 4, levels: exact}\nbelievability: none\n"
+      "recipes:\n  - {id: one, target: a, regions: {all: {weights: {b: 1}, iterations: 0, "
+      "extrapolation: 1}}}\n"
+      "output: {directory: out, contact_sheet: {cell: 32}, gallery: none}\n");
+  const auto told = [&] {
+    generate(config, {}, {folder / "cache", Replace::kForce, false});
+    const auto report = testing::read_json(folder / "out/report.json");
+    std::vector<std::string> told;
+    for (const auto& warning : report.at("warnings")) {
+      if (warning.get<std::string>().find("gone.png") != std::string::npos) told.push_back(warning);
+    }
+    return told;
+  };
+  EXPECT_THAT(told(), ElementsAre(AllOf(HasSubstr("missing"), HasSubstr("(a, b, c)"))));
+  std::filesystem::remove(folder / "heads/left.png");
+  EXPECT_THAT(told(), ElementsAre(HasSubstr("(a, b, c)"))) << "where no texture is there";
 }
 
 TEST(HeadTextures, PicturesOfACrowdBearThem) {

@@ -256,7 +256,10 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
     if (!asked_for) {
       for (std::string& text : leave_out_unreadable(found)) warn(inputs, std::move(text));
     }
-    if (!found.any()) return;
+    if (!found.any()) {
+      for (std::string& text : found.warnings) warn(inputs, std::move(text));
+      return;
+    }
     if (blend && found.differ()) {
       inputs.textures = load_blended_textures(inputs.faces, inputs.materials, std::move(found),
                                               config.textures.size);

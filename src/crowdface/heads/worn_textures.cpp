@@ -55,8 +55,8 @@ WornTextures worn_by(const ColourTextures& named, const std::vector<TilePlace>& 
     if (is_new && is_there(path)) {
       row->second = static_cast<std::uint32_t>(worn.files.size());
       worn.files.push_back({path, found->second});
-    } else if (is_new) {
-      missing.push_back(path);
+    } else if (is_new && !find_tiles(found->second).empty()) {
+      missing.push_back(path);  // of others whoever read the material file has told
     }
     worn.of_face[f] = row->second;
   }
@@ -120,22 +120,28 @@ HeadsTextures find_worn_textures(const FaceSet& faces, std::span<const ObjFile> 
   }
   // Heads of one folder mostly share their material files.
   std::map<std::pair<fs::path, std::vector<std::string>>, ColourTextures> known;
+  std::map<std::string, std::vector<std::string>> heads_of_warning;
   for (const ObjFile& file : files) {
+    const std::string head = file.path.stem().string();
     const auto [entry, is_new] =
         known.try_emplace({file.path.parent_path(), file.material_libraries});
     ColourTextures& named = entry->second;
     if (is_new) {
       named = find_colour_textures(file.path, file.material_libraries);
-      for (const std::string& text : named.warnings) result.warnings.push_back(text);
       if (!has_uvs) named.of_material.clear();
     }
+    for (const std::string& text : named.warnings) heads_of_warning[text].push_back(head);
     std::vector<fs::path> missing;
     result.heads.push_back(
         worn_by(named, result.tile, face_materials(file.materials, face_count), missing));
     for (const fs::path& path : missing) {
-      result.warnings.push_back(concat(file.path.string(), ": the texture ", quoted(path.string()),
-                                       " is missing; pictures show the surface without"));
+      heads_of_warning[concat("texture ", quoted(path.string()),
+                              " is missing; pictures do without")]
+          .push_back(head);
     }
+  }
+  for (const auto& [text, heads] : heads_of_warning) {
+    result.warnings.push_back(concat(text, " (", join(heads), ")"));
   }
   return result;
 }

@@ -27,7 +27,7 @@ struct WornTextures {
 struct HeadsTextures {
   std::vector<WornTextures> heads;                ///< #heads
   std::vector<std::array<std::int32_t, 2>> tile;  ///< #F, column and row of each face's UDIM tile
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;              ///< each once, with the heads it is about
 
   bool any() const;
   /// Whether two heads have different ones.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/copy_materials.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -35,10 +36,14 @@ class MaterialCopies {
     }
   }
 
-  std::vector<std::string> warnings() const {
+  /// \param told  what was warned of before, which may be of more heads
+  std::vector<std::string> warnings(const std::vector<std::string>& told) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {
-      warnings.push_back(concat(warning, " (", join(heads), ")"));
+      const std::string begin = warning + " (";
+      const auto is_this = [&](const std::string& text) { return text.starts_with(begin); };
+      if (std::any_of(told.begin(), told.end(), is_this)) continue;
+      warnings.push_back(concat(begin, join(heads), ")"));
     }
     return warnings;
   }
@@ -80,7 +85,7 @@ std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirecto
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
-  std::vector<std::string> warnings = copies.warnings();
+  std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);
   return warnings;
 }

@@ -12,7 +12,7 @@
 namespace crowdface {
 
 /// Copies material files and textures of all heads that are targets beside the meshes.
-/// \return warnings, each once with the heads it is about; also logged.
+/// \return warnings that the inputs do not have, each once with the heads it is about; also logged.
 std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirectory& directory,
                                         const std::vector<CastFace>& crowd, Ledger& ledger);
 
