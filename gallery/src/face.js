@@ -163,6 +163,8 @@ export class FacePage {
       face.group ? ['Group', face.group] : null,
       face.family ? ['Family', face.family] : null,
       face.age ? ['Age', short(face.age)] : null,
+      face.asymmetry === undefined ? null : ['Asymmetry', short(face.asymmetry)],
+      face.mirrored ? ['Mirrored', 'yes'] : null,
       face.nearest ? ['Nearest head', `${face.nearest.face}, ${short(face.nearest.face_mm)} mm`] : null,
       face.attempt > 0 ? ['Draws before it', String(face.attempt)] : null,
       face.note ? ['Noted before', face.note] : null,

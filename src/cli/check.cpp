@@ -8,6 +8,7 @@
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/find_levels.h"
+#include "crowdface/heads/head_mirror.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/run/output_check.h"
@@ -42,7 +43,8 @@ void describe(const Job& job) {
       "smoothing   up to ", inputs.max_level, " iterations, a size of ",
       format_fixed(
           size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm), 1),
-      " mm\n", "parts       ", describe_parts(job.config, inputs), "\nregions     ",
+      " mm\n", "parts       ", describe_parts(job.config, inputs), "\nsymmetry    ",
+      describe_mirror(job.config, find_mirror(job.config, inputs)), "\nregions     ",
       join(job.names.regions), "\n", levels.empty() ? "" : concat("lods        ", levels, "\n"),
       "faces       ", job.config.crowd.count, " sampled, ", job.config.recipes.size(), " by hand\n",
       "output      ", job.config.output.directory.string(), "\n"));

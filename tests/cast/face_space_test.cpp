@@ -147,6 +147,78 @@ TEST_F(FaceSpaceTest, DistancesAreThoseOfWholeMeshes) {
   }
 }
 
+/// The other side of the bowls' grid; \param next  how much of the place is the next vertex instead.
+MirrorMap mirror_of_grid(std::uint32_t side, double next) {
+  MirrorMap map;
+  for (std::uint32_t v = 0; v < (side + 1) * (side + 1); ++v) {
+    const std::uint32_t column = v % (side + 1), partner = v + side - 2 * column;
+    const std::uint32_t beside = column == side    ? partner + 1
+                                 : column == 0     ? partner - 1
+                                 : column % 2 == 0 ? partner - 1
+                                                   : partner + 1;
+    map.corners.push_back({partner, next > 0 ? beside : partner, partner});
+    map.shares.push_back({1 - next, next, 0});
+  }
+  return map;
+}
+
+TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
+  for (const double next : {0.0, 0.4}) {
+    const MirrorMap mirror = mirror_of_grid(kSide, next);
+    samples_ = with_partners(
+        choose_face_samples(faces_.topology, find_components(adjacency_), mean_, {2, 1}, 600),
+        mirror);
+    const FaceSamples traced = with_corners(samples_, mirror);
+    EXPECT_EQ(traced == samples_, next == 0);
+    trajectories_.clear();
+    for (const Head& head : faces_.heads) {
+      const NodeFields fields = filter_nodes(*filter_, nodes_, head.positions);
+      trajectories_.push_back(sample_trajectory(*filter_, nodes_, fields, traced));
+    }
+    SampledHeads heads =
+        sample_heads(faces_, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit);
+    heads.image = sample_images(faces_, regions_, mirror, samples_, traced, heads);
+    const FaceSpace space(std::move(heads),
+                          sample_weights(find_sample_cells(adjacency_, mean_, samples_), samples_,
+                                         face_areas(faces_.topology, find_components(adjacency_),
+                                                    mean_, FaceArea::kFront, {2, 1})));
+    EXPECT_EQ(space.head_point_count(), 8);
+    const std::vector<Recipe> faces = crowd(2);
+    std::vector<FaceSpace::Point> points;
+    std::vector<Positions> as_built, unit;
+    for (const Recipe& face : faces) {
+      for (const auto& [asymmetry, is_mirrored] :
+           {std::pair(1.0, false), {1.0, true}, {0.5, false}, {1.4, true}, {0.0, false}}) {
+        Recipe recipe = face;
+        recipe.asymmetry = asymmetry;
+        recipe.mirrored = is_mirrored;
+        points.push_back(space.point(recipe));
+        const double w = mirror_share(recipe);
+        const auto built = [&](const Recipe& of) {
+          const Positions blended = blend_exact(faces_, *filter_, regions_, of);
+          return between_mirrored(blended, mirrored(mirror, blended), w);
+        };
+        as_built.push_back(built(recipe));
+        const Positions sampled = sample_face(space.sampled(), recipe, Variant::kAsBuilt);
+        for (std::size_t s = 0; s < samples_.size(); ++s) {
+          const Eigen::RowVector3d there = kMmPerUnit * as_built.back().row(samples_[s]);
+          ASSERT_LT((sampled.row(static_cast<Index>(s)) - there).norm(), 0.05);
+        }
+        recipe.regions[0].extrapolation = 1;
+        unit.push_back(built(recipe));
+      }
+    }
+    EXPECT_GT(FaceSpace::distance(points[0], points[1]), 1) << "a face and its mirror image";
+    for (std::size_t a = 0; a < points.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const double expected =
+            std::min(mesh_distance(as_built[a], as_built[b]), mesh_distance(unit[a], unit[b]));
+        EXPECT_NEAR(FaceSpace::distance(points[a], points[b]), expected, 0.03 * expected);
+      }
+    }
+  }
+}
+
 TEST_F(FaceSpaceTest, DistancesOfBandsAreThoseOfWholeMeshes) {
   std::vector<Recipe> faces = crowd(12);
   const FaceSpace space(

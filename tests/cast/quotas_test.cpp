@@ -99,5 +99,26 @@ TEST(Quotas, TargetsComeFromTheQuotasHeadsOrFromNone) {
   EXPECT_EQ(heads(1), (std::vector<Eigen::Index>{2}));
 }
 
+TEST(Quotas, OfABandBindItsSourcesAndNoTargets) {
+  SamplingOptions sampling;
+  sampling.sources = {0, 1, 2, 3};
+  sampling.bands.resize(2);
+  sampling.bands[1].sources = {{1, 2, 3}};
+  std::vector<Quota> quotas = {quota(0.3, {0}), quota(0.2, {0, 2}), quota(0.1, {3})};
+  quotas[1].band = quotas[2].band = 1;
+  using Sources = std::vector<std::vector<Eigen::Index>>;
+  EXPECT_EQ(sources_by_quota(sampling, quotas, -1), (Sources{{}, {1}}));
+  EXPECT_EQ(sources_by_quota(sampling, quotas, 0), (Sources{{}, {1}}));
+  EXPECT_EQ(sources_by_quota(sampling, quotas, 1), (Sources{{}, {2}}));
+  EXPECT_EQ(sources_by_quota(sampling, quotas, 2), (Sources{{}, {3}}));
+  const TargetsOfQuota targets = targets_by_quota({{0, 1}, {1, 1}, {3, 1}}, quotas);
+  for (const std::size_t kind : {0U, 2U, 3U}) {
+    ASSERT_EQ(targets[kind].size(), 2U);
+    EXPECT_EQ(targets[kind][0].head, 1);
+    EXPECT_EQ(targets[kind][1].head, 3);
+  }
+  EXPECT_EQ(targets[1].size(), 1U);
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -4,6 +4,7 @@
 
 #include "crowdface/config/config_reader.h"
 #include "crowdface/config/config_writer.h"
+#include "crowdface/core/text.h"
 
 #include "config/config_test_folder.h"
 
@@ -152,6 +153,63 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   EXPECT_EQ(effective_config(*again, folder_), written);
   EXPECT_EQ(again->families[0].inherit, config->families[0].inherit);
   EXPECT_THAT(sources_of(again->groups[0].sampling, 2), ElementsAre(2));
+}
+
+TEST_F(ConfigTest, QuotasOfBandsAreReadWrittenAndChecked) {
+  const auto config =
+      read(kBands + kDetail + "diversity: {quotas: {bob: {share: 0.25, band: skin}, ann: 0.5}}\n");
+  ASSERT_TRUE(config) << told();
+  ASSERT_EQ(config->diversity.quotas.size(), 2U);
+  EXPECT_EQ(config->diversity.quotas[0].share, 0.25);
+  EXPECT_EQ(config->diversity.quotas[0].band, 2U);
+  EXPECT_FALSE(config->diversity.quotas[1].band);
+  const std::string written = effective_config(*config, folder_);
+  const auto again = read(written);
+  ASSERT_TRUE(again) << told() << written;
+  EXPECT_EQ(again->diversity.quotas[0].band, 2U);
+  for (const auto& [quotas, phrase] :
+       {std::pair("bob: {share: 0.2, band: hair}", "no band of sampling.bands is called \"hair\""),
+        {"bob: {band: skin}", "share"},
+        {"ann: {share: 0.2, band: skin}", "among the band's sources"},
+        {"bob: {share: 0.2, band: skin}, cyd: {share: 0.2, band: skin}", "for whom is the rest"},
+        {"bob: {share: 0.7, band: skin}, ann: 0.5", "at most 1"}}) {
+    problems_ = Problems();
+    EXPECT_FALSE(read(concat(kBands, kDetail, "diversity: {quotas: {", quotas, "}}\n"))) << quotas;
+    EXPECT_THAT(told(), HasSubstr(phrase)) << quotas;
+  }
+}
+
+TEST_F(ConfigTest, MirroringIsReadAndWritten) {
+  const auto config =
+      read(kBands +
+           "sampling: {asymmetry: [0.5, 1.2], mirror: drawn}\n"
+           "groups: [{name: even, asymmetry: 0}, {name: as_scanned, asymmetry: 1, mirror: none}]\n"
+           "recipes: [{id: mine, asymmetry: 0.3, mirrored: true}, {id: open}]\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->sampling.asymmetry, (Range{0.5, 1.2}));
+  EXPECT_EQ(config->sampling.mirror, Mirroring::kDrawn);
+  EXPECT_EQ(config->groups[0].sampling.asymmetry, (Range{0, 0}));
+  EXPECT_EQ(config->groups[0].sampling.mirror, Mirroring::kDrawn) << "as in sampling";
+  EXPECT_FALSE(mirrors(config->groups[1].sampling));
+  EXPECT_EQ(config->recipes[0].asymmetry, (Range{0.3, 0.3}));
+  EXPECT_EQ(config->recipes[0].mirrored, true);
+  EXPECT_FALSE(config->recipes[1].asymmetry);
+  const std::string written = effective_config(*config, folder_);
+  const auto again = read(written);
+  ASSERT_TRUE(again) << told() << written;
+  EXPECT_EQ(effective_config(*again, folder_), written);
+  EXPECT_FALSE(mirrors(again->groups[1].sampling));
+  const auto plain = read(kBands);
+  ASSERT_TRUE(plain) << told();
+  EXPECT_THAT(effective_config(*plain, folder_), Not(HasSubstr("mirror")))
+      << "crowds of before stay as they are";
+  for (const auto& [more, phrase] : {std::pair("sampling: {asymmetry: -1}\n", "from 0 to 4"),
+                                     {"sampling: {mirror: all}\n", "none or drawn"},
+                                     {"recipes: [{id: x, mirrored: 1}]\n", "true or false"}}) {
+    problems_ = Problems();
+    EXPECT_FALSE(read(std::string(kBands) + more)) << more;
+    EXPECT_THAT(told(), HasSubstr(phrase)) << more;
+  }
 }
 
 TEST_F(ConfigTest, BandsThatCannotBeMeantAreRefused) {

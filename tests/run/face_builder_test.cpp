@@ -10,7 +10,9 @@
 
 #include "crowdface/blend/blend.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/head_mirror.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/pipeline.h"
 #include "crowdface/synth/synthetic_head.h"
 
@@ -88,6 +90,30 @@ TEST(FaceBuilder, FollowsTheEquationsToTheBitWithoutContacts) {
   const Recipe one = recipe(0, 1, 60, 1.3);
   EXPECT_TRUE(folder.build(one) == blend_exact(folder.job->inputs.faces, *folder.prepared->filter,
                                                folder.job->inputs.regions, one));
+}
+
+// Lips are brought to their gaps before a face is mirrored.
+TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
+  const Folder with("auto"), without("none");
+  const Job& job = *with.job;
+  const FaceBuilder builder(job.config, job.inputs, *with.prepared);
+  const MeshDefects defects = mesh_defects(job.config, job.inputs, builder);
+  const auto mirror = mirror_for(job.config, job.inputs, "a test");
+  for (const double asymmetry : {1.0, 1.5}) {
+    Recipe plain = recipe(0, 1, 60, 1.3);
+    plain.asymmetry = asymmetry;
+    Recipe image = plain;
+    image.mirrored = true;
+    const Positions face = with.build(plain);
+    EXPECT_GT((face - without.build(plain)).cwiseAbs().maxCoeff(), 0.02) << "something to correct";
+    EXPECT_TRUE(mirrored(*mirror, face) == with.build(image));
+    const SkinDefects of_plain = defects(plain), of_image = defects(image);
+    constexpr double kRounding = 1e-6;
+    EXPECT_NEAR(of_plain.wider_mm, of_image.wider_mm, kRounding);
+    EXPECT_NEAR(of_plain.local.stretch, of_image.local.stretch, kRounding);
+    EXPECT_EQ(of_plain.intersecting, of_image.intersecting);
+    EXPECT_NEAR(of_plain.exposed_mm2, of_image.exposed_mm2, kRounding);
+  }
 }
 
 TEST(FaceBuilder, LeavesATargetBlendedWithItselfAsItIs) {

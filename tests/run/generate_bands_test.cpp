@@ -159,6 +159,34 @@ TEST(GenerateBands, OfParentsWithOtherLevelsKeepTheirOrder) {
   EXPECT_EQ(children, 2);
 }
 
+TEST(GenerateBands, AQuotaBindsTheHeadsOfABand) {
+  SmallCrowd crowd;
+  crowd.regions = 2;
+  crowd.count = 8;
+  crowd.sampling =
+      "{targets: [bob], position: {distribution: anchored, pull: 0}, bands: {build: 0.9, skin: "
+      "{smoothness: 0.1}}}";
+  crowd.more = "diversity: {quotas: {dan: {share: 0.25, band: skin}}, candidates: 2}\n";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const auto lines = plan_lines(folder.out());
+  int with_skin = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    bool all = true, any = false;
+    for (int k = 1; k <= 2; ++k) {
+      const bool from_dan =
+          region(lines[i], k).at("bands").at("skin").at("weights").contains("dan");
+      all = all && from_dan;
+      any = any || from_dan;
+    }
+    EXPECT_EQ(all, any) << "in every region or in none";
+    with_skin += all ? 1 : 0;
+    EXPECT_EQ(with_skin, static_cast<int>((i + 1) / 4)) << "of the first " << i + 1;
+  }
+  const json quota = testing::read_json(folder.out() / "casting.json").at("quotas").at("dan");
+  EXPECT_EQ(quota.at("faces"), 2);
+}
+
 TEST(GenerateBands, ThatOverlapAreRefused) {
   SmallCrowd crowd = banded();
   crowd.sampling = "{bands: {one: 0.5, two: [0.4, 0.6]}}";

@@ -9,7 +9,7 @@ import { History } from './history.js';
 import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
 import {
-  bandNames, bandOf, coefficients, headAlone, headIndex, targetShares, weightsOf, wire, withBand,
+  bandNames, bandOf, coefficients, headAlone, headIndex, targetShares, weightsOf, wholeFace, wire, withBand,
 } from './recipe.js';
 import { RegionPanel } from './region_panel.js';
 import { Shelf } from './shelf.js';
@@ -185,7 +185,10 @@ class Editor {
     const limits = this.job.limits ?? {};
     const distance = (title, near, name, limit) => (near ? el('span', { class: near.mm < limit ? 'bad' : null },
       `${title} `, el('b', {}, `${short(near.mm)} mm`), ` ${name}`) : null);
+    const { asymmetry = 1, mirrored = false } = this.document.recipe;
     this.status.replaceChildren(...[
+      asymmetry === 1 ? null : el('span', { class: 'asymmetry' }, `asymmetry ${short(asymmetry)}`),
+      mirrored ? el('span', { class: 'mirrored' }, 'mirrored') : null,
       distance('nearest head', face.nearest_head, face.nearest_head?.name, limits.head_mm),
       distance('nearest face', face.nearest_face, face.nearest_face?.id, limits.face_mm),
       el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
@@ -291,11 +294,10 @@ class Editor {
 
   /// A recipe that the program told, as a document.
   fromWire(told, face = null) {
-    const { id, target, mixture } = told;
     const regions = Object.fromEntries(this.job.regions.map(({ name }) =>
       [name, { smoothness: 0.5, extrapolation: 1, ...told.regions[name] }]));
     for (const region of Object.values(regions)) if (region.iterations !== undefined) delete region.smoothness;
-    return { recipe: { id, target, ...(mixture ? { mixture } : {}), regions }, anchors: {}, ...(face ? { face } : {}) };
+    return { recipe: { id: told.id, ...wholeFace(told), regions }, anchors: {}, ...(face ? { face } : {}) };
   }
 
   open(what) {

@@ -141,6 +141,16 @@ export function targetShares(job, recipe) {
     ? recipe.mixture[head.name] ?? 0 : Number(head.name === recipe.target)));
 }
 
+/// What a recipe says of the face as a whole, beside its id and regions.
+export function wholeFace({ target, mixture, asymmetry, mirrored }) {
+  return {
+    target,
+    ...(mixture ? { mixture } : {}),
+    ...(asymmetry === undefined ? {} : { asymmetry }),
+    ...(mirrored === undefined ? {} : { mirrored }),
+  };
+}
+
 /// Which heads a region smooths to which level: per band {level, shares}, one share a head
 /// (blend/recipe.h, level_shares). No band begins above the one before it.
 function levelShares(job, document, name) {
@@ -203,8 +213,7 @@ export function wire(job, document) {
       return { weights: named(job, weightsOf(job, document, name, band)), ...rest };
     });
   }
-  const { id, target, mixture } = recipe;
-  return { id, target, ...(mixture ? { mixture } : {}), regions };
+  return { id: recipe.id, ...wholeFace(recipe), regions };
 }
 
 /// A part `t` of the way from one recipe to another. Positions stay positions where both have one;
@@ -229,9 +238,8 @@ export function between(job, from, to, t) {
       return withAmount(mixed, unit, amountAt(level, unit, job.levels));
     });
   }
-  const { mixture } = near.recipe;
   return {
-    recipe: { id: from.recipe.id, target: near.recipe.target, ...(mixture ? { mixture } : {}), regions },
+    recipe: { id: from.recipe.id, ...wholeFace(near.recipe), regions },
     anchors: near.anchors ?? {},
   };
 }

@@ -13,7 +13,7 @@ namespace crowdface {
 /// B, the target's positions or the mixture's, #V by 3.
 Positions target_positions(const FaceSet& faces, const Recipe& recipe);
 
-/// The face a recipe stands for, with exact levels (Eq. 7, in the form below; of several bands in that
+/// The face a recipe stands for, before it is mirrored, with exact levels (Eq. 7, in the form below; of several bands in that
 /// of level_shares): one filter application per band and region. With C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k C̄_k,
 ///
 ///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ] = B + Σ_k α_k [ S_{L_k} D_k − D_k ]

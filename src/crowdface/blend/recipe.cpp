@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crowdface/core/require.h"
+#include "crowdface/mesh/mirror_map.h"
 
 namespace crowdface {
 namespace {
@@ -40,6 +41,14 @@ BandRecipe& band_of(RegionRecipe& region, std::size_t band) {
 const BandRecipe& band_of(const RegionRecipe& region, std::size_t band) {
   if (band == 0) return region;
   return region.finer[band - 1];
+}
+
+bool is_unmirrored(const Recipe& recipe) {
+  return recipe.asymmetry == 1 && !recipe.mirrored;
+}
+
+double mirror_share(const Recipe& recipe) {
+  return mirror_share(recipe.asymmetry, recipe.mirrored);
 }
 
 std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,

@@ -46,7 +46,15 @@ struct Recipe {
   /// B may be a mixture, B = Σ_h τ_h B_h: its τ_h, ascending heads, none zero, summing to one. Empty:
   /// the target alone. As Eq. 2 is linear in B, so is all that is computed from it.
   std::vector<SourceWeight> mixture = {};
+  /// What makes left and right differ in the blended skin counts so often; 1: as blended, 0: symmetric.
+  double asymmetry = 1;
+  bool mirrored = false;  ///< the face, parts and all, is the mirror image of what the rest says
 };
+
+/// Whether the face is blended, and no more.
+bool is_unmirrored(const Recipe& recipe);
+/// How much the mirror image counts in the whole face, see mirror_share.
+double mirror_share(const Recipe& recipe);
 
 /// The heads that a region smooths to one level, see level_shares.
 struct LevelShares {

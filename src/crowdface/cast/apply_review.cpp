@@ -186,6 +186,8 @@ class Redrawing {
     }
     face.recipe.target = old.recipe.target;
     face.recipe.mixture = old.recipe.mixture;
+    face.recipe.asymmetry = old.recipe.asymmetry;
+    face.recipe.mirrored = old.recipe.mirrored;
     const std::size_t bands = band_count(casting_.sampling);
     for (const std::size_t part : mark.locked) {
       band_of(face.recipe.regions[part / bands], part % bands) =

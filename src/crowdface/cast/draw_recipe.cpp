@@ -164,9 +164,10 @@ BandDraw band_draw(const Casting& casting, const SamplingOptions& all, std::size
 }
 
 /// Draws what a hand-written recipe leaves open of a band; a sampled face leaves everything open.
-BandRecipe draw_band(const Casting& casting, const SamplingOptions& all, Index target,
+BandRecipe draw_band(const Casting& casting, const FaceKind& kind, Index target,
                      const FaceDraws& draws, const BandDraw& draw) {
-  const std::vector<Index>& sources = sources_of(all, draw.band);
+  const SamplingOptions& all = *kind.sampling;
+  const std::vector<Index>& sources = sources_of(kind, draw.band);
   const HandRecipe::Band& hand = draw.hand;
   BandRecipe recipe;
   const auto take = [&](const PlanePoint& position) {
@@ -198,13 +199,14 @@ BandRecipe draw_band(const Casting& casting, const SamplingOptions& all, Index t
   return recipe;
 }
 
-RegionRecipe draw_region(const Casting& casting, const SamplingOptions& all, std::size_t k,
-                         Index target, const FaceDraws& draws, const HandRecipe::Region& hand) {
+RegionRecipe draw_region(const Casting& casting, const FaceKind& kind, std::size_t k, Index target,
+                         const FaceDraws& draws, const HandRecipe::Region& hand) {
+  const SamplingOptions& all = *kind.sampling;
   RegionRecipe recipe;
   recipe.finer.resize(band_count(all) - 1);
   for (std::size_t b = 0; b < band_count(all); ++b) {
     band_of(recipe, b) =
-        draw_band(casting, all, target, draws, band_draw(casting, all, k, b, hand));
+        draw_band(casting, kind, target, draws, band_draw(casting, all, k, b, hand));
   }
   keep_order(recipe);
   return recipe;
@@ -218,6 +220,11 @@ std::uint64_t iterations_of(double smoothness, const LevelScale& scale) {
 
 std::string face_id(const std::string& crowd, std::uint64_t index) {
   return concat(crowd, '_', zero_padded(index, 4));
+}
+
+const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band) {
+  const bool own = band < kind.sources.size() && !kind.sources[band].empty();
+  return own ? kind.sources[band] : sources_of(*kind.sampling, band);
 }
 
 FaceKind kind_of_group(const Casting& casting, std::optional<std::size_t> group) {
@@ -238,10 +245,12 @@ CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawK
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
     const HandRecipe::Region& region =
         k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
-    face.recipe.regions.push_back(
-        draw_region(casting, sampling, k, face.recipe.target, draws, region));
+    face.recipe.regions.push_back(draw_region(casting, kind, k, face.recipe.target, draws, region));
   }
   apply_age(face, draws.in(hand.age.value_or(sampling.age), "age", ""), sampling);
+  face.recipe.asymmetry = draws.in(hand.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
+  face.recipe.mirrored = hand.mirrored.value_or(sampling.mirror == Mirroring::kDrawn &&
+                                                draws.unit("mirror", "") < 0.5);
   return face;
 }
 

@@ -44,7 +44,11 @@ struct FaceKind {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
+  /// By bands, who lends in place of those that sampling names; empty, or empty for a band: as there.
+  std::vector<std::vector<Index>> sources = {};
 };
+/// Heads that lend to a band of such a face.
+const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band);
 /// A face of that group, of none: by the numbers of the crowd.
 FaceKind kind_of_group(const Casting& casting, std::optional<std::size_t> group = std::nullopt);
 

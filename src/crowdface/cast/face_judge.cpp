@@ -30,7 +30,7 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
       plausibility_(space),
       skin_(skin),
       meshes_(std::move(meshes)) {
-  for (Index h = 0; h < space.head_count(); ++h) heads_.add(space.head_point(h));
+  for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
 }
 
 std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
@@ -50,11 +50,13 @@ std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
   return std::nullopt;
 }
 
-std::optional<Reason> FaceJudge::closely(const Recipe& recipe) const {
+std::optional<Reason> FaceJudge::closely(const Recipe& whole) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
+  Recipe recipe = whole;  // its mirror image has what it has
+  recipe.mirrored = false;
   const Positions samples = sample_face(space_.sampled(), recipe, Variant::kAsBuilt);
   std::optional<ProxySkin::Target> mixture;
-  if (!recipe.mixture.empty()) {
+  if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
     mixture.emplace(skin_->target(sample_target(space_.sampled(), recipe)));
   }
   const ProxySkin::Target& target = mixture ? *mixture : skin_->head(recipe.target);

@@ -36,8 +36,11 @@ class FaceJudge {
   /// samples, a tenth of a second by a mesh of 28,000 triangles.
   std::optional<Reason> closely(const Recipe& recipe) const;
 
+  /// Where faces may be mirrored, the mirror image of a head is as near to somebody as the head itself.
   FacePointIndex::Nearest nearest_head(const FaceSpace::Point& point) const {
-    return heads_.nearest(point);
+    FacePointIndex::Nearest nearest = heads_.nearest(point);
+    nearest.face %= space_.head_count();
+    return nearest;
   }
   const FaceSpace& space() const { return space_; }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "crowdface/cast/face_area.h"
 #include "crowdface/smooth/level_size.h"
@@ -75,6 +76,28 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
     while (next <= sum) next += step;  // a vertex is taken once, however large its share
   }
   std::sort(samples.begin(), samples.end());
+  return samples;
+}
+
+FaceSamples with_partners(FaceSamples samples, const MirrorMap& mirror) {
+  const std::size_t count = samples.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (mirror.is_vertex(samples[i])) samples.push_back(mirror.corners[samples[i]][0]);
+  }
+  std::sort(samples.begin(), samples.end());
+  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+  return samples;
+}
+
+FaceSamples with_corners(FaceSamples samples, const MirrorMap& mirror) {
+  const std::set<std::uint32_t> known(samples.begin(), samples.end());
+  std::set<std::uint32_t> more;
+  for (const std::uint32_t v : known) {
+    for (const std::uint32_t corner : mirror.corners[v]) {
+      if (!known.contains(corner)) more.insert(corner);
+    }
+  }
+  samples.insert(samples.end(), more.begin(), more.end());
   return samples;
 }
 

@@ -6,11 +6,12 @@
 
 #include "crowdface/core/units.h"
 #include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/mirror_map.h"
 #include "crowdface/smooth/level_basis.h"
 
 namespace crowdface {
 
-/// Vertices at which faces are compared and judged without being built, ascending.
+/// Vertices at which faces are compared and judged without being built.
 using FaceSamples = std::vector<std::uint32_t>;
 
 /// Samples spread over the skin (the largest component): half of them by area over its front half,
@@ -20,6 +21,11 @@ using FaceSamples = std::vector<std::uint32_t>;
 /// \param count  how many; fewer if the skin has fewer vertices.
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count);
+
+/// The samples and those on the other side of the head that are vertices, ascending.
+FaceSamples with_partners(FaceSamples samples, const MirrorMap& mirror);
+/// The samples, and after them all other vertices whose positions their mirror images are made of.
+FaceSamples with_corners(FaceSamples samples, const MirrorMap& mirror);
 
 /// Levels at which trajectories are kept: round(L_max·(j/63)²), each once.
 std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level);

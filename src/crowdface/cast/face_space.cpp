@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/training_recipe.h"
 #include "crowdface/core/fixed_order.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/random.h"
-#include "crowdface/core/text.h"
+#include "crowdface/core/require.h"
 #include "crowdface/mesh/alignment.h"
 
 namespace crowdface {
@@ -15,11 +15,11 @@ namespace {
 
 /// What a basis may leave of a field, rms over the face in millimetres.
 constexpr double kFieldTolerance = 0.004;
-constexpr Index kMostFunctions = 400;
+constexpr Index kMostFunctions = 400;  ///< for each side
 /// What the main directions may leave of a face; what they leave of each still counts as one more
 /// coordinate.
 constexpr double kFaceTolerance = 0.05;
-constexpr Index kMostDirections = 192;
+constexpr Index kMostDirections = 192;  ///< for each side
 constexpr std::uint64_t kTrainingFaces = 1024;
 
 double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
@@ -65,11 +65,11 @@ void FaceSpace::choose_counting(const std::vector<double>& weights) {
 /// Few directions span the levels of all heads together; fields are made for those alone. (Rows: the
 /// levels; columns: heads, coordinates, samples, times the samples' roots.)
 SpanBasis FaceSpace::level_modes() const {
-  const Index heads = head_count(), size = roots_.size();
+  const Index heads = head_point_count(), size = roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
   for (Index h = 0; h < heads; ++h) {
-    const Trajectory& trajectory = heads_.trajectories[static_cast<std::size_t>(h)];
+    const Trajectory& trajectory = side_of(h).trajectories[in_side(h)];
     for (Index l = 0; l < level_count; ++l) {
       for (Index i = 0; i < size; ++i) {
         for (Index c = 0; c < 3; ++c) {
@@ -105,20 +105,21 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
   for (Index c = 0; c < 3; ++c) {
     put_function([&](Index i) { return heads_.mean(sample_at(i), c); }, functions.row(c).data());
     for (Index h = 0; h < rows.heads; ++h) {
-      const Positions& head = heads_.heads[static_cast<std::size_t>(h)];
+      const Positions& head = side_of(h).heads[in_side(h)];
       put_function([&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
                    functions.row(rows.of_head(h) + c).data());
     }
   }
   parallel_for_each(regions * rows.heads, [&](Index kh) {
     const Index k = kh / rows.heads, h = kh % rows.heads;
+    const Columns& alpha = side_of(h).alpha;
     for (Index r = 0; r < rows.modes; ++r) {
       float* const first = functions.row(rows.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {
         const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
         put_function(
             [&](Index i) {  // the roots are in the mode already
-              return heads_.alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
+              return alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
                      static_cast<double>(roots_[i]);
             },
             first + c * size);
@@ -138,9 +139,9 @@ void FaceSpace::build_basis() {
   for (Index r = 0; r < modes.directions.rows(); ++r) {
     peaks.push_back(modes.coordinates.col(r).cwiseAbs().maxCoeff());
   }
-  const FunctionRows rows{head_count(), modes.directions.rows()};
+  const FunctionRows rows{head_point_count(), modes.directions.rows()};
   const SpanBasis basis =
-      span_basis(functions(modes, peaks, rows), kFieldTolerance, kMostFunctions);
+      span_basis(functions(modes, peaks, rows), kFieldTolerance, sides() * kMostFunctions);
   basis_ = basis.directions;
   const auto shape_at = [&](Index row) -> Shape {
     return basis.coordinates.middleRows<3>(row).transpose();
@@ -166,20 +167,32 @@ void FaceSpace::build_basis() {
 
 const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
   const auto rows = static_cast<Index>(heads_.levels.size());
-  const Index at = (static_cast<Index>(region) * head_count() + head) * rows + row;
+  const Index at = (static_cast<Index>(region) * head_point_count() + head) * rows + row;
   return fields_.data() + at * mean_shape_.size();
 }
 
 FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Variant variant) const {
-  auto shape = target_matrix<Shape>(
-      recipe, [&](Index head) -> const Shape& { return shapes_[static_cast<std::size_t>(head)]; });
+  const double w = mirror_share(recipe);
+  if (w == 0) return shape_in_side(recipe, variant, 0);
+  require(sides() == 2, "a mirrored face, and no mirror images of heads");
+  if (w == 1) return shape_in_side(recipe, variant, 1);
+  return static_cast<float>(1 - w) * shape_in_side(recipe, variant, 0) +
+         static_cast<float>(w) * shape_in_side(recipe, variant, 1);
+}
+
+/// The face before it is mirrored, or all of its mirror image.
+FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Variant variant, Index side) const {
+  const Index first = side * head_count();
+  auto shape = target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
+    return shapes_[static_cast<std::size_t>(first + head)];
+  });
   const Index size = shape.size();
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     for (const LevelShares& at : level_shares(recipe, k, extrapolation_of(variant))) {
       for (const LevelTerm& term : level_terms(heads_.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
           const auto f = static_cast<float>(part.weight * term.factor);
-          const float* from = field(k, part.head, term.row);
+          const float* from = field(k, first + part.head, term.row);
           float* out = shape.data();
           for (Index i = 0; i < size; ++i) out[i] += f * from[i];
         }
@@ -215,52 +228,18 @@ std::vector<float> FaceSpace::aligned(const Shape& shape) const {
   return turned;
 }
 
-/// A face as casting might make one, from all that heads and levels have, so that the main
-/// directions know every way in which faces differ.
-Recipe FaceSpace::training_recipe(std::uint64_t index, std::size_t bands) const {
-  const auto draw = [&](const std::string& purpose, std::uint32_t lane) {
-    return random_pair({0, index, purpose, 0}, lane);
-  };
-  const auto head_at = [&](double unit) {
-    return std::min(static_cast<Index>(unit * static_cast<double>(head_count())), head_count() - 1);
-  };
-  Recipe recipe;
-  recipe.target = head_at(draw("training/target", 0)[0]);
-  for (Index k = 0; k < heads_.alpha.cols(); ++k) {
-    RegionRecipe region;
-    region.finer.resize(bands - 1);
-    auto most = static_cast<double>(heads_.levels.back());
-    for (std::size_t b = 0; b < bands; ++b) {
-      const std::string purpose = b == 0 ? concat("training/", k) : concat("training/", k, "/", b);
-      BandRecipe& band = band_of(region, b);
-      std::vector<SourceWeight> weights;
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const auto [which, weight] = draw(purpose, i);
-        weights.push_back({head_at(which), weight * weight + 1e-3});
-      }
-      band.weights = normalized_weights(std::move(weights));
-      const auto [level, factor] = draw(purpose, 3);
-      // Finer bands begin at sizes spread evenly below the coarser one's: size goes with √L.
-      band.iterations = static_cast<std::uint64_t>(b == 0 ? level * most : level * level * most);
-      band.extrapolation = 0.6 + 0.8 * factor;
-      most = static_cast<double>(band.iterations);
-    }
-    recipe.regions.push_back(std::move(region));
-  }
-  return recipe;
-}
-
 void FaceSpace::build_directions(std::size_t bands) {
-  const Index heads = head_count();
+  const Index heads = head_point_count();
   FloatRows rows(heads + static_cast<Index>(kTrainingFaces), mean_shape_.size());
   parallel_for_each(rows.rows(), [&](Index n) {
     const std::vector<float> at =
         n < heads ? aligned(shapes_[static_cast<std::size_t>(n)])
-                  : aligned(shape_of(training_recipe(static_cast<std::uint64_t>(n - heads), bands),
-                                     Variant::kAsBuilt));
+                  : aligned(shape_of(
+                        training_recipe(heads_, bands, static_cast<std::uint64_t>(n - heads)),
+                        Variant::kAsBuilt));
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
-  directions_ = span_basis(std::move(rows), kFaceTolerance, kMostDirections).directions;
+  directions_ = span_basis(std::move(rows), kFaceTolerance, sides() * kMostDirections).directions;
   directions_transposed_ = directions_.transpose();
 }
 

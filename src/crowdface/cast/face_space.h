@@ -26,11 +26,14 @@ class FaceSpace {
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
 
   Point point(const Recipe& recipe) const;
-  /// An input head, whose two coordinates are one.
+  /// An input head, whose two coordinates are one; from number head_count() on the heads' mirror images,
+  /// where faces may be mirrored.
   Point head_point(Index head) const;
 
   Index dimensions() const { return directions_.rows() + 1; }
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
+  /// The same, their mirror images included where there are some.
+  Index head_point_count() const { return sides() * head_count(); }
   const SampledHeads& sampled() const { return heads_; }
 
   /// Root mean square over the face in mm: the smaller of the distances between the faces as built
@@ -59,6 +62,12 @@ class FaceSpace {
 
   struct FunctionRows;
 
+  /// The heads, and their mirror images where there are some: heads from number head_count() on.
+  Index sides() const { return heads_.image == nullptr ? 1 : 2; }
+  const SampledHeads& side_of(Index head) const {
+    return head < head_count() ? heads_ : *heads_.image;
+  }
+  std::size_t in_side(Index head) const { return static_cast<std::size_t>(head % head_count()); }
   /// The sample behind row i of what counts.
   Index sample_at(Index i) const { return counting_[static_cast<std::size_t>(i)]; }
   void choose_counting(const std::vector<double>& weights);
@@ -71,9 +80,9 @@ class FaceSpace {
   void build_directions(std::size_t bands);
   void build_region_metrics();
   Shape shape_of(const Recipe& recipe, Variant variant) const;
+  Shape shape_in_side(const Recipe& recipe, Variant variant, Index side) const;
   std::vector<float> aligned(const Shape& shape) const;
   Eigen::VectorXf coordinates(const Shape& shape) const;
-  Recipe training_recipe(std::uint64_t index, std::size_t bands) const;
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
@@ -81,9 +90,9 @@ class FaceSpace {
   Eigen::VectorXf roots_;        ///< √w of each
   FloatRows basis_;              ///< #P by #S: orthonormal functions on the samples
   Shape mean_shape_;             ///< #P by 3
-  std::vector<Shape> shapes_;    ///< of the heads
-  std::vector<float> fields_;    ///< α_k (S_L x_h − x_h): regions, heads, rows, then #P by 3
-  FloatRows directions_;         ///< #D by 3·#P: main directions of faces' aligned shapes
+  std::vector<Shape> shapes_;    ///< of the heads of all sides
+  std::vector<float> fields_;  ///< α_k (S_L x_h − x_h): regions, those heads, rows, then #P by 3
+  FloatRows directions_;       ///< #D by 3·#P: main directions of faces' aligned shapes
   FloatRows directions_transposed_;
   std::vector<FloatRows> region_metrics_;  ///< #regions (none of one), #D by #D, times its share
   std::vector<double> region_shares_;      ///< of the face's area

@@ -26,6 +26,10 @@ constexpr double kTwinsReach = 0.5;  // mm from what they are alike to
 constexpr double kStrangersNearer = 0.1;
 constexpr double kRoomAtHalf = 0.25;  ///< of max_distance, where it does not
 
+double mixed(double a, double b, double t) {
+  return a == b ? a : (1 - t) * a + t * b;
+}
+
 /// (1 − t)·a + t·b of two bands' numbers.
 BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale) {
   BandRecipe band;
@@ -159,6 +163,10 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
                                           target_shares(parents_[1].face.recipe), 0.5));
     face.mother_share = 0.5;
   }
+  const Recipe& mother = parents_[0].face.recipe;
+  const Recipe& father = parents_[1].face.recipe;
+  face.recipe.asymmetry = mixed(mother.asymmetry, father.asymmetry, 0.5);
+  face.recipe.mirrored = mother.mirrored;
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {
@@ -179,6 +187,8 @@ CastFace FamilyDraws::towards(const CastFace& from, const Draft& draft, double t
   set_target(face.recipe,
              mixed_weights(target_shares(from.recipe), target_shares(draft.to.recipe), t));
   face.mother_share = (1 - t) * from.mother_share + t * draft.to.mother_share;
+  face.recipe.asymmetry = mixed(from.recipe.asymmetry, draft.to.recipe.asymmetry, t);
+  face.recipe.mirrored = from.recipe.mirrored;
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {

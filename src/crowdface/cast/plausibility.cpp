@@ -13,10 +13,10 @@ constexpr double kRidge = 0.1;  ///< of the mean variance along the heads' own d
 }  // namespace
 
 Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::VectorXf>& heads,
-                                                  Index left_out) {
+                                                  Index count_of_heads, Index left_out) {
   Metric metric;
   for (std::size_t h = 0; h < heads.size(); ++h) {
-    if (static_cast<Index>(h) == left_out) continue;
+    if (static_cast<Index>(h) % count_of_heads == left_out) continue;
     metric.offsets.emplace_back(heads[h].data(), heads[h].data() + heads[h].size());
   }
   const std::size_t count = metric.offsets.size();
@@ -58,16 +58,19 @@ double Plausibility::squared(const Metric& metric, const Eigen::VectorXf& at) {
 
 Plausibility::Plausibility(const FaceSpace& space) {
   std::vector<Eigen::VectorXf> heads;
-  for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h).as_built);
-  metric_ = metric_without(heads, -1);
-  if (heads.size() < 3) {  // one alone has no spread: the heads themselves are the measure
+  const Index count = space.head_count();
+  for (Index h = 0; h < space.head_point_count(); ++h) {
+    heads.push_back(space.head_point(h).as_built);
+  }
+  metric_ = metric_without(heads, count, -1);
+  if (count < 3) {  // one alone has no spread: the heads themselves are the measure
     unit_ = std::sqrt(squared(metric_, heads[0]));
   } else {
     double sum = 0;
-    for (std::size_t h = 0; h < heads.size(); ++h) {
-      sum += squared(metric_without(heads, static_cast<Index>(h)), heads[h]);
+    for (Index h = 0; h < count; ++h) {
+      sum += squared(metric_without(heads, count, h), heads[static_cast<std::size_t>(h)]);
     }
-    unit_ = std::sqrt(sum / static_cast<double>(heads.size()));
+    unit_ = std::sqrt(sum / static_cast<double>(count));
   }
   if (!(unit_ > 0)) unit_ = 1;
 }

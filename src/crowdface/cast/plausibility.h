@@ -25,7 +25,9 @@ class Plausibility {
     std::vector<std::vector<double>> lower;    ///< Cholesky factor of ridge·(H − 1)·I + Y Yᵀ
     double ridge = 1;
   };
-  static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index left_out);
+  /// \param heads  of the heads, and then of their mirror images, where faces may be mirrored.
+  static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index count_of_heads,
+                               Index left_out);
   static double squared(const Metric& metric, const Eigen::VectorXf& at);
 
   Metric metric_;

@@ -9,6 +9,10 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // 0.3 · 10 is 3, whatever doubles make of it
 
+bool contains(const std::vector<Eigen::Index>& heads, Eigen::Index head) {
+  return std::find(heads.begin(), heads.end(), head) != heads.end();
+}
+
 std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
 }
@@ -70,14 +74,35 @@ TargetsOfQuota targets_by_quota(const std::vector<WeightedHead>& targets,
   for (const WeightedHead& target : targets) {
     bool in_any = false;
     for (std::size_t q = 0; q < quotas.size(); ++q) {
-      const std::vector<Eigen::Index>& heads = quotas[q].heads;
-      if (std::find(heads.begin(), heads.end(), target.head) == heads.end()) continue;
+      if (quotas[q].band || !contains(quotas[q].heads, target.head)) continue;
       result[q + 1].push_back(target);
       in_any = true;
     }
-    if (!in_any) result[0].push_back(target);
+    if (in_any) continue;
+    result[0].push_back(target);
+    for (std::size_t q = 0; q < quotas.size(); ++q) {
+      if (quotas[q].band) result[q + 1].push_back(target);
+    }
   }
   return result;
+}
+
+std::vector<std::vector<Eigen::Index>> sources_by_quota(const SamplingOptions& sampling,
+                                                        const std::vector<Quota>& quotas,
+                                                        int quota) {
+  std::vector<std::vector<Eigen::Index>> sources(band_count(sampling));
+  for (std::size_t band = 0; band < sources.size(); ++band) {
+    std::vector<Eigen::Index> claimed;
+    for (const Quota& other : quotas) {
+      if (other.band == band) claimed.insert(claimed.end(), other.heads.begin(), other.heads.end());
+    }
+    if (claimed.empty()) continue;
+    const bool own = quota >= 0 && quotas[static_cast<std::size_t>(quota)].band == band;
+    const auto& heads = own ? quotas[static_cast<std::size_t>(quota)].heads : claimed;
+    sources[band] = sources_of(sampling, band);
+    std::erase_if(sources[band], [&](Eigen::Index head) { return contains(heads, head) != own; });
+  }
+  return sources;
 }
 
 std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
@@ -104,8 +129,11 @@ std::vector<int> schedule_kinds(const Casting& casting, std::uint64_t count, std
 
 std::vector<FaceKind> face_kinds(const Casting& casting) {
   std::vector<FaceKind> kinds;
-  for (auto& targets : targets_by_quota(casting.sampling.targets, casting.diversity.quotas)) {
-    kinds.push_back({&casting.sampling, std::move(targets), std::nullopt});
+  const std::vector<Quota>& quotas = casting.diversity.quotas;
+  for (auto& targets : targets_by_quota(casting.sampling.targets, quotas)) {
+    const int quota = static_cast<int>(kinds.size()) - 1;
+    kinds.push_back({&casting.sampling, std::move(targets), std::nullopt,
+                     sources_by_quota(casting.sampling, quotas, quota)});
   }
   for (std::size_t g = 0; g < casting.groups.size(); ++g) {
     kinds.push_back(kind_of_group(casting, g));

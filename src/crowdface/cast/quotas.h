@@ -16,10 +16,16 @@ namespace crowdface {
 /// due at face ⌈m/q⌉, and a place goes to a quota only if one would otherwise come too late.
 std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t count);
 
-/// The targets that faces of no quota may have, then those of each quota.
+/// The targets that faces of no quota may have, then those of each quota; those of a band have the first.
 using TargetsOfQuota = std::vector<std::vector<WeightedHead>>;
 TargetsOfQuota targets_by_quota(const std::vector<WeightedHead>& targets,
                                 const std::vector<Quota>& quotas);
+
+/// Who lends to each band of faces of a quota, −1 for none; empty: as sampling says. Heads of a band's
+/// quotas lend to it in their own quota's faces alone.
+std::vector<std::vector<Eigen::Index>> sources_by_quota(const SamplingOptions& sampling,
+                                                        const std::vector<Quota>& quotas,
+                                                        int quota);
 
 /// Which group each face is of, −1 for none: first those that have a count, in their order, then by
 /// shares as with quotas. A larger count moves nobody.

@@ -2,8 +2,37 @@
 #include "crowdface/cast/sampled_heads.h"
 
 #include <algorithm>
+#include <unordered_map>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 
 namespace crowdface {
+namespace {
+
+void find_stretches(SampledHeads& sampled) {
+  constexpr Index kGap = 8;  // a short one costs less than another stretch
+  for (Index k = 0; k < sampled.alpha.cols(); ++k) {
+    auto& stretches = sampled.stretches.emplace_back();
+    for (Index s = 0; s < sampled.alpha.rows(); ++s) {
+      if (sampled.alpha(s, k) == 0) continue;
+      if (stretches.empty() || s > stretches.back().second + kGap) stretches.emplace_back(s, s);
+      stretches.back().second = s + 1;
+    }
+  }
+}
+
+/// What of(heads) says, or its mirror image, or something between.
+template <class Of>
+Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Of& of) {
+  const double w = mirror_share(recipe);
+  if (w == 0) return of(heads);
+  require(heads.image != nullptr, "a mirrored face, and no mirror images of heads");
+  if (w == 1) return of(*heads.image);
+  return between_mirrored(of(heads), of(*heads.image), w);
+}
+
+}  // namespace
 
 SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
@@ -26,30 +55,79 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
   for (Index s = 0; s < count; ++s) {
     sampled.alpha.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
   }
-  constexpr Index kGap = 8;  // a short one costs less than another stretch
-  for (Index k = 0; k < sampled.alpha.cols(); ++k) {
-    auto& stretches = sampled.stretches.emplace_back();
+  find_stretches(sampled);
+  return sampled;
+}
+
+std::shared_ptr<const SampledHeads> sample_images(
+    const FaceSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
+    const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads) {
+  const auto count = static_cast<Index>(samples.size());
+  std::unordered_map<std::uint32_t, Index> column;
+  for (std::size_t i = 0; i < traced.size(); ++i) column[traced[i]] = 3 * static_cast<Index>(i);
+  auto image = std::make_shared<SampledHeads>();
+  image->levels = heads.levels;
+  image->mm_per_unit = heads.mm_per_unit;
+  image->mean = Positions::Zero(count, 3);
+  for (const Head& head : faces.heads) {
+    const Positions whole = mirrored(mirror, head.positions);
+    Positions& rows = image->heads.emplace_back(count, 3);
     for (Index s = 0; s < count; ++s) {
-      if (sampled.alpha(s, k) == 0) continue;
-      if (stretches.empty() || s > stretches.back().second + kGap) stretches.emplace_back(s, s);
-      stretches.back().second = s + 1;
+      rows.row(s) = heads.mm_per_unit * whole.row(samples[static_cast<std::size_t>(s)]);
+    }
+    image->mean += rows;
+  }
+  image->mean /= static_cast<double>(faces.heads.size());
+  image->alpha = Columns::Zero(count, regions.alpha.cols());
+  image->own.resize(faces.heads.size());
+  for (Trajectory& own : image->own) {
+    own.resize(static_cast<Index>(heads.levels.size()), 3 * count);
+  }
+  const MirrorPlane directions{mirror.plane.normal, 0};
+  for (Index s = 0; s < count; ++s) {
+    const std::uint32_t v = samples[static_cast<std::size_t>(s)];
+    for (std::size_t c = 0; c < 3; ++c) {
+      image->alpha.row(s) += mirror.shares[v][c] * regions.alpha.row(mirror.corners[v][c]);
     }
   }
-  return sampled;
+  parallel_for_each(image->own.size(), [&](std::size_t h) {
+    const Trajectory& from = heads.trajectories[h];
+    for (Index l = 0; l < from.rows(); ++l) {
+      for (Index s = 0; s < count; ++s) {
+        const std::uint32_t v = samples[static_cast<std::size_t>(s)];
+        Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+        for (std::size_t c = 0; c < 3; ++c) {
+          const Index at = column.at(mirror.corners[v][c]);
+          for (Index a = 0; a < 3; ++a) {
+            moved(a) += mirror.shares[v][c] * static_cast<double>(from(l, at + a));
+          }
+        }
+        const Eigen::Vector3d turned = directions.image(moved);
+        for (Index a = 0; a < 3; ++a) {
+          image->own[h](l, 3 * s + a) = static_cast<float>(turned(a));
+        }
+      }
+    }
+  });
+  image->trajectories = image->own;
+  find_stretches(*image);
+  return image;
 }
 
 Extrapolation extrapolation_of(Variant variant) {
   return variant == Variant::kUnit ? Extrapolation::kNone : Extrapolation::kAsGiven;
 }
 
-Positions sample_target(const SampledHeads& heads, const Recipe& recipe) {
+namespace {
+
+Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
   return target_matrix<Positions>(recipe, [&](Index head) -> const Positions& {
     return heads.heads[static_cast<std::size_t>(head)];
   });
 }
 
-Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
-  Positions face = sample_target(heads, recipe);
+Positions blended_samples(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
+  Positions face = target_samples(heads, recipe);
   // In single precision, as the trajectories are: casting does this for every face it accepts.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
@@ -78,6 +156,18 @@ Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant v
     }
   }
   return face;  // Eq. 7
+}
+
+}  // namespace
+
+Positions sample_target(const SampledHeads& heads, const Recipe& recipe) {
+  return mirrored_as(heads, recipe,
+                     [&](const SampledHeads& of) { return target_samples(of, recipe); });
+}
+
+Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
+  return mirrored_as(heads, recipe,
+                     [&](const SampledHeads& of) { return blended_samples(of, recipe, variant); });
 }
 
 }  // namespace crowdface

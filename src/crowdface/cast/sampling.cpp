@@ -9,6 +9,10 @@ std::size_t band_count(const SamplingOptions& sampling) {
   return std::max<std::size_t>(1, sampling.bands.size());
 }
 
+bool mirrors(const SamplingOptions& sampling) {
+  return sampling.asymmetry != Range{1, 1} || sampling.mirror != Mirroring::kNone;
+}
+
 const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling, std::size_t region,
                                             std::size_t band) {
   if (!sampling.bands.empty()) {

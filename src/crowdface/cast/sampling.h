@@ -72,6 +72,12 @@ struct WeightedHead {
   double weight = 1;
 };
 
+/// Whether faces are mirrored as wholes.
+enum class Mirroring {
+  kNone,
+  kDrawn,  ///< half of them
+};
+
 /// How sampled faces are drawn.
 struct SamplingOptions {
   std::vector<WeightedHead> targets;    ///< heads that may be the target, with their frequency
@@ -80,12 +86,16 @@ struct SamplingOptions {
   std::vector<BandSampling> bands;      ///< coarse to fine; none: detail is one band
   std::optional<int> max_sources;       ///< keep only the largest weights of a position; none: all
   Range age = {0, 0};                   ///< of sampled faces, see apply_age
+  Range asymmetry = {1, 1};             ///< see Recipe
+  Mirroring mirror = Mirroring::kNone;
   std::vector<Eigen::Index> old_heads;  ///< tagged old, ascending
   std::vector<Eigen::Index> young_heads;
 };
 
 /// How many bands a region's detail has.
 std::size_t band_count(const SamplingOptions& sampling);
+/// Whether any face may be other than blended: mirrored, or more or less asymmetric.
+bool mirrors(const SamplingOptions& sampling);
 /// Where a band of a region begins.
 const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling, std::size_t region,
                                             std::size_t band);
@@ -108,6 +118,8 @@ struct HandRecipe {
   std::optional<Eigen::Index> target;
   std::vector<Region> regions;  ///< one for each region
   std::optional<Range> age;     ///< none: as for sampled faces
+  std::optional<Range> asymmetry;
+  std::optional<bool> mirrored;
 };
 
 }  // namespace crowdface

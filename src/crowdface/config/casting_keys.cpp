@@ -28,9 +28,16 @@ std::string write_mask(const Config::Distance& distance, const ConfigWriting& wr
   return distance.mask ? path("").write(*distance.mask, writing) : "";
 }
 
-/// No head may count for two quotas: the shares of both could not be kept apart.
+bool is_target(Eigen::Index head, const ConfigDraft& draft) {
+  const auto& targets = draft.config.sampling.targets;
+  return std::any_of(targets.begin(), targets.end(),
+                     [&](const WeightedHead& target) { return target.head == head; });
+}
+
+/// No head may count for two quotas of one kind: the shares of both could not be kept apart.
 void refuse_shared_heads(const YamlEntry& entry, const Quota& quota, ConfigDraft& draft) {
   for (const Quota& other : draft.config.diversity.quotas) {
+    if (other.band != quota.band) continue;
     for (const Eigen::Index head : quota.heads) {
       if (std::find(other.heads.begin(), other.heads.end(), head) == other.heads.end()) continue;
       const std::string& name = draft.config.faces.names[static_cast<std::size_t>(head)];
@@ -42,10 +49,80 @@ void refuse_shared_heads(const YamlEntry& entry, const Quota& quota, ConfigDraft
   }
 }
 
-bool is_target(Eigen::Index head, const ConfigDraft& draft) {
-  const auto& targets = draft.config.sampling.targets;
-  return std::any_of(targets.begin(), targets.end(),
-                     [&](const WeightedHead& target) { return target.head == head; });
+const Keys<Quota>& quota_keys() {
+  static const Keys<Quota> keys = {
+      key("share", &Quota::share, number(0, 1), "from 0 to 1"),
+      {"band",
+       [](const YamlNode& node, Quota& quota, ConfigDraft& draft) {
+         const auto name = read_name(node, draft.complaints);
+         const auto& bands = draft.config.sampling.bands;
+         const auto band = std::find_if(bands.begin(), bands.end(), [&](const BandSampling& other) {
+           return other.name == name;
+         });
+         if (band != bands.end()) {
+           quota.band = static_cast<std::size_t>(band - bands.begin());
+         } else if (name) {
+           draft.complaints.about(node,
+                                  concat("no band of sampling.bands is called ", quoted(*name)));
+         }
+       },
+       [](const Quota& quota, const ConfigWriting& writing) {
+         return quota.band ? write_scalar(writing.config.sampling.bands[*quota.band].name) : "";
+       }}};
+  return keys;
+}
+
+/// Heads of a band's quotas, or of those of targets.
+bool counts_for_any(const std::vector<Quota>& quotas, std::optional<std::size_t> band,
+                    Eigen::Index head) {
+  return std::any_of(quotas.begin(), quotas.end(), [&](const Quota& quota) {
+    return quota.band == band &&
+           std::find(quota.heads.begin(), quota.heads.end(), head) != quota.heads.end();
+  });
+}
+
+double total_share(const std::vector<Quota>& quotas, std::optional<std::size_t> band) {
+  double total = 0;
+  for (const Quota& quota : quotas) total += quota.band == band ? quota.share : 0;
+  return total;
+}
+
+/// Faces that count for no quota need heads too.
+void refuse_nothing_left(const YamlNode& node, ConfigDraft& draft) {
+  const auto& quotas = draft.config.diversity.quotas;
+  const SamplingOptions& sampling = draft.config.sampling;
+  const auto& targets = sampling.targets;
+  const double total = total_share(quotas, std::nullopt);
+  const bool targets_left =
+      std::any_of(targets.begin(), targets.end(), [&](const WeightedHead& target) {
+        return !counts_for_any(quotas, std::nullopt, target.head);
+      });
+  if (!targets.empty() && !targets_left && total < 1 - kShareRounding) {
+    draft.complaints.about(
+        node, concat("the shares sum to ", total,
+                     ", but every target counts for one of them; for whom is the rest?"));
+  }
+  for (std::size_t b = 0; b < sampling.bands.size(); ++b) {
+    const auto& sources = sources_of(sampling, b);
+    const double of_band = total_share(quotas, b);
+    if (of_band == 0 || of_band > 1 - kShareRounding || sources.empty()) continue;
+    if (std::any_of(sources.begin(), sources.end(),
+                    [&](Eigen::Index head) { return !counts_for_any(quotas, b, head); })) {
+      continue;
+    }
+    draft.complaints.about(
+        node, concat("the shares of the band ", sampling.bands[b].name, " sum to ", of_band,
+                     ", but every source counts for one of them; for whom is the rest?"));
+  }
+}
+
+/// Whether any of its heads may be what it binds.
+bool can_be_met(const Quota& quota, const ConfigDraft& draft) {
+  return std::any_of(quota.heads.begin(), quota.heads.end(), [&](Eigen::Index head) {
+    if (!quota.band) return is_target(head, draft);
+    const auto& sources = sources_of(draft.config.sampling, *quota.band);
+    return std::find(sources.begin(), sources.end(), head) != sources.end();
+  });
 }
 
 void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft& draft) {
@@ -53,44 +130,38 @@ void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft&
   auto& quotas = diversity.quotas;
   double total = 0;
   for (const YamlEntry& entry : node.entries) {
+    const std::size_t complaints_before = draft.complaints.size();
     Quota quota;
     quota.name = entry.key;
     quota.heads = find_heads(entry.key, entry.key_place, node.path, draft);
-    const auto share = read_number(entry.value, 0, 1, draft.complaints);
-    if (quota.heads.empty() || !share) continue;
-    quota.share = *share;
-    total += *share;
+    if (entry.value.kind == YamlNode::Kind::kMap) {
+      read_keys(entry.value, quota_keys(), quota, draft);
+    } else {
+      quota_keys().front().read(entry.value, quota, draft);
+    }
+    if (quota.heads.empty() || draft.complaints.size() != complaints_before) continue;
+    total += quota.share;
     refuse_shared_heads(entry, quota, draft);
-    if (*share > 0 && std::none_of(quota.heads.begin(), quota.heads.end(),
-                                   [&](Eigen::Index head) { return is_target(head, draft); })) {
+    if (quota.share > 0 && !can_be_met(quota, draft)) {
       draft.complaints.add(
           entry.key_place,
-          concat(entry.value.path, ": none of its heads is among sampling.targets"));
+          quota.band ? concat(entry.value.path, ": none of its heads is among the band's sources")
+                     : concat(entry.value.path, ": none of its heads is among sampling.targets"));
     }
     quotas.push_back(std::move(quota));
   }
   if (total > 1 + kShareRounding) {
     draft.complaints.about(node, concat("the shares sum to ", total, "; at most 1 is possible"));
   }
-  const auto& targets = draft.config.sampling.targets;
-  const bool some_left =
-      std::any_of(targets.begin(), targets.end(), [&](const WeightedHead& target) {
-        return std::none_of(quotas.begin(), quotas.end(), [&](const Quota& quota) {
-          return std::find(quota.heads.begin(), quota.heads.end(), target.head) !=
-                 quota.heads.end();
-        });
-      });
-  if (!quotas.empty() && !targets.empty() && !some_left && total < 1 - kShareRounding) {
-    draft.complaints.about(
-        node, concat("the shares sum to ", total,
-                     ", but every target counts for one of them; for whom is the rest?"));
-  }
+  if (!quotas.empty()) refuse_nothing_left(node, draft);
 }
 
-std::string write_quotas(const DiversityOptions& diversity, const ConfigWriting&) {
+std::string write_quotas(const DiversityOptions& diversity, const ConfigWriting& writing) {
   std::vector<std::string> quotas;
   for (const Quota& quota : diversity.quotas) {
-    quotas.push_back(entry(write_scalar(quota.name), format_number(quota.share)));
+    const std::string value = quota.band ? flow_map(write_keys(quota_keys(), quota, writing))
+                                         : format_number(quota.share);
+    quotas.push_back(entry(write_scalar(quota.name), value));
   }
   return flow_map(quotas);
 }

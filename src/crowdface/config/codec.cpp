@@ -119,6 +119,10 @@ Codec<Range> age() {
   return codec;
 }
 
+Codec<Range> asymmetry() {
+  return range(number(0, kMaxAsymmetry));
+}
+
 Codec<Range> extrapolation() {
   return range(number(-kMaxExtrapolation, kMaxExtrapolation));
 }

@@ -37,6 +37,7 @@ Codec<double> length(double high_mm);
 Codec<double> positive_length(double high_mm);
 /// One value, or [low, high].
 Codec<Range> range(const Codec<double>& one);
+Codec<Range> asymmetry();      ///< from 0
 Codec<Range> age();            ///< from −1 to 1; needs heads that are tagged so
 Codec<Range> extrapolation();  ///< a factor
 /// A smoothness as fraction or size, or a range of either.

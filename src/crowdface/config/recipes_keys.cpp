@@ -170,6 +170,8 @@ const Keys<HandRecipe>& recipe_keys() {
   static const Keys<HandRecipe> keys = {key("id", &HandRecipe::id, name(), "the name of the face"),
                                         key("target", &HandRecipe::target, head()),
                                         key("age", &HandRecipe::age, age()),
+                                        key("asymmetry", &HandRecipe::asymmetry, asymmetry()),
+                                        key("mirrored", &HandRecipe::mirrored, word<bool>()),
                                         {"regions", read_regions_of, write_regions_of}};
   return keys;
 }

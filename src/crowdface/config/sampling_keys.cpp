@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section `sampling`.
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/head_lists.h"
 #include "crowdface/core/name.h"
 
 namespace crowdface {
@@ -198,71 +198,6 @@ Codec<SmoothnessDistribution> sampled_smoothness() {
           }};
 }
 
-/// Heads by name or tag; all of them for `all`.
-std::vector<Eigen::Index> read_head_list(const YamlNode& node, ConfigDraft& draft) {
-  std::set<Eigen::Index> chosen;  // each once, ascending
-  if (is_word(node, "all")) {
-    for (std::size_t i = 0; i < draft.config.faces.names.size(); ++i) {
-      chosen.insert(static_cast<Eigen::Index>(i));
-    }
-  } else if (node.items.empty()) {
-    draft.complaints.expected(node, "all or a list of heads and tags");
-  }
-  for (const YamlNode& item : node.items) {
-    const auto name = read_name(item, draft.complaints);
-    if (!name) continue;
-    const auto heads = find_heads(*name, item.place, node.path, draft);
-    chosen.insert(heads.begin(), heads.end());
-  }
-  return {chosen.begin(), chosen.end()};
-}
-
-std::string write_head_list(const std::vector<Eigen::Index>& heads, const ConfigWriting& writing) {
-  if (heads.size() == writing.config.faces.names.size()) return "all";
-  std::vector<std::string> items;
-  for (const Eigen::Index head : heads) items.push_back(writing.head(head));
-  return flow_list(items);
-}
-
-/// `{name: weight}`: a head's own entry counts alone, the weights of several tags add up.
-std::vector<WeightedHead> read_weighted_targets(const YamlNode& node, ConfigDraft& draft) {
-  std::map<Eigen::Index, double> by_tag, by_name;
-  for (const YamlEntry& entry : node.entries) {
-    const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
-    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
-    if (weight == 0.0) {
-      draft.complaints.expected(entry.value, "a weight above 0 (leave the head out for none)");
-    }
-    for (const Eigen::Index head : heads) {
-      const bool named = draft.config.faces.names[static_cast<std::size_t>(head)] == entry.key;
-      (named ? by_name : by_tag)[head] += weight.value_or(1);
-    }
-  }
-  by_name.merge(by_tag);  // keeps what is there
-  std::vector<WeightedHead> targets;
-  for (const auto& [head, weight] : by_name) targets.push_back({head, weight});
-  return targets;
-}
-
-void read_targets(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
-  sampling.targets.clear();
-  if (node.kind == YamlNode::Kind::kMap && !node.entries.empty()) {
-    sampling.targets = read_weighted_targets(node, draft);
-    return;
-  }
-  for (const Eigen::Index head : read_head_list(node, draft)) sampling.targets.push_back({head, 1});
-}
-
-std::string write_targets(const SamplingOptions& sampling, const ConfigWriting& writing) {
-  const auto& targets = sampling.targets;
-  const bool weighted = std::any_of(targets.begin(), targets.end(),
-                                    [](const WeightedHead& t) { return t.weight != 1; });
-  if (weighted) return write_weights(targets, writing);
-  std::vector<Eigen::Index> heads;
-  for (const WeightedHead& target : targets) heads.push_back(target.head);
-  return write_head_list(heads, writing);
-}
-
 constexpr std::size_t kMostBands = 4;
 
 const Keys<BandSampling>& band_keys() {
@@ -346,6 +281,14 @@ std::string write_bands(const SamplingOptions& sampling, const ConfigWriting& wr
   return block_map(entries);
 }
 
+/// Where nothing in the crowd is mirrored it is not written.
+Key<SamplingOptions> unless_off(Key<SamplingOptions> key) {
+  key.write = [write = key.write](const SamplingOptions& sampling, const ConfigWriting& writing) {
+    return mirrors(sampling) || mirrors(writing.config.sampling) ? write(sampling, writing) : "";
+  };
+  return key;
+}
+
 }  // namespace
 
 const Keys<SamplingOptions>& sampling_keys() {
@@ -382,7 +325,9 @@ const Keys<SamplingOptions>& sampling_keys() {
                     }}
           .in_starter({"3", "", "How many heads lend their features to one face."}),
       {"bands", read_bands, write_bands},
-      key("age", &Sampling::age, age())};
+      key("age", &Sampling::age, age()),
+      unless_off(key("asymmetry", &Sampling::asymmetry, asymmetry())),
+      unless_off(word_key("mirror", &Sampling::mirror))};
   return keys;
 }
 

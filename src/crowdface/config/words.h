@@ -48,6 +48,7 @@ inline const auto& all_words() {
           {"basis", Levels::kBasis}, {"exact", Levels::kExact}, {"cubic", Levels::kCubic}},
       Words<Normalization>{{"partition", Normalization::kPartition},
                            {"printed", Normalization::kPrinted}},
+      Words<Mirroring>{{"none", Mirroring::kNone}, {"drawn", Mirroring::kDrawn}},
       Words<Contacts>{{"auto", Contacts::kAuto}, {"none", Contacts::kNone}},
       Words<TextureBlend>{{"auto", TextureBlend::kAuto},
                           {"target", TextureBlend::kTarget},

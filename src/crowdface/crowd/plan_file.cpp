@@ -49,6 +49,13 @@ class LineReader {
     if (const auto mixture = json.find("mixture"); mixture != json.end()) {
       set_target(face.recipe, shares(*mixture));
     }
+    if (const auto asymmetry = json.find("asymmetry"); asymmetry != json.end()) {
+      face.recipe.asymmetry = number(*asymmetry, "asymmetry", 0, kMaxAsymmetry);
+    }
+    if (const auto mirrored = json.find("mirrored"); mirrored != json.end()) {
+      if (!mirrored->is_boolean()) fail("mirrored", "true or false", mirrored->dump());
+      face.recipe.mirrored = mirrored->get<bool>();
+    }
     face.notes.attempt = attempt(member(json, "attempt"));
     const Json& regions = member(json, "regions");
     if (!regions.is_object() || regions.size() != names_.regions.size()) {
@@ -305,6 +312,9 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
       }
     }
   }
+  const bool any_mirrored = std::any_of(
+      crowd.begin(), crowd.end(), [](const CastFace& face) { return !is_unmirrored(face.recipe); });
+  if (any_mirrored) header.insert(header.end(), {"asymmetry", "mirrored"});
   std::string table = join(header, ",") + "\r\n";
   for (const CastFace& face : crowd) {
     std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
@@ -327,6 +337,10 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
           row.resize(row.size() + std::size(kBandColumns));
         }
       }
+    }
+    if (any_mirrored) {
+      row.push_back(format_number(face.recipe.asymmetry));
+      row.emplace_back(face.recipe.mirrored ? "true" : "false");
     }
     table += join(row, ",") + "\r\n";
   }

@@ -43,7 +43,11 @@ CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint3
   if (keeps_target) open.target = old.recipe.target;
   CastFace face =
       draw_recipe(casting, open, {0, attempt, concat("edit/", open.id)}, kind_of_group(casting));
-  if (keeps_target) face.recipe.mixture = old.recipe.mixture;
+  if (keeps_target) {
+    face.recipe.mixture = old.recipe.mixture;
+    face.recipe.asymmetry = old.recipe.asymmetry;
+    face.recipe.mirrored = old.recipe.mirrored;
+  }
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {

@@ -141,7 +141,7 @@ FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face)
     measures.warnings.push_back(sentence(*why, job_.config));
   }
   if (job_.config.believability.check &&
-      builder_.wider_mm(face) > job_.config.believability.max_gap_mm) {
+      builder_.wider_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
     measures.warnings.push_back(sentence(Reason::kGap, job_.config));
   }
   return measures;

@@ -6,6 +6,7 @@
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/hand_recipe.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/head_mirror.h"
 
 namespace crowdface {
 namespace {
@@ -90,6 +91,10 @@ Json recipe_to_json(const CastFace& face, const Casting& casting, const Config& 
   for (const SourceWeight& part : face.recipe.mixture) {
     json["mixture"][heads[static_cast<std::size_t>(part.head)]] = part.weight;
   }
+  if (!is_unmirrored(face.recipe) || mirrors(casting.sampling)) {
+    json["asymmetry"] = face.recipe.asymmetry;
+    json["mirrored"] = face.recipe.mirrored;
+  }
   json["regions"] = Json::object();
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     json["regions"][casting.region_names[k]] =
@@ -115,7 +120,14 @@ CastFace face_of_json(const Json& recipe, const Casting& casting, const Config& 
   }
   HandRecipe hand = hand_recipe_of_json(entry, config);
   if (!hand.age) hand.age = Range{0, 0};
+  if (!hand.asymmetry) hand.asymmetry = Range{1, 1};
+  if (!hand.mirrored) hand.mirrored = false;
   CastFace face = draw_hand_recipe(casting, hand);
+  if (!is_unmirrored(face.recipe) && mirroring_key(config).empty()) {
+    throw UsageError(
+        "asymmetry and mirrored: expected a config that has sampling.asymmetry, "
+        "sampling.mirror or a recipe with either");
+  }
   if (!mixture.empty()) set_target(face.recipe, std::move(mixture));
   return face;
 }

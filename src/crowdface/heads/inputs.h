@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/lod/detail_level.h"
 #include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/mirror_map.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
 #include "crowdface/shapes/point_set.h"
@@ -34,6 +36,7 @@ struct Inputs {
   Components components;
   PartList parts;   ///< `parts: none`: empty
   Components skin;  ///< the components with all skin joined into the largest
+  std::shared_ptr<const MirrorMap> mirror;  ///< if the config has faces mirrored
   ShapeSet shapes;
   Digest shapes_digest;  ///< if there are any
   std::vector<MeasuredLevel> levels;

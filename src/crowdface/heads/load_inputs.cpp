@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/alignment_check.h"
 #include "crowdface/heads/find_levels.h"
+#include "crowdface/heads/head_mirror.h"
 #include "crowdface/heads/load_points.h"
 #include "crowdface/heads/load_shapes.h"
 #include "crowdface/heads/named_parts.h"
@@ -331,6 +332,8 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   find_named_parts(config, inputs, problems);
   try {
     check_stance(config, inputs);
+    const std::string key = mirroring_key(config);
+    if (!key.empty()) inputs.mirror = mirror_for(config, inputs, key);
   } catch (const Error& error) {
     problems.add(error);
   }

@@ -73,7 +73,7 @@ class HeadPreparation {
     PreparedHead result;
     result.max_level = inputs_.max_level;
     const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
-    result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.samples);
+    result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.traced);
     if (config_.smoothing.levels == Levels::kCubic) {
       result.levels.rank = CubicFit::kRank;
       own_fields(result.levels, fit_cubic(filter(), head.positions, inputs_.max_level).fields);
@@ -142,8 +142,16 @@ bool into_cache(const std::filesystem::path& cache, const Digest& key, const Hea
 /// What all heads share.
 Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
-  prepared.samples = choose_face_samples(inputs.faces.topology, inputs.skin,
-                                         mean_head(inputs.faces), config.faces.front, kSamples);
+  const auto chosen = [&](Index count) {
+    return choose_face_samples(inputs.faces.topology, inputs.skin, mean_head(inputs.faces),
+                               config.faces.front, count);
+  };
+  if (inputs.mirror == nullptr) {
+    prepared.traced = prepared.samples = chosen(kSamples);
+  } else {
+    prepared.samples = with_partners(chosen(kSamples / 2), *inputs.mirror);
+    prepared.traced = with_corners(prepared.samples, *inputs.mirror);
+  }
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
                                                       inputs.max_level, missed_by_nodes(config));
   return prepared;
@@ -151,7 +159,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
 
 HeadCacheShape shape_of(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   return {inputs.faces.topology.vertex_count,
-          static_cast<Index>(prepared.samples.size()),
+          static_cast<Index>(prepared.traced.size()),
           static_cast<Index>(trajectory_levels(inputs.max_level).size()),
           static_cast<Index>(prepared.nodes->levels().size()),
           inputs.max_level,
@@ -170,7 +178,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
     if (!is_wanted(h)) continue;
     throw_if_interrupted();
-    const Digest key = key_of(config, inputs, prepared.samples, h);
+    const Digest key = key_of(config, inputs, prepared.traced, h);
     if (from_cache(cache, key, shape)) continue;
     write_cached_head(cache, key, shape, preparation.prepare(inputs.faces.heads[h]));
   }
@@ -186,7 +194,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   Progress progress("preparing heads", inputs.faces.heads.size());
   std::vector<Digest> keys;
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
-    keys.push_back(key_of(config, inputs, prepared.samples, h));
+    keys.push_back(key_of(config, inputs, prepared.traced, h));
   }
   std::vector<std::optional<PreparedHead>> heads = from_cache(cache, keys, shape);
   for (std::size_t h = 0; h < heads.size(); ++h) {

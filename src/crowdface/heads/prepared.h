@@ -39,7 +39,8 @@ struct PreparedHead {
 /// All heads, ready for casting and blending.
 struct Prepared {
   FaceSamples samples;
-  std::vector<Trajectory> trajectories;     ///< #heads
+  FaceSamples traced;  ///< the samples, and after them what their mirror images are made of besides
+  std::vector<Trajectory> trajectories;     ///< #heads, of what is traced
   std::vector<StoredLevels> levels;         ///< #heads; without fields with `levels: exact`
   std::shared_ptr<const LevelNodes> nodes;  ///< that `mixing` refers to
   std::optional<ChebyshevFilter> filter;    ///< `levels: exact`

@@ -41,6 +41,9 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   }
   hasher.add(static_cast<int>(config.blending.contacts));
   add_parts(config, inputs.parts, hasher);
+  if (inputs.mirror != nullptr) {
+    hasher.add(kMirrorVersion).add(config.faces.up.index).add(config.faces.front.index);
+  }
   return hasher.digest();
 }
 

@@ -177,8 +177,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
   std::vector<SurfacePoint> all = places;
   if (brush.mirror) {
     for (const SurfacePoint& place : places) {
-      const double off = dot3(place.position, mirror_.normal) - mirror_.at;
-      all.push_back(surface_.nearest(place.position - 2 * off * mirror_.normal));
+      all.push_back(surface_.nearest(mirror_.image(place.position)));
     }
   }
   std::vector<Touched> touched;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "crowdface/mesh/mirror_map.h"
 #include "crowdface/paint/surface_distance.h"
 #include "crowdface/region/region_weights.h"
 
@@ -24,12 +25,6 @@ struct Brush {
   bool mirror = false;  ///< paints on the other half of the head too
 };
 
-/// Where a head's halves meet: places p with p·normal = at.
-struct MirrorPlane {
-  Eigen::Vector3d normal = {1, 0, 0};
-  double at = 0;
-};
-
 /// Regions of a mesh that are painted by hand. Whatever is done to them, weights are not negative and sum
 /// to one at every vertex, and all can be taken back exactly.
 class MaskPainter {
@@ -37,6 +32,7 @@ class MaskPainter {
   using Alpha = RegionWeights::Alpha;
 
   /// \param positions  #V by 3, of the head that is painted on; with the topology they must outlive it.
+  /// \param mirror     where the head's halves meet.
   /// \param alpha      #V by #R.
   MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
               Alpha alpha);

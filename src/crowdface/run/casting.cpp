@@ -245,9 +245,15 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
       face_areas(inputs.faces.topology, inputs.skin, mean, config.distance.area, config.faces.front,
                  inputs.distance_mask);
   const SampleCells cells = find_sample_cells(inputs.adjacency, mean, prepared.samples);
-  FaceSpace space(sample_heads(inputs.faces, inputs.regions, prepared.samples,
-                               prepared.trajectories, inputs.max_level, mm_per(config.faces.units)),
-                  sample_weights(cells, prepared.samples, areas), band_count(config.sampling));
+  SampledHeads heads =
+      sample_heads(inputs.faces, inputs.regions, prepared.samples, prepared.trajectories,
+                   inputs.max_level, mm_per(config.faces.units));
+  if (inputs.mirror != nullptr) {
+    heads.image = sample_images(inputs.faces, inputs.regions, *inputs.mirror, prepared.samples,
+                                prepared.traced, heads);
+  }
+  FaceSpace space(std::move(heads), sample_weights(cells, prepared.samples, areas),
+                  band_count(config.sampling));
   ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
                  space.sampled().heads);
   return {std::move(space), std::move(skin)};
@@ -275,6 +281,7 @@ std::vector<std::string> contradicted_quotas(const Config& config, const Cast& c
   std::vector<std::string> warnings;
   const auto& quotas = config.diversity.quotas;
   for (std::size_t q = 0; q < quotas.size(); ++q) {
+    if (quotas[q].band) continue;
     const std::vector<Index>& heads = quotas[q].heads;
     double own = 0, all = 0;
     for (const CastFace& face : cast.crowd) {

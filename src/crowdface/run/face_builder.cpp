@@ -2,12 +2,15 @@
 #include "crowdface/run/face_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "crowdface/blend/blend.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/units.h"
+#include "crowdface/heads/head_mirror.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
@@ -43,7 +46,8 @@ std::vector<std::vector<double>> masks_at(const SkinContacts& contacts,
 }  // namespace
 
 FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared)
-    : inputs_(inputs),
+    : config_(config),
+      inputs_(inputs),
       prepared_(prepared),
       contacts_(inputs.faces, inputs.adjacency, vertices_of(inputs.skin, inputs.skin.largest())),
       keeps_contacts_(config.blending.contacts == Contacts::kAuto),
@@ -102,8 +106,39 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, Kept& kept) const {
 }
 
 void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
+  if (recipe.asymmetry != 1) {
+    face = between_mirrored(face, mirrored(mirror(), face), mirror_share(recipe.asymmetry, false));
+  }
   if (keeps_contacts_) contacts_.bring_into(contact_ranges(recipe), face);
   if (follower_) follower_->follow(recipe.target, face);
+  if (recipe.mirrored) face = mirrored(mirror(), face);
+}
+
+const MirrorMap& FaceBuilder::mirror() const {
+  std::call_once(mirror_once_, [&] { mirror_ = mirror_for(config_, inputs_, "a recipe"); });
+  return *mirror_;
+}
+
+SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
+                                 const Positions& face) const {
+  if (recipe.mirrored) {
+    Recipe other_way = recipe;
+    other_way.mirrored = false;
+    return this->defects(check, other_way, mirrored(mirror(), face));
+  }
+  SkinDefects defects;
+  if (recipe.mixture.empty() && recipe.asymmetry == 1) {
+    defects = check.compare(face, recipe.target);
+  } else {
+    Positions target = target_positions(inputs_.faces, recipe);
+    if (recipe.asymmetry != 1) {
+      target = between_mirrored(target, mirrored(mirror(), target),
+                                mirror_share(recipe.asymmetry, false));
+    }
+    defects = check.compare(face, target);
+  }
+  defects.wider_mm = contacts_.wider(face) * mm_per_unit_;
+  return defects;
 }
 
 std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recipe) const {
@@ -132,11 +167,31 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
     }
     ranges.push_back(range);
   }
+  if (recipe.asymmetry != 1) allow_other_side(ranges);
   return ranges;
 }
 
-double FaceBuilder::wider_mm(const Positions& face) const {
-  return contacts_.wider(face) * mm_per_unit_;
+/// A gap may come from either corner of the mouth then.
+void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
+  const std::vector<SkinContacts::Range> own = ranges;
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    const Eigen::Vector3d image = mirror().plane.image(contacts_.place(p).middle);
+    std::size_t other = p;
+    double nearest = HUGE_VAL;
+    for (std::size_t q = 0; q < own.size(); ++q) {
+      const double distance = length3(contacts_.place(q).middle - image);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      other = q;
+    }
+    ranges[p] = {std::min(own[p].least, own[other].least), std::max(own[p].most, own[other].most)};
+  }
+}
+
+double FaceBuilder::wider_mm(const Recipe& recipe, const Positions& face) const {
+  const double units =
+      recipe.mirrored ? contacts_.wider(mirrored(mirror(), face)) : contacts_.wider(face);
+  return units * mm_per_unit_;
 }
 
 std::uint64_t FaceBuilder::bytes(std::size_t faces) const {
@@ -147,6 +202,8 @@ std::uint64_t FaceBuilder::bytes(std::size_t faces) const {
     const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
     of_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }
+  constexpr std::uint64_t kMirrored = 3;  // the image, and what is between, beside the face
+  if (inputs_.mirror != nullptr) of_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
   return faces * of_face;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 
@@ -9,6 +11,7 @@
 #include "crowdface/heads/prepare.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/skin_contacts.h"
+#include "crowdface/validity/skin_check.h"
 
 namespace crowdface {
 
@@ -16,7 +19,7 @@ namespace crowdface {
 /// one by one and have the same bytes.
 class FaceBuilder {
  public:
-  /// \param inputs, prepared  must outlive the builder.
+  /// \param config, inputs, prepared  must outlive the builder.
   FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared);
   FaceBuilder(const FaceBuilder&) = delete;
   FaceBuilder& operator=(const FaceBuilder&) = delete;
@@ -40,8 +43,11 @@ class FaceBuilder {
   /// The masks that faces are blended with: zero at vertices that parts put elsewhere.
   const RegionWeights& regions() const { return regions_; }
 
+  /// What is wrong with the skin of a face that was built from a recipe, against that of its target.
+  SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
+
   /// How much farther lips, or other skin that nearly touches, are apart in a face than in any head.
-  double wider_mm(const Positions& face) const;
+  double wider_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory that building `faces` at once takes, their positions included.
   std::uint64_t bytes(std::size_t faces) const;
@@ -49,11 +55,17 @@ class FaceBuilder {
  private:
   /// What is done to a face once it is blended.
   void finish(const Recipe& recipe, Positions& face) const;
+  /// By which faces are mirrored; found when the first is.
+  const MirrorMap& mirror() const;
   /// Between the gap that a face's target has at each contact and that of its sources, by weight.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
+  void allow_other_side(std::vector<SkinContacts::Range>& ranges) const;
 
+  const Config& config_;
   const Inputs& inputs_;
   const Prepared& prepared_;
+  mutable std::once_flag mirror_once_;
+  mutable std::shared_ptr<const MirrorMap> mirror_;
   /// The masks, without those vertices of parts that get other positions anyway.
   RegionWeights regions_;
   std::optional<CrowdBlender> blender_;  ///< of fitted levels

@@ -90,7 +90,7 @@ class FaceOutput {
   FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const TextureBlender* textures,
              const OwnTextures* own, std::span<const MeshFormat> formats,
              const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
-             const FaceSet& faces, const FaceLedger& ledger)
+             const FaceLedger& ledger)
       : builder_(builder),
         writers_(writers),
         textures_(textures),
@@ -99,7 +99,6 @@ class FaceOutput {
         directory_(directory),
         renders_(renders),
         check_(check),
-        faces_(faces),
         ledger_(ledger) {}
 
   FaceFiles write(const CastFace& face, const Positions& positions) {
@@ -121,8 +120,7 @@ class FaceOutput {
     }
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);
-      files.skin = compare_with_target(*check_, faces_, face.recipe, positions);
-      files.skin->wider_mm = builder_.wider_mm(positions);
+      files.skin = builder_.defects(*check_, face.recipe, positions);
     }
     ledger_.record(face, files);
     return files;
@@ -171,7 +169,6 @@ class FaceOutput {
   const CrowdDirectory& directory_;
   const CrowdRenders* renders_;
   const SkinCheck* check_;
-  const FaceSet& faces_;
   const FaceLedger& ledger_;
   std::atomic<double> blend_ = 0, encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
 };
@@ -192,8 +189,7 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const FaceBuilder& builder, const TextureBlender* textures,
                        const std::vector<CastFace>& crowd, std::uint64_t memory)
-    : faces_(inputs.faces),
-      writes_meshes_(!config.output.meshes.empty()),
+    : writes_meshes_(!config.output.meshes.empty()),
       writers_(config, inputs, config.output.meshes, crowd),
       builder_(builder),
       textures_(textures),
@@ -225,7 +221,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (renders != nullptr) renders->make_folders(directory);
 
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
-                    renders, check_ ? &*check_ : nullptr, faces_, ledger);
+                    renders, check_ ? &*check_ : nullptr, ledger);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;

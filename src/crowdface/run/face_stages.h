@@ -47,7 +47,6 @@ class FaceStages {
                    const FaceLedger& ledger, const std::vector<CastFace>& faces) const;
 
  private:
-  const FaceSet& faces_;
   bool writes_meshes_;
   MeshWriters writers_;
   const FaceBuilder& builder_;

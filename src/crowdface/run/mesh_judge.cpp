@@ -4,7 +4,6 @@
 #include <memory>
 #include <span>
 
-#include "crowdface/blend/blend.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
@@ -26,12 +25,6 @@ Viewing viewing_of(const Config& config) {
 }
 
 }  // namespace
-
-SkinDefects compare_with_target(const SkinCheck& check, const FaceSet& faces, const Recipe& recipe,
-                                const Positions& face) {
-  if (recipe.mixture.empty()) return check.compare(face, recipe.target);
-  return check.compare(face, target_positions(faces, recipe));
-}
 
 bool skin_is_judged(const Config& config, const Inputs& inputs) {
   constexpr Index kMostFaces = 200'000;  // polygons; beyond that it would rule the time of a run
@@ -55,13 +48,11 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
   std::set<Index> targets;
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
   const auto check = std::make_shared<SkinCheck>(skin_check(config, inputs, targets));
-  return [&builder, check, &faces = inputs.faces](const Recipe& recipe) {
+  return [&builder, check](const Recipe& recipe) {
     const Recipe* one = &recipe;
     Positions face;
     builder.build(std::span(&one, 1), std::span(&face, 1));
-    SkinDefects defects = compare_with_target(*check, faces, recipe, face);
-    defects.wider_mm = builder.wider_mm(face);
-    return defects;
+    return builder.defects(*check, recipe, face);
   };
 }
 

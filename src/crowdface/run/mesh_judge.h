@@ -18,10 +18,6 @@ bool skin_is_judged(const Config& config, const Inputs& inputs);
 /// Judges whole meshes against those of the targets.
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets);
 
-/// What is wrong with the skin of a recipe's face against that of its target.
-SkinDefects compare_with_target(const SkinCheck& check, const FaceSet& faces, const Recipe& recipe,
-                                const Positions& face);
-
 /// Whether candidates are built and their meshes judged while casting.
 bool candidates_are_built(const Config& config);
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/head_mirror.h"
+
+#include <algorithm>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/named_parts.h"
+
+namespace crowdface {
+namespace {
+
+/// Of all vertices that must have another side.
+constexpr double kLeastShare = 0.9;
+
+std::string key_of(const SamplingOptions& sampling, const std::string& section) {
+  if (sampling.asymmetry != Range{1, 1}) return concat(section, ".asymmetry");
+  if (sampling.mirror != Mirroring::kNone) return concat(section, ".mirror");
+  return {};
+}
+
+}  // namespace
+
+std::string mirroring_key(const Config& config) {
+  std::string key = key_of(config.sampling, "sampling");
+  for (const Group& group : config.groups) {
+    if (key.empty()) key = key_of(group.sampling, concat("groups.", group.name));
+  }
+  for (const HandRecipe& recipe : config.recipes) {
+    if (!key.empty()) break;
+    if (recipe.asymmetry.value_or(Range{1, 1}) != Range{1, 1}) {
+      key = concat("recipes.", recipe.id, ".asymmetry");
+    } else if (recipe.mirrored.value_or(false)) {
+      key = concat("recipes.", recipe.id, ".mirrored");
+    }
+  }
+  return key;
+}
+
+FoundMirror find_mirror(const Config& config, const Inputs& inputs) {
+  return find_mirror(inputs.faces.topology, inputs.components, mean_head(inputs.faces),
+                     head_axes(config).side());
+}
+
+std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& inputs,
+                                            const std::string& key) {
+  if (inputs.mirror != nullptr) return inputs.mirror;
+  FoundMirror found = find_mirror(config, inputs);
+  if (found.share() < kLeastShare) {
+    throw InvalidInput(concat(config.file.string(), ": ", key, ": the heads are not symmetric ",
+                              "enough: expected ", 100 * kLeastShare, " % of the vertices to have ",
+                              "a place on the other side, found ", describe_mirror(config, found)));
+  }
+  return std::make_shared<const MirrorMap>(std::move(found.map));
+}
+
+std::string describe_mirror(const Config& config, const FoundMirror& mirror) {
+  const double mm = mm_per(config.faces.units);
+  const auto all = static_cast<Index>(mirror.map.corners.size());
+  std::string text =
+      concat(mirror.vertices + mirror.on_surface, " of ", all, " vertices have another side");
+  if (mirror.on_surface > 0) {
+    text += concat(", ", mirror.on_surface, " of them on the surface between vertices");
+  }
+  return concat(text, "; the mean head is ", format_fixed(mm * mirror.rms, 2),
+                " mm from its mirror image (rms), ", format_fixed(mm * mirror.largest, 2),
+                " at most");
+}
+
+}  // namespace crowdface

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/mesh/mirror_map.h"
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kRows = 4096;  ///< a task
+
+}  // namespace
+
+Eigen::Vector3d MirrorPlane::image(const Eigen::Vector3d& point) const {
+  return point - 2 * (dot3(normal, point) - offset) * normal;
+}
+
+Positions mirrored(const MirrorMap& map, const Positions& positions) {
+  Positions image(positions.rows(), 3);
+  parallel_blocks(positions.rows(), kRows, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      const auto i = static_cast<std::size_t>(v);
+      Eigen::Vector3d place = map.shares[i][0] * positions.row(map.corners[i][0]).transpose();
+      if (!map.is_vertex(static_cast<std::uint32_t>(v))) {
+        for (std::size_t c = 1; c < 3; ++c) {
+          place += map.shares[i][c] * positions.row(map.corners[i][c]).transpose();
+        }
+      }
+      image.row(v) = map.plane.image(place).transpose();
+    }
+  });
+  for (std::size_t i = 0; i < map.without.size(); ++i) {
+    image.row(map.without[i]) += map.kept.row(static_cast<Index>(i));
+  }
+  return image;
+}
+
+Positions between_mirrored(const Positions& positions, const Positions& image, double w) {
+  Positions result(positions.rows(), 3);
+  // From the nearer of the two, so that either end is met to the bit.
+  const bool near_image = w > 0.5;
+  const Positions& from = near_image ? image : positions;
+  const Positions& to = near_image ? positions : image;
+  const double share = near_image ? 1 - w : w;
+  parallel_blocks(positions.rows(), kRows, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      for (Index c = 0; c < 3; ++c) result(v, c) = from(v, c) + share * (to(v, c) - from(v, c));
+    }
+  });
+  return result;
+}
+
+double mirror_share(double asymmetry, bool mirrored) {
+  return (mirrored ? 1 + asymmetry : 1 - asymmetry) / 2;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/find_mirror.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/face_walk.h"
+#include "crowdface/parts/find_mirror_plane.h"
+#include "crowdface/parts/surface_point.h"
+
+namespace crowdface {
+namespace {
+
+/// By how much a coordinate plane may be the worse mirror and is taken all the same.
+constexpr double kAsGood = 1.05;
+constexpr std::size_t kSeeds = 24;  ///< walks that are tried for two components
+/// A ball has many ways to be mirrored: one this near, as a share of its own extent, is the right one.
+constexpr double kSure = 0.01;
+// Shares of the skin's extent, some 43 cm.
+constexpr double kReach = 0.01;  // how far a place may be from a vertex' image
+/// How far partners that faces tell may be from images, in the root mean square: as a share of the
+/// component's own extent, or of the skin's.
+constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
+constexpr double kBoxReach = 0.03;  // by how much the boxes of two components may differ
+/// How near to its image a partner must be that only its nearness tells, as a share of the edges there.
+constexpr double kNearness = 0.05;
+
+using Vertices = std::vector<std::uint32_t>;
+
+Eigen::Vector3d at(const Positions& positions, std::uint32_t vertex) {
+  return row3(positions, static_cast<Index>(vertex));
+}
+
+struct Box {
+  Eigen::Vector3d low, high;
+};
+
+Box box_of(const Positions& mean, const Vertices& vertices) {
+  Box box{at(mean, vertices.front()), at(mean, vertices.front())};
+  for (const std::uint32_t v : vertices) {
+    box.low = box.low.cwiseMin(at(mean, v));
+    box.high = box.high.cwiseMax(at(mean, v));
+  }
+  return box;
+}
+
+/// The component that lies where the image of each lies, kNoIndex where none does: two and two, the nearest
+/// first of those with as many vertices, so that layers of lashes find their own; then the nearest of all.
+Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
+                            const MirrorPlane& plane, double reach) {
+  std::vector<Box> boxes, images;
+  for (const Vertices& vertices : components) {
+    Positions image(static_cast<Index>(vertices.size()), 3);
+    Vertices rows(vertices.size());
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+      rows[i] = i;
+      image.row(i) = plane.image(at(mean, vertices[i])).transpose();
+    }
+    boxes.push_back(box_of(mean, vertices));
+    images.push_back(box_of(image, rows));
+  }
+  struct Pair {
+    bool unlike;
+    double difference;
+    std::uint32_t one, other;
+    bool operator<(const Pair& b) const {
+      return std::tie(unlike, difference, one, other) <
+             std::tie(b.unlike, b.difference, b.one, b.other);
+    }
+  };
+  std::vector<Pair> pairs;
+  for (std::uint32_t one = 0; one < components.size(); ++one) {
+    for (std::uint32_t other = 0; other < components.size(); ++other) {
+      const double difference =
+          std::max((boxes[other].low - images[one].low).cwiseAbs().maxCoeff(),
+                   (boxes[other].high - images[one].high).cwiseAbs().maxCoeff());
+      if (difference > reach) continue;
+      pairs.push_back({components[one].size() != components[other].size(), difference, one, other});
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  Vertices partners(components.size(), kNoIndex);
+  for (const Pair& pair : pairs) {
+    if (partners[pair.one] != kNoIndex) continue;
+    if (pair.unlike) {
+      partners[pair.one] = pair.other;
+    } else if (partners[pair.other] == kNoIndex) {
+      partners[pair.one] = pair.other;
+      partners[pair.other] = pair.one;
+    }
+  }
+  return partners;
+}
+
+/// Finds the places of the vertices of one component on another, or on itself.
+class PlaceFinder {
+ public:
+  PlaceFinder(const Topology& topology, const FacesAround& around, const Positions& mean,
+              const MirrorPlane& plane, double extent)
+      : topology_(topology), around_(around), mean_(mean), plane_(plane), extent_(extent) {}
+
+  /// By the faces of both. \return nothing if they are not alike
+  std::optional<std::vector<MirroredPair>> by_faces(const Vertices& here,
+                                                    const Vertices& there) const {
+    if (here.size() != there.size() || here.size() < 3) return std::nullopt;
+    const PointGrid grid(mean_, there);
+    struct Seed {
+      double distance;
+      std::uint32_t vertex, partner;
+    };
+    std::vector<Seed> seeds;
+    for (const std::uint32_t v : some_of(here, 20 * kSeeds)) {
+      const auto near = grid.nearest(image(v));
+      seeds.push_back({near.distance, v, near.vertex});
+    }
+    std::stable_sort(seeds.begin(), seeds.end(),
+                     [](const Seed& a, const Seed& b) { return a.distance < b.distance; });
+    seeds.resize(std::min(seeds.size(), kSeeds));
+    const Box box = box_of(mean_, here);
+    const double extent = (box.high - box.low).maxCoeff();
+    std::optional<std::vector<MirroredPair>> best;
+    double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
+    for (const Seed& seed : seeds) {
+      for (const std::uint32_t f : around_.of(seed.vertex)) {
+        const auto face = topology_.face(f);
+        const auto corner = std::find(face.begin(), face.end(), seed.vertex);
+        const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
+        const std::uint32_t partner_of_to = grid.nearest(image(to)).vertex;
+        auto pairs =
+            walk_mirrored(topology_, around_, {seed.vertex, to}, {partner_of_to, seed.partner});
+        if (!pairs || pairs->size() != here.size()) continue;
+        const double rms = distance(*pairs);
+        if (rms > best_rms) continue;
+        best_rms = rms;
+        best = std::move(pairs);
+        if (rms <= kSure * extent) return best;
+      }
+    }
+    return best;
+  }
+
+  /// By nearness, each vertex for itself.
+  void by_nearness(const Vertices& here, const Vertices& there, FoundMirror& found) const {
+    const PointGrid grid_there(mean_, there), grid_here(mean_, here);
+    const double reach = kReach * extent_;
+    std::vector<double> distances(here.size());
+    parallel_for_each(here.size(), [&](std::size_t i) {
+      const std::uint32_t v = here[i];
+      const Eigen::Vector3d point = image(v);
+      const auto near = grid_there.nearest(point);
+      const bool agreed = near.distance <= kNearness * edge_length(near.vertex) &&
+                          grid_here.nearest(image(near.vertex)).vertex == v;
+      if (agreed || around_.of(near.vertex).empty()) {
+        put(found.map, v, near.vertex);
+        distances[i] = near.distance;
+        return;
+      }
+      const SurfacePoint place = nearest_from(topology_, around_, mean_, near.vertex, point);
+      found.map.corners[v] = place.corners;
+      found.map.shares[v] = place.shares;
+      if (place.shares[0] == 1) no_partner(found.map, v);
+      distances[i] = place.distance;
+    });
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      if (distances[i] > reach) found.map.without.push_back(here[i]);
+    }
+  }
+
+  static void put(MirrorMap& map, std::uint32_t vertex, std::uint32_t partner) {
+    map.corners[vertex] = {partner, partner, partner};
+    map.shares[vertex] = {1, 0, 0};
+  }
+  /// The same place, though it is a vertex, which has another for its own.
+  static void no_partner(MirrorMap& map, std::uint32_t vertex) {
+    std::swap(map.corners[vertex][0], map.corners[vertex][1]);
+    map.shares[vertex] = {0, 1, 0};
+  }
+
+ private:
+  Eigen::Vector3d image(std::uint32_t vertex) const { return plane_.image(at(mean_, vertex)); }
+
+  /// Between images and partners, the root mean square.
+  double distance(const std::vector<MirroredPair>& pairs) const {
+    double squares = 0;
+    for (const auto [vertex, partner] : pairs) {
+      const Eigen::Vector3d off = image(vertex) - at(mean_, partner);
+      squares += dot3(off, off);
+    }
+    return std::sqrt(squares / static_cast<double>(pairs.size()));
+  }
+
+  double edge_length(std::uint32_t vertex) const {
+    double sum = 0, count = 0;
+    for (const std::uint32_t f : around_.of(vertex)) {
+      const auto face = topology_.face(f);
+      for (std::size_t c = 0; c < face.size(); ++c) {
+        sum += length3(at(mean_, face[c]) - at(mean_, face[(c + 1) % face.size()]));
+        ++count;
+      }
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
+  const Topology& topology_;
+  const FacesAround& around_;
+  const Positions& mean_;
+  const MirrorPlane& plane_;
+  double extent_;
+};
+
+/// Mean square of how far the mean head is from its image.
+double mean_square(const MirrorMap& map, const Positions& mean, double* largest = nullptr) {
+  const Positions image = mirrored(map, mean);
+  double squares = 0, most = 0;
+  for (Index v = 0; v < mean.rows(); ++v) {
+    const Eigen::Vector3d off = row3(image, v) - row3(mean, v);
+    squares += dot3(off, off);
+    most = std::max(most, length3(off));
+  }
+  if (largest != nullptr) *largest = most;
+  return squares / static_cast<double>(mean.rows());
+}
+
+/// The plane that the partners tell, or the coordinate plane that is nearly as good.
+MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positions& mean,
+                              const Eigen::Vector3d& side) {
+  PlaneFit fit;
+  for (const std::uint32_t v : skin) {
+    if (map.is_vertex(v)) fit.add(at(mean, v), at(mean, map.corners[v][0]));
+  }
+  if (fit.count() * 2 >= static_cast<double>(skin.size())) map.plane = fit.plane(side);
+  const double best = mean_square(map, mean);
+  const MirrorPlane fitted = map.plane;
+  Index axis = 0;
+  side.cwiseAbs().maxCoeff(&axis);
+  map.plane = {Eigen::Vector3d::Unit(axis), 0};
+  const bool as_good = std::sqrt(mean_square(map, mean)) <= kAsGood * std::sqrt(best) + 1e-12;
+  return as_good ? map.plane : fitted;
+}
+
+/// Where nothing answers, the mean head stays as it is; where something is a little too far off, as little
+/// of that as makes no step.
+void keep_form(const Positions& mean, double reach, MirrorMap& map) {
+  const Positions image = mirrored(map, mean);
+  map.kept.resize(static_cast<Index>(map.without.size()), 3);
+  for (std::size_t i = 0; i < map.without.size(); ++i) {
+    const auto v = static_cast<Index>(map.without[i]);
+    const Eigen::Vector3d off = row3(mean, v) - row3(image, v);
+    const double length = length3(off);
+    const double share = length > reach ? 1 - reach / length : 0;
+    map.kept.row(static_cast<Index>(i)) = (share * off).transpose();
+  }
+}
+
+}  // namespace
+
+double FoundMirror::share() const {
+  return static_cast<double>(vertices + on_surface) / static_cast<double>(map.corners.size());
+}
+
+FoundMirror find_mirror(const Topology& topology, const Components& components,
+                        const Positions& mean, const Eigen::Vector3d& side) {
+  std::vector<Vertices> of_component(static_cast<std::size_t>(components.count()));
+  for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
+    of_component[components.of_vertex[v]].push_back(v);
+  }
+  const Vertices& skin = of_component[components.largest()];
+  FoundMirror found;
+  MirrorMap& map = found.map;
+  const FacesAround around(topology);
+  map.corners.resize(components.of_vertex.size());
+  map.shares.resize(components.of_vertex.size());
+  const Box box = box_of(mean, skin);
+  const double extent = (box.high - box.low).maxCoeff();
+  map.plane = find_mirror_plane(topology, around, mean, skin,
+                                {side, dot3(side, 0.5 * (box.low + box.high))});
+  {
+    const PlaceFinder finder(topology, around, mean, map.plane, extent);
+    const Vertices partners = component_partners(mean, of_component, map.plane, kBoxReach * extent);
+    for (std::size_t c = 0; c < of_component.size(); ++c) {
+      const Vertices& here = of_component[c];
+      if (partners[c] == kNoIndex) {
+        for (const std::uint32_t v : here) PlaceFinder::put(map, v, v);
+        map.without.insert(map.without.end(), here.begin(), here.end());
+        continue;
+      }
+      const Vertices& there = of_component[partners[c]];
+      if (const auto pairs = finder.by_faces(here, there)) {
+        for (const auto [vertex, partner] : *pairs) PlaceFinder::put(map, vertex, partner);
+      } else {
+        finder.by_nearness(here, there, found);
+      }
+    }
+  }
+  for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
+    const std::uint32_t partner = map.corners[v][0];
+    const bool agreed = map.is_vertex(partner) && map.corners[partner][0] == v;
+    if (map.is_vertex(v) && !agreed) PlaceFinder::no_partner(map, v);
+  }
+  std::sort(map.without.begin(), map.without.end());
+  map.kept.setZero(static_cast<Index>(map.without.size()), 3);
+  map.plane = plane_of_partners(map, skin, mean, side);
+  keep_form(mean, kReach * extent, map);
+  found.rms = std::sqrt(mean_square(map, mean, &found.largest));
+  for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
+    if (std::binary_search(map.without.begin(), map.without.end(), v)) continue;
+    ++(map.is_vertex(v) ? found.vertices : found.on_surface);
+  }
+  return found;
+}
+
+}  // namespace crowdface

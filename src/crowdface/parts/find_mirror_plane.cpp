@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/find_mirror_plane.h"
+
+#include <cmath>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/smooth/symmetric_eigen.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kPoints = 4000;  ///< of the skin, that tell the plane
+constexpr int kSteps = 30;
+
+using Vertices = std::vector<std::uint32_t>;
+
+Eigen::Vector3d at(const Positions& positions, std::uint32_t vertex) {
+  return row3(positions, static_cast<Index>(vertex));
+}
+
+class PlaneSearch {
+ public:
+  PlaneSearch(const Topology& topology, const FacesAround& around, const Positions& mean,
+              const Vertices& skin, const MirrorPlane& start)
+      : topology_(topology),
+        around_(around),
+        mean_(mean),
+        start_(start),
+        grid_(mean, skin),
+        some_(some_of(skin, kPoints)),
+        places_(some_.size()) {}
+
+  MirrorPlane find() {
+    MirrorPlane by_vertices = start_;
+    for (int step = 0; step < kSteps; ++step) {
+      by_vertices = next(by_vertices, [&](std::uint32_t nearest, const Eigen::Vector3d&) {
+        return at(mean_, nearest);
+      });
+    }
+    for (MirrorPlane plane : {start_, by_vertices}) {
+      for (int step = 0; step < kSteps; ++step) {
+        const MirrorPlane tried = plane;
+        plane = next(plane, [&](std::uint32_t nearest, const Eigen::Vector3d& image) {
+          return nearest_from(topology_, around_, mean_, nearest, image).position;
+        });
+        keep_best(tried);
+      }
+    }
+    return best_;
+  }
+
+ private:
+  /// \param place_of  where the surface is nearest to the image of a vertex
+  template <class PlaceOf>
+  MirrorPlane next(const MirrorPlane& plane, const PlaceOf& place_of) {
+    parallel_for_each(some_.size(), [&](std::size_t i) {
+      const Eigen::Vector3d image = plane.image(at(mean_, some_[i]));
+      places_[i] = place_of(grid_.nearest(image).vertex, image);
+    });
+    PlaneFit fit;
+    for (std::size_t i = 0; i < some_.size(); ++i) fit.add(at(mean_, some_[i]), places_[i]);
+    return fit.plane(start_.normal);
+  }
+
+  void keep_best(const MirrorPlane& tried) {
+    double squares = 0;
+    for (std::size_t i = 0; i < some_.size(); ++i) {
+      const Eigen::Vector3d off = tried.image(at(mean_, some_[i])) - places_[i];
+      squares += dot3(off, off);
+    }
+    if (squares >= least_) return;
+    least_ = squares;
+    best_ = tried;
+  }
+
+  const Topology& topology_;
+  const FacesAround& around_;
+  const Positions& mean_;
+  const MirrorPlane& start_;
+  PointGrid grid_;
+  Vertices some_;
+  std::vector<Eigen::Vector3d> places_;  ///< of each
+  MirrorPlane best_;
+  double least_ = HUGE_VAL;
+};
+
+}  // namespace
+
+void PlaneFit::add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner) {
+  const Eigen::Vector3d joining = point - partner;
+  for (Index a = 0; a < 3; ++a) {
+    for (Index b = 0; b < 3; ++b) along_(a, b) += joining(a) * joining(b);
+  }
+  middles_ += 0.5 * (point + partner);
+  ++count_;
+}
+
+MirrorPlane PlaneFit::plane(const Eigen::Vector3d& side) const {
+  MirrorPlane plane;
+  plane.normal = unit3(symmetric_eigen(along_).vectors.col(0));
+  if (dot3(plane.normal, side) < 0) plane.normal = -plane.normal;
+  plane.offset = dot3(plane.normal, middles_ / count_);
+  return plane;
+}
+
+MirrorPlane find_mirror_plane(const Topology& topology, const FacesAround& around,
+                              const Positions& mean, const std::vector<std::uint32_t>& skin,
+                              const MirrorPlane& start) {
+  return PlaneSearch(topology, around, mean, skin, start).find();
+}
+
+}  // namespace crowdface
