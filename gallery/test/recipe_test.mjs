@@ -101,7 +101,7 @@ test('coefficients are shares times functions', () => {
 });
 
 const banded = { ...job, bands: [
-  { name: 'build', smoothness: 0.5, sources: [0, 1, 2] }, { name: 'skin', smoothness: 0.04, sources: [1] }] };
+  { name: 'build', smoothness: [0.5, 0.5], sources: [0, 1, 2] }, { name: 'skin', smoothness: [0.04, 0.01], sources: [1] }] };
 const withSkin = () => face({ bands: { skin: { weights: { bob: 1 }, smoothness: 0.09, extrapolation: 0.5 } } });
 
 test('each band lends between its level and the next', () => {
@@ -121,13 +121,18 @@ test('bands that say the same are one band', () => {
 
 test('one band is changed without the others, and told with them', () => {
   const document = withSkin();
-  const region = withBand(banded, document.recipe.regions.top, 'skin', { position: [1, 0], smoothness: 0.01 });
-  assert.deepEqual(bandOf(banded, region, 'build').position, [0.3, 0.2]);
-  assert.deepEqual(bandOf(banded, region, 'skin').position, [1, 0]);
-  document.recipe.regions.top = region;
+  document.recipe.regions.top = withBand(banded, document.recipe, 'top', 'skin', { position: [1, 0], smoothness: 0.01 });
+  assert.deepEqual(bandOf(banded, document.recipe, 'top', 'build').position, [0.3, 0.2]);
+  assert.deepEqual(bandOf(banded, document.recipe, 'top', 'skin').position, [1, 0]);
   assert.deepEqual(wire(banded, document).regions.top.bands, { skin: { position: [1, 0], smoothness: 0.01 } });
   document.anchors = { ann: [0, 0] };
   assert.ok(wire(banded, document).regions.top.bands.skin.weights.bob > 0);
+});
+
+test('a band that a region leaves open begins where the config says for that region', () => {
+  const { recipe } = face();
+  assert.deepEqual(bandOf(banded, recipe, 'top', 'skin'), { position: [0.3, 0.2], smoothness: 0.04, extrapolation: 1.2 });
+  assert.equal(bandOf(banded, recipe, 'bottom', 'skin').smoothness, 0.01);
 });
 
 test('the way between two faces goes through all bands', () => {

@@ -187,6 +187,19 @@ TEST(GenerateBands, AQuotaBindsTheHeadsOfABand) {
   EXPECT_EQ(quota.at("faces"), 2);
 }
 
+TEST(GenerateBands, ABandTooFineForTheMeshIsWarnedOf) {
+  SmallCrowd crowd;
+  crowd.count = 2;
+  const auto warnings_with = [&](const std::string& skin) {
+    crowd.sampling = concat("{bands: {build: 0.9, skin: ", skin, "}}");
+    const SmallCrowdFolder folder(crowd);
+    run(folder);
+    return testing::read_json(folder.out() / "report.json").at("warnings").dump();
+  };
+  EXPECT_THAT(warnings_with("0.001 mm"), ::testing::HasSubstr("sampling.bands.skin begins at 0"));
+  EXPECT_THAT(warnings_with("0.5"), ::testing::Not(::testing::HasSubstr("bands")));
+}
+
 TEST(GenerateBands, ThatOverlapAreRefused) {
   SmallCrowd crowd = banded();
   crowd.sampling = "{bands: {one: 0.5, two: [0.4, 0.6]}}";

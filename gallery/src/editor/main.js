@@ -200,7 +200,7 @@ class Editor {
 
   /// A region's numbers in the band that is shown.
   numbersOf(name) {
-    return bandOf(this.job, this.document.recipe.regions[name], this.band);
+    return bandOf(this.job, this.document.recipe, name, this.band);
   }
 
   showBand(band) {
@@ -216,7 +216,7 @@ class Editor {
     const regions = { ...document.recipe.regions };
     const changed = change(this.numbersOf(name));
     for (const other of names) {
-      regions[other] = withBand(this.job, regions[other], this.band, structuredClone(changed));
+      regions[other] = withBand(this.job, document.recipe, other, this.band, structuredClone(changed));
     }
     return { ...document, recipe: { ...document.recipe, regions } };
   }
@@ -265,7 +265,8 @@ class Editor {
     for (const region of this.job.regions) {
       if (this.isLocked(region.name)) continue;
       const { weights, ...rest } = this.numbersOf(region.name);
-      regions[region.name] = withBand(this.job, regions[region.name], this.band, { ...rest, position: [...anchor] });
+      regions[region.name] = withBand(this.job, document.recipe, region.name, this.band,
+        { ...rest, position: [...anchor] });
     }
     document = { ...document, recipe: { ...document.recipe, regions } };
     this.commit(document, `all on ${name}`);

@@ -90,20 +90,29 @@ export function bandNames(job) {
 
 /// The numbers of a band of a region. The first one's are the region's own; so are those of a band that
 /// has none, but for where it begins.
-export function bandOf(job, region, band) {
-  const { bands, ...own } = region;
+export function bandOf(job, recipe, name, band) {
+  const { bands, ...own } = recipe.regions[name];
   const at = bandNames(job).indexOf(band);
   if (at <= 0) return own;
   const { smoothness, iterations, ...rest } = own;
-  return bands?.[band] ?? { ...rest, smoothness: job.bands[at].smoothness };
+  return bands?.[band] ?? { ...rest, smoothness: job.bands[at].smoothness[regionIndex(job, name)] };
 }
 
-/// The region with other numbers of one band; all bands have their own then.
-export function withBand(job, region, band, numbers) {
+/// A region with each band's numbers changed; all bands have their own then.
+function withBands(job, recipe, name, change) {
+  const of = (band) => change(bandOf(job, recipe, name, band), band);
   const [first, ...finer] = bandNames(job);
-  if (finer.length === 0) return numbers;
-  const of = (name) => (name === band ? numbers : bandOf(job, region, name));
-  return { ...of(first), bands: Object.fromEntries(finer.map((name) => [name, of(name)])) };
+  if (finer.length === 0) return of(first);
+  return { ...of(first), bands: Object.fromEntries(finer.map((band) => [band, of(band)])) };
+}
+
+/// A region with other numbers of one band.
+export function withBand(job, recipe, name, band, numbers) {
+  return withBands(job, recipe, name, (old, at) => (at === band ? numbers : old));
+}
+
+function regionIndex(job, name) {
+  return job.regions.findIndex((region) => region.name === name);
 }
 
 function sourcesOf(job, index, band) {
@@ -119,10 +128,10 @@ export function headIndex(job, name) {
 /// How much each head lends to a band of a region, one a head.
 export function weightsOf(job, document, name, band = bandNames(job)[0]) {
   const { recipe } = document;
-  const numbers = bandOf(job, recipe.regions[name], band);
+  const numbers = bandOf(job, recipe, name, band);
   if (numbers.position) {
     return weightsAt(job, anchorsOf(job, document.anchors), headIndex(job, recipe.target),
-      sourcesOf(job, job.regions.findIndex((r) => r.name === name), band), numbers.position);
+      sourcesOf(job, regionIndex(job, name), band), numbers.position);
   }
   const weights = job.heads.map((head) => numbers.weights?.[head.name] ?? 0);
   const sum = weights.reduce((total, weight) => total + weight, 0);
@@ -157,7 +166,7 @@ function levelShares(job, document, name) {
   let coarser = targetShares(job, document.recipe);
   let most = 1;
   return bandNames(job).map((band) => {
-    const numbers = bandOf(job, document.recipe.regions[name], band);
+    const numbers = bandOf(job, document.recipe, name, band);
     const finer = weightsOf(job, document, name, band).map((weight) => (numbers.extrapolation ?? 1) * weight);
     const shares = coarser.map((share, h) => share - finer[h]);
     coarser = finer;
@@ -193,12 +202,6 @@ export function coefficients(job, document, heads) {
   });
 }
 
-/// The region with each band's numbers changed.
-function withBands(job, region, change) {
-  return bandNames(job).reduce((changed, band) =>
-    withBand(job, changed, band, change(bandOf(job, region, band), band)), region);
-}
-
 /// The recipe as the program reads it. Where heads were moved on the page's plane a position would
 /// mean something else to the program, so that the weights themselves are told.
 export function wire(job, document) {
@@ -206,7 +209,7 @@ export function wire(job, document) {
   const moved = Object.keys(anchors ?? {}).length > 0;
   const regions = {};
   for (const { name } of job.regions) {
-    regions[name] = withBands(job, recipe.regions[name], (numbers, band) => {
+    regions[name] = withBands(job, recipe, name, (numbers, band) => {
       const { position, weights, ...rest } = numbers;
       if (!position) return { weights, ...rest };
       if (!moved) return { position, ...rest };
@@ -223,9 +226,9 @@ export function between(job, from, to, t) {
   const mix = (a, b) => a + t * (b - a);
   const regions = {};
   for (const { name } of job.regions) {
-    regions[name] = withBands(job, near.recipe.regions[name], (numbers, band) => {
-      const a = bandOf(job, from.recipe.regions[name], band);
-      const b = bandOf(job, to.recipe.regions[name], band);
+    regions[name] = withBands(job, near.recipe, name, (numbers, band) => {
+      const a = bandOf(job, from.recipe, name, band);
+      const b = bandOf(job, to.recipe, name, band);
       const level = mix(levelOf(a, job.levels), levelOf(b, job.levels));
       const mixed = { extrapolation: mix(a.extrapolation ?? 1, b.extrapolation ?? 1) };
       if (a.position && b.position) {

@@ -150,7 +150,7 @@ export class Shelf {
     const stay = this.ends.get('this face');
     const { regions } = mixed.recipe;
     for (const [name, band] of editor.lockedParts()) {
-      regions[name] = withBand(editor.job, regions[name], band, bandOf(editor.job, stay.recipe.regions[name], band));
+      regions[name] = withBand(editor.job, mixed.recipe, name, band, bandOf(editor.job, stay.recipe, name, band));
     }
     mixed.recipe.id = stay.recipe.id;
     editor.preview(mixed);

@@ -188,12 +188,7 @@ class Redrawing {
     face.recipe.mixture = old.recipe.mixture;
     face.recipe.asymmetry = old.recipe.asymmetry;
     face.recipe.mirrored = old.recipe.mirrored;
-    const std::size_t bands = band_count(casting_.sampling);
-    for (const std::size_t part : mark.locked) {
-      band_of(face.recipe.regions[part / bands], part % bands) =
-          band_of(old.recipe.regions[part / bands], part % bands);
-    }
-    for (RegionRecipe& region : face.recipe.regions) keep_order(region);
+    take_over(mark.locked, old.recipe, face.recipe);
     return face;
   }
 

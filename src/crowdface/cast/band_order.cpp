@@ -1,15 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/band_order.h"
 
+#include <set>
+
 namespace crowdface {
+namespace {
+
+void begin_like(const BandRecipe& other, BandRecipe& band) {
+  band.iterations = other.iterations;
+  band.smoothness = other.smoothness;
+}
+
+}  // namespace
 
 void keep_order(RegionRecipe& region) {
   for (std::size_t b = 1; b < band_count(region); ++b) {
     const BandRecipe& coarser = band_of(region, b - 1);
     BandRecipe& band = band_of(region, b);
-    if (band.iterations <= coarser.iterations) continue;
-    band.iterations = coarser.iterations;
-    band.smoothness = coarser.smoothness;
+    if (band.iterations > coarser.iterations) begin_like(coarser, band);
+  }
+}
+
+void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
+  const std::set<std::size_t> taken(parts.begin(), parts.end());
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    RegionRecipe& region = recipe.regions[k];
+    const std::size_t bands = band_count(region);
+    const BandRecipe* finer = nullptr;  // that was taken
+    for (std::size_t b = bands; b-- > 0;) {
+      BandRecipe& band = band_of(region, b);
+      if (taken.contains(k * bands + b)) {
+        band = band_of(from.regions[k], b);
+        finer = &band;
+      } else if (finer != nullptr && band.iterations < finer->iterations) {
+        begin_like(*finer, band);
+      }
+    }
+    keep_order(region);
   }
 }
 

@@ -48,20 +48,15 @@ CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint3
     face.recipe.asymmetry = old.recipe.asymmetry;
     face.recipe.mirrored = old.recipe.mirrored;
   }
-  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
+  for (std::size_t k = 0; k < face.recipe.regions.size() && request.like; ++k) {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {
       BandRecipe& band = band_of(region, b);
-      const std::size_t part = k * band_count(region) + b;
-      if (std::find(request.locked.begin(), request.locked.end(), part) != request.locked.end()) {
-        band = band_of(request.from.recipe.regions[k], b);
-      } else if (request.like) {
-        band = between(band_of(request.like->recipe.regions[k], b), band, request.amount,
-                       face.recipe.target, sources_of(casting.sampling, b), casting);
-      }
+      band = between(band_of(request.like->recipe.regions[k], b), band, request.amount,
+                     face.recipe.target, sources_of(casting.sampling, b), casting);
     }
-    keep_order(region);
   }
+  take_over(request.locked, request.from.recipe, face.recipe);
   return face;
 }
 

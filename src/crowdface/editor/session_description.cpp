@@ -122,9 +122,13 @@ Json EditSession::description() const {
   json["vertices"] = job_.inputs.faces.topology.vertex_count;
   json["regions"] = regions_json();
   for (std::size_t b = 0; b < config.sampling.bands.size(); ++b) {
-    const Range begins = fractions_of(smoothness_of(config.sampling, 0, b), casting_.scale);
+    Json begins = Json::array();  // in each region
+    for (std::size_t k = 0; k < casting_.region_names.size(); ++k) {
+      const Range range = fractions_of(smoothness_of(config.sampling, k, b), casting_.scale);
+      begins.push_back((range.low + range.high) / 2);
+    }
     json["bands"].push_back({{"name", config.sampling.bands[b].name},
-                             {"smoothness", (begins.low + begins.high) / 2},
+                             {"smoothness", std::move(begins)},
                              {"sources", sources_of(config.sampling, b)}});
   }
   json["heads"] = Json::array();

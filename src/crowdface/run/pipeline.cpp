@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/pipeline.h"
 
+#include <algorithm>
+
 #include "crowdface/config/config_difference.h"
 #include "crowdface/config/config_writer.h"
 #include "crowdface/config/input_files.h"
@@ -72,6 +74,28 @@ void check_bands(const SamplingOptions& sampling, const std::string& where, cons
   }
 }
 
+/// Bands that begin at no iteration in any region.
+std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Config& config,
+                                     const Inputs& inputs) {
+  std::vector<std::string> warnings;
+  const LevelScale scale = level_scale(config, inputs);
+  const double finest = size_of_iterations(scale.kind, 1, scale.edge_length_mm);
+  for (std::size_t b = 1; b < sampling.bands.size(); ++b) {
+    double most = 0;
+    for (std::size_t k = 0; k < sampling.regions.size(); ++k) {
+      const SmoothnessDistribution& own = smoothness_of(sampling, k, b);
+      most = std::max(most, level_of(own.range.high, own.unit, scale));
+    }
+    if (most > 0) continue;
+    warnings.push_back(
+        concat("sampling.bands.", sampling.bands[b].name,
+               " begins at 0 iterations and holds no detail: one iteration on edges of ",
+               format_fixed(scale.edge_length_mm, 2), " mm is a size of ", format_fixed(finest, 1),
+               " mm"));
+  }
+  return warnings;
+}
+
 void check_levels(const Config& config, const Inputs& inputs, Problems& problems) {
   const auto names = config.region_names();
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -131,6 +155,10 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
   std::optional<Inputs> inputs = load_inputs(config, cache, problems);
   if (!inputs) return std::nullopt;
   check_levels(config, *inputs, problems);
+  for (std::string& text : empty_bands(config.sampling, config, *inputs)) {
+    log_warning(text);
+    inputs->warnings.push_back(std::move(text));
+  }
   check_compared_mesh(config, *inputs, problems);
   if (!problems.empty()) return std::nullopt;
   const SmoothingOperator smoothing(inputs->adjacency, config.smoothing.boundary,
