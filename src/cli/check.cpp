@@ -34,6 +34,8 @@ void describe(const Job& job) {
   const Inputs& inputs = job.inputs;
   const auto& boundary = inputs.adjacency.boundary;
   const std::string levels = describe_levels(inputs);
+  const auto& bands = job.names.bands;
+  const std::uint64_t sampled = job.config.crowd.count, by_hand = job.config.recipes.size();
   print(concat(
       job.config.file.string(), " is fine\n", "heads       ", job.names.heads.size(), ": ",
       join(job.names.heads), "\ntopology    ", inputs.faces.topology.vertex_count, " vertices, ",
@@ -45,9 +47,11 @@ void describe(const Job& job) {
           size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm), 1),
       " mm\n", "parts       ", describe_parts(job.config, inputs), "\nsymmetry    ",
       describe_mirror(job.config, find_mirror(job.config, inputs)), "\nregions     ",
-      join(job.names.regions), "\n", levels.empty() ? "" : concat("lods        ", levels, "\n"),
-      "faces       ", job.config.crowd.count, " sampled, ", job.config.recipes.size(), " by hand\n",
-      "output      ", job.config.output.directory.string(), "\n"));
+      join(job.names.regions), "\n",
+      bands.size() > 1 ? concat("bands       ", join(bands), "\n") : "",
+      levels.empty() ? "" : concat("lods        ", levels, "\n"), "faces       ", sampled,
+      " sampled, ", by_hand, " by hand, ", face_count(job.config) - sampled - by_hand,
+      " in families\n", "output      ", job.config.output.directory.string(), "\n"));
 }
 
 /// The regions' colours, #R by 3: as they were painted where they are the channels of one picture.

@@ -80,6 +80,16 @@ TEST(Check, GoodConfigsPassAndNothingIsWritten) {
   EXPECT_FALSE(fs::exists(folder.out()));
 }
 
+TEST(Check, TellsBandsAndFamilies) {
+  SmallCrowd crowd;
+  crowd.count = 5;
+  crowd.sampling = "{bands: {build: 0.9, skin: 0.3}}";
+  crowd.more = "families: [{name: kin, members: 3, parents: {mother: drawn, father: ann}}]\n";
+  const SmallCrowdFolder folder(crowd);
+  crowdface(0, {"check", folder.config().string()},
+            {"bands       build, skin", "5 sampled, 0 by hand, 4 in families", "symmetry"});
+}
+
 TEST(Check, MasksAreRendered) {
   SmallCrowd crowd;
   crowd.regions = 2;
