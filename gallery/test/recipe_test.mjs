@@ -9,8 +9,8 @@ import { hitTriangle } from './src/editor/hit.js';
 import { History } from './src/editor/history.js';
 import { ProcessorBlend } from './src/editor/processor_blend.js';
 import {
-  amountAt, bandOf, between, coefficients, headAlone, levelOf, targetShares, weightsAt, weightsOf, wire, withAmount,
-  withBand,
+  amountAt, bandOf, between, coefficients, headAlone, levelOf, takeOver, targetShares, weightsAt, weightsOf, wire,
+  withAmount, withBand,
 } from './src/editor/recipe.js';
 
 const names = ['ann', 'bob', 'cyd', 'dan'];
@@ -133,6 +133,20 @@ test('a band that a region leaves open begins where the config says for that reg
   const { recipe } = face();
   assert.deepEqual(bandOf(banded, recipe, 'top', 'skin'), { position: [0.3, 0.2], smoothness: 0.04, extrapolation: 1.2 });
   assert.equal(bandOf(banded, recipe, 'bottom', 'skin').smoothness, 0.01);
+});
+
+test('a band that is taken over stays, and the coarser one gives way', () => {
+  const high = { weights: { bob: 1 }, smoothness: '120 mm', extrapolation: 0.5 };
+  const from = face({ smoothness: 0.6, bands: { skin: high } }).recipe;
+  const to = face({ smoothness: 0.1 }).recipe;
+  const { top, bottom } = takeOver(banded, [['top', 'skin']], from, to).regions;
+  assert.deepEqual(top.bands.skin, high);
+  assert.deepEqual({ ...top, bands: null }, { ...to.regions.top, smoothness: '120 mm', bands: null });
+  assert.equal(bottom.smoothness, to.regions.bottom.smoothness);
+  const build = takeOver(banded, [['top', 'build']], from, to).regions.top;
+  assert.equal(build.smoothness, 0.6);
+  assert.equal(build.bands.skin.smoothness, 0.04);
+  assert.deepEqual(takeOver(job, [['top', '']], from, to).regions.bottom, to.regions.bottom);
 });
 
 test('the way between two faces goes through all bands', () => {

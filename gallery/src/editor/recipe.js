@@ -111,6 +111,29 @@ export function withBand(job, recipe, name, band, numbers) {
   return withBands(job, recipe, name, (old, at) => (at === band ? numbers : old));
 }
 
+function beginningLike(other, { smoothness, iterations, ...rest }) {
+  if (other.iterations !== undefined) return { ...rest, iterations: other.iterations };
+  return { ...rest, smoothness: other.smoothness };
+}
+
+/// The recipe with bands of another, [region, band] each; coarser ones do not begin below those
+/// (cast/band_order.h, take_over).
+export function takeOver(job, parts, from, recipe) {
+  const regions = Object.fromEntries(job.regions.map(({ name }) => {
+    const isTaken = (band) => parts.some(([region, part]) => region === name && part === band);
+    const numbers = new Map();
+    let finer = null; // that was taken
+    for (const band of bandNames(job).reverse()) {
+      let own = bandOf(job, isTaken(band) ? from : recipe, name, band);
+      if (isTaken(band)) finer = own;
+      else if (finer && levelOf(own, job.levels) < levelOf(finer, job.levels)) own = beginningLike(finer, own);
+      numbers.set(band, own);
+    }
+    return [name, withBands(job, recipe, name, (_, band) => numbers.get(band))];
+  }));
+  return { ...recipe, regions };
+}
+
 function regionIndex(job, name) {
   return job.regions.findIndex((region) => region.name === name);
 }

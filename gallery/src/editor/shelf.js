@@ -2,7 +2,7 @@
 // States that are kept to compare with, faces to pick from, and the way between two of them.
 import { el } from '../dom.js';
 import { post } from './api.js';
-import { bandOf, between, headAlone, withBand } from './recipe.js';
+import { between, headAlone, takeOver } from './recipe.js';
 
 const mostKept = 12;
 const mostOffered = 400; // faces of the crowd to go between; others are opened and kept first
@@ -148,12 +148,8 @@ export class Shelf {
     const [from, to] = [this.ends.get(this.from.value), this.ends.get(this.to.value)];
     const mixed = between(editor.job, from, to, Number(this.way.value));
     const stay = this.ends.get('this face');
-    const { regions } = mixed.recipe;
-    for (const [name, band] of editor.lockedParts()) {
-      regions[name] = withBand(editor.job, mixed.recipe, name, band, bandOf(editor.job, stay.recipe, name, band));
-    }
-    mixed.recipe.id = stay.recipe.id;
-    editor.preview(mixed);
+    const recipe = takeOver(editor.job, editor.lockedParts(), stay.recipe, mixed.recipe);
+    editor.preview({ ...mixed, recipe: { ...recipe, id: stay.recipe.id } });
   }
 
   endTravel(take) {
