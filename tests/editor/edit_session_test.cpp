@@ -64,7 +64,9 @@ Read read_answer(const std::string& bytes) {
 /// Four synthetic heads with eyes and teeth, three regions, and an editor of them. Lips are not brought to
 /// their gaps, which the page leaves to the program.
 struct Editor {
-  explicit Editor(const std::string& levels, std::size_t preview_vertices = 100'000) {
+  /// \param more  sections of the config
+  explicit Editor(const std::string& levels, std::size_t preview_vertices = 100'000,
+                  const std::string& more = "") {
     const SyntheticHeads synthetic(6000, SyntheticHeads::Parts::kEyesAndTeeth);
     for (Index h = 0; h < 4; ++h) {
       Mesh mesh{synthetic.topology(), synthetic.positions(3, static_cast<std::uint64_t>(h)),
@@ -79,7 +81,7 @@ struct Editor {
                                        "regions: {names: [top, middle, bottom], mask: mask.png}\n"
                                        "blending: {contacts: none}\n"
                                        "smoothing: {levels: ",
-                                       levels, "}\noutput: {directory: out}\n"));
+                                       levels, "}\noutput: {directory: out}\n", more));
     session.emplace(load_job(folder / "config.yaml", {}), folder / "cache", preview_vertices);
   }
   CastFace face(const Json& recipe) const {
@@ -258,6 +260,31 @@ TEST(EditSession, DrawsAnewButForWhatIsLocked) {
     EXPECT_NE(face.recipe.regions[0].weights, request.from.recipe.regions[0].weights);
   }
   EXPECT_NE(faces[0].recipe.regions[0].position, faces[1].recipe.regions[0].position);
+}
+
+TEST(EditSession, BandsBeginByRegionAndALockedOneHolds) {
+  const Editor editor("basis", 100'000,
+                      "sampling: {bands: {build: [0.3, 0.8], skin: {smoothness: {default: 0.04, "
+                      "middle: [0.1, 0.2]}}}}\n");
+  const Json bands = editor.session->description().at("bands");
+  EXPECT_EQ(bands[1].at("name"), "skin");
+  EXPECT_EQ(bands[1].at("smoothness")[0], 0.04);
+  EXPECT_NEAR(bands[1].at("smoothness")[1].get<double>(), 0.15, 1e-12);
+
+  Json recipe = some_recipe();
+  recipe["regions"]["top"] = Json::parse(R"({"weights": {"head_0": 1}, "smoothness": 1,
+    "bands": {"skin": {"weights": {"head_2": 1}, "smoothness": 0.9}}})");
+  constexpr std::size_t kSkinOfTop = 1;
+  DrawRequest request{editor.face(recipe), {kSkinOfTop}, std::nullopt};
+  request.count = 3;
+  const BandRecipe& locked = request.from.recipe.regions[0].finer[0];
+  for (const CastFace& face : editor.session->draw(request)) {
+    const RegionRecipe& top = face.recipe.regions[0];
+    EXPECT_EQ(top.finer[0].iterations, locked.iterations);
+    EXPECT_EQ(top.finer[0].weights, locked.weights);
+    EXPECT_EQ(top.iterations, locked.iterations) << "the build, drawn lower, gives way";
+    EXPECT_NE(top.weights, request.from.recipe.regions[0].weights);
+  }
 }
 
 TEST(EditSession, FacesLikeAnotherAreNearerToItTheSmallerTheAmount) {
