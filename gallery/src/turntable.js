@@ -36,7 +36,6 @@ export function unpackFace(base64, mesh) {
   return { points, normals, colours };
 }
 
-
 export class Turntable extends Stage {
   /// The triangles and colours that all faces share.
   async prepare() {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Levels of detail of a crowd's faces.
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -94,6 +96,30 @@ TEST_F(LevelsOfACrowd, HoldTheFacesOwnVerticesInEveryFormat) {
     }
   }
   EXPECT_FALSE(fs::exists(mesh(id + "+LOD1.npy")));
+}
+
+TEST(LevelsOfHeads, NameTheMaterialsOfTheirOwnTarget) {
+  SmallCrowd crowd;
+  crowd.bowl.materials = true;
+  const SmallCrowdFolder folder(crowd);
+  for (const std::string& name : folder.names()) {
+    std::string text = testing::read_text(folder.head(name));
+    const std::size_t at = text.find("usemtl skin");
+    folder.folder().write(concat("heads/", name, ".obj"),
+                          text.replace(at, 11, concat("usemtl ", name)));
+  }
+  ConfigOverrides overrides;
+  overrides.set = {"output.meshes=[obj]", "output.lods=[60 %]"};
+  generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+  std::set<std::string> targets;
+  for (const auto& line : testing::plan_lines(folder.out())) {
+    const std::string id = line.at("id"), target = line.at("target");
+    const ObjFile level = read_obj(folder.out() / "meshes" / (id + "+LOD1.obj"));
+    ASSERT_FALSE(level.materials.empty());
+    EXPECT_EQ(level.materials.front().name, target);
+    targets.insert(target);
+  }
+  EXPECT_GT(targets.size(), 1U);
 }
 
 // Rows of an empty matrix were read.

@@ -64,7 +64,7 @@ void remove_crowd(const CrowdDirectory& directory) {
            const std::string name = path.filename().string();
            const std::size_t plus = name.find('+');
            return plus != std::string::npos && known.contains(name.substr(0, plus)) &&
-                  (mesh_format_of(path).has_value() || name.ends_with("+points.json"));
+                  (mesh_format_of(path).has_value() || name.substr(plus + 1) == kFollowingPoints);
          })) {
       remove_file(file);
     }

@@ -15,6 +15,9 @@
 
 namespace crowdface {
 
+/// What the file of points that follow a face is called, after the face's id and a '+'.
+inline constexpr const char* kFollowingPoints = "points.json";
+
 /// Where things lie in a crowd's folder (docs/crowd-directory.md).
 struct CrowdDirectory {
   std::filesystem::path root;

@@ -170,12 +170,12 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     : config_(config), inputs_(inputs), around_(inputs.faces.topology) {
   const FaceSet& faces = inputs.faces;
   std::vector<bool> drawn;
-  for (const SurfaceKind kind : surfaces_of(config, inputs).kinds) {
+  const Surfaces surfaces = surfaces_of(config, inputs);
+  for (const SurfaceKind kind : surfaces.kinds) {
     drawn.push_back(kind != SurfaceKind::kHidden);
   }
   const Positions mean = mean_head(faces);
   mesh_ = reduce_mesh(faces.topology, mean, drawn, kMostTriangles);
-  const Surfaces surfaces = surfaces_of(config, inputs);
   colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(
       mesh_.vertices, Eigen::placeholders::all);
   open_ = vertex_openness(faces.topology, surfaces.kinds, mean, mesh_.vertices);

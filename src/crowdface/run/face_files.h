@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
+#include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/validity/skin_check.h"
 
@@ -16,17 +18,17 @@ namespace crowdface {
 /// Which of a face's mesh files: the face, or what it has of its shapes, on a level of detail.
 struct MeshName {
   MeshFormat format = MeshFormat::kObj;
-  std::string shape = {};  ///< of one shape; kAllShapes; empty: the face
+  std::string shape = {};  ///< of one shape; kAllShapes; kFollowingPoints; empty: the face
   std::size_t level = 0;   ///< of detail; 0: the whole mesh
 };
 /// The displacements of all shapes.
 inline constexpr const char* kAllShapes = "shapes";
-/// The points that follow the face, a JSON file (under kPoints).
-inline constexpr const char* kFollowingPoints = "points.json";
 /// What stands after the face's id in the file's name: "LOD1+smile", or nothing.
 std::string part_of(const MeshName& name);
 /// The whole of it: "+LOD1+smile.obj".
 std::string file_end(const MeshName& name);
+std::filesystem::path mesh_path(const CrowdDirectory& directory, const std::string& id,
+                                const MeshName& name);
 
 /// A face's file as it was written.
 struct MeshFile {

@@ -126,9 +126,8 @@ std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
 void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
   LedgerEntry entry{item_of(face), key_of(face), {}, {}};
   for (const MeshFile& mesh : files.meshes) {
-    entry.files.push_back(
-        {directory_.relative(directory_.meshes() / (face.id + file_end(mesh.name))),
-         {mesh.bytes, mesh.digest}});
+    entry.files.push_back({directory_.relative(mesh_path(directory_, face.id, mesh.name)),
+                           {mesh.bytes, mesh.digest}});
   }
   const std::vector<std::string> own =
       own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);

@@ -151,8 +151,7 @@ class FaceOutput {
     }
     const Busy busy(write_);
     for (const EncodedMesh& mesh : meshes) {
-      files.meshes.push_back(
-          write_mesh(mesh, directory_.meshes() / (face.id + file_end(mesh.name))));
+      files.meshes.push_back(write_mesh(mesh, mesh_path(directory_, face.id, mesh.name)));
     }
     if (own_ == nullptr) return;
     for (const OwnFile& file : own_->files(face, formats_, std::move(textures))) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/level_writer.h"
 
+#include <algorithm>
+
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/glb_form.h"
@@ -21,15 +23,18 @@ std::vector<MaterialRange> material_ranges(const FaceMaterials& materials,
   return ranges;
 }
 
+bool is_same(const MaterialRange& a, const MaterialRange& b) {
+  return a.name == b.name && a.first_face == b.first_face;
+}
+
 }  // namespace
 
 LevelWriter::LevelWriter(const Config& config, const Inputs& inputs, std::size_t level,
-                         const std::vector<MeshFormat>& formats)
+                         const std::vector<MeshFormat>& formats, const std::vector<Index>& targets)
     : inputs_(inputs), level_(inputs.levels[level - 1].level) {
   for (const MeshFormat format : formats) {
     if (format == MeshFormat::kObj) {
-      obj_.emplace(level_.topology, level_.uvs, material_ranges(inputs.materials, level_.faces),
-                   PlainObjTemplate::Normals::kVertex);
+      add_obj_templates(targets);
     } else if (format == MeshFormat::kPly) {
       ply_.emplace(level_.topology);
     } else if (format == MeshFormat::kGlb) {
@@ -40,6 +45,23 @@ LevelWriter::LevelWriter(const Config& config, const Inputs& inputs, std::size_t
                    glb_options(glb_options(config, inputs), level_, inputs.shapes),
                    Subdivision::kNone);  // it is coarse on purpose
     }
+  }
+}
+
+void LevelWriter::add_obj_templates(const std::vector<Index>& targets) {
+  std::vector<std::vector<MaterialRange>> known;
+  for (const Index target : targets) {
+    const FaceMaterials materials =
+        face_materials(inputs_.files[static_cast<std::size_t>(target)].materials,
+                       inputs_.faces.topology.face_count());
+    const std::vector<MaterialRange> ranges = material_ranges(materials, level_.faces);
+    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& others) {
+      return std::equal(others.begin(), others.end(), ranges.begin(), ranges.end(), is_same);
+    });
+    obj_of_[target] = static_cast<std::size_t>(same - known.begin());
+    if (same != known.end()) continue;
+    known.push_back(ranges);
+    obj_.emplace_back(level_.topology, level_.uvs, ranges, PlainObjTemplate::Normals::kVertex);
   }
 }
 
@@ -65,16 +87,21 @@ EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
     head += concat("mtllib ", library, '\n');
   }
   head += concat("o ", id, '\n');
-  return obj_->encode(head, positions, normals, concat(id, ", ", name.shape));
+  return obj_[obj_of_.at(face.target)].encode(head, positions, normals,
+                                              concat(id, ", ", name.shape));
 }
 
 std::size_t LevelWriter::memory_bytes() const {
-  return (obj_ ? obj_->memory_bytes() : 0) + (ply_ ? ply_->memory_bytes() : 0) +
-         (glb_ ? glb_->memory_bytes() : 0) + (usd_ ? usd_->memory_bytes() : 0);
+  std::size_t bytes = 0;
+  for (const PlainObjTemplate& obj : obj_) bytes += obj.memory_bytes();
+  return bytes + (ply_ ? ply_->memory_bytes() : 0) + (glb_ ? glb_->memory_bytes() : 0) +
+         (usd_ ? usd_->memory_bytes() : 0);
 }
 
 std::size_t LevelWriter::encode_bytes() const {
-  return (obj_ ? (1 + inputs_.shapes.shapes.size()) * obj_->encode_bytes() : 0) +
+  std::size_t obj = 0;
+  for (const PlainObjTemplate& form : obj_) obj = std::max(obj, form.encode_bytes());
+  return (1 + inputs_.shapes.shapes.size()) * obj +
          (ply_ ? ply_->encode_bytes(PlyTemplate::Normals::kVertex) : 0) +
          (glb_ ? glb_->encode_bytes() : 0) + (usd_ ? usd_->encode_bytes() : 0);
 }

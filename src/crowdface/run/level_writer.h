@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,10 +34,11 @@ struct WholeFace {
 /// Writes faces on one level of detail, in the formats that hold faces.
 class LevelWriter {
  public:
-  /// \param inputs  must outlive this object and all that it encodes.
-  /// \param level   from 1
+  /// \param inputs   must outlive this object and all that it encodes.
+  /// \param level    from 1
+  /// \param targets  of all faces that will be encoded.
   LevelWriter(const Config& config, const Inputs& inputs, std::size_t level,
-              const std::vector<MeshFormat>& formats);
+              const std::vector<MeshFormat>& formats, const std::vector<Index>& targets);
 
   /// \param name  of this level. \param ply_normals  whether PLY files have any.
   EncodedFile encode(const MeshName& name, const WholeFace& face, bool ply_normals) const;
@@ -46,9 +48,12 @@ class LevelWriter {
   std::size_t encode_bytes() const;
 
  private:
+  void add_obj_templates(const std::vector<Index>& targets);
+
   const Inputs& inputs_;
   const DetailLevel& level_;
-  std::optional<PlainObjTemplate> obj_;
+  std::vector<PlainObjTemplate> obj_;    ///< one for targets whose materials are the same
+  std::map<Index, std::size_t> obj_of_;  ///< of a target
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
   std::optional<UsdaTemplate> usd_;

@@ -66,6 +66,11 @@ std::string file_end(const MeshName& name) {
   return concat(part.empty() ? "" : "+", part, extension_of(name.format));
 }
 
+std::filesystem::path mesh_path(const CrowdDirectory& directory, const std::string& id,
+                                const MeshName& name) {
+  return directory.meshes() / (id + file_end(name));
+}
+
 std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const Inputs& inputs) {
   std::vector<MeshName> names;
   const std::vector<Shape>& shapes = inputs.shapes.shapes;
@@ -98,7 +103,8 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   for (const CastFace& face : crowd) targets.insert(face.recipe.target);
   const bool need_normals =
       std::ranges::any_of(targets, [&](Index target) { return needs_normals(target); });
-  if (has(MeshFormat::kObj)) add_obj_templates({targets.begin(), targets.end()});
+  const std::vector<Index> all_targets(targets.begin(), targets.end());
+  if (has(MeshFormat::kObj)) add_obj_templates(all_targets);
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
@@ -112,7 +118,7 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   }
   if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
-    levels_.emplace_back(config, inputs, level, formats_);
+    levels_.emplace_back(config, inputs, level, formats_, all_targets);
   }
 }
 

@@ -29,8 +29,6 @@ double off_ears(const Vector3d& p, double away) {
   return 1 - beside * smooth_step(away, 0.95, std::sqrt(y * y + z * z));
 }
 
-}  // namespace
-
 HairStyle draw_hair_style(std::uint64_t seed, std::uint64_t index) {
   const Person person = draw_person(seed, index);
   const Complexion look = draw_complexion(seed, index);
@@ -58,6 +56,8 @@ HairStyle draw_hair_style(std::uint64_t seed, std::uint64_t index) {
   }
   return style;
 }
+
+}  // namespace
 
 Hair::Hair(std::uint64_t seed, std::uint64_t index)
     : style_(draw_hair_style(seed, index)),

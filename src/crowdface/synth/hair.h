@@ -20,7 +20,6 @@ struct HairStyle {
   double lean = 0;        ///< −1 … 1: how much fuller one side of the top is
   bool low_edge = false;  ///< it covers the temples, and runs down before the ears
 };
-HairStyle draw_hair_style(std::uint64_t seed, std::uint64_t index);
 
 /// The hair on the head of one person, as a layer of the scalp. Points are the average head's.
 class Hair {
