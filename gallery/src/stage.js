@@ -3,7 +3,7 @@
 import {
   AmbientLight, BufferAttribute, Color, DirectionalLight, DoubleSide, Group, HemisphereLight,
   MeshPhysicalMaterial, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
-  ACESFilmicToneMapping, Matrix4,
+  ACESFilmicToneMapping, Matrix4, ShaderChunk,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -22,12 +22,22 @@ export const lamps = [
 export const exposure = 1.05;
 export const sky = { above: 0xe8edf4, below: 0x4c4640, strength: 0.75, ambient: 0.08 };
 
+/// Which way a surface looks is told from its smooth normal. By the triangle, as three.js does, coarse
+/// ones that just turn away at a jaw's edge would be lit as if from behind: bright specks.
+const faceDirection = ShaderChunk.normal_fragment_begin.replace('gl_FrontFacing',
+  'dot(normalize(vNormal), normalize(vViewPosition)) > -0.4');
+
 /// Skin, with a little light that goes through it at the rim.
 export function skinMaterial() {
-  return new MeshPhysicalMaterial({
+  const material = new MeshPhysicalMaterial({
     vertexColors: true, roughness: 0.56, side: DoubleSide, sheen: 0.25, sheenRoughness: 0.6,
     sheenColor: new Color(0.9, 0.5, 0.4), specularIntensity: 0.7,
   });
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <normal_fragment_begin>', faceDirection);
+  };
+  return material;
 }
 
 /// Colours of vertices, three bytes each as in images, as light.

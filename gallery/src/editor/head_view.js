@@ -27,7 +27,9 @@ function drawsInSoftware() {
 
 /// Points and normals come from the blend's textures in place of attributes.
 function fetchFace(material, uniforms, layout) {
-  material.onBeforeCompile = (shader) => {
+  const before = material.onBeforeCompile;
+  material.onBeforeCompile = (shader, renderer) => {
+    before.call(material, shader, renderer);
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', `#include <common>

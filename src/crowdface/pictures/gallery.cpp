@@ -29,6 +29,18 @@ using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have some 12,000 vertices of ten bytes each: as text 160 kB a face.
 constexpr std::size_t kMostTriangles = 24'000;
+/// Of these what is behind closed lips gets few: teeth and the mouth's lining are finer than the face itself.
+constexpr std::size_t kMostHidden = 2'000;
+constexpr float kUnseen = 0.02F;  ///< what sees no more of the sky is not seen
+
+/// The triangles none of whose corners is seen. \param open  #vertices of the mesh
+std::vector<bool> hidden_triangles(const ReducedMesh& mesh, const std::vector<float>& open) {
+  std::vector<bool> hidden(mesh.triangles.size() / 3, true);
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    if (open[mesh.triangles[c]] > kUnseen) hidden[c / 3] = false;
+  }
+  return hidden;
+}
 
 std::vector<const Positions*> positions_of(const FaceSet& faces) {
   std::vector<const Positions*> heads;
@@ -169,16 +181,19 @@ Digest gallery_page_digest(const Config& config) {
 GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     : config_(config), inputs_(inputs), around_(inputs.faces.topology) {
   const FaceSet& faces = inputs.faces;
-  std::vector<bool> drawn;
   const Surfaces surfaces = surfaces_of(config, inputs);
-  for (const SurfaceKind kind : surfaces.kinds) {
-    drawn.push_back(kind != SurfaceKind::kHidden);
-  }
+  std::vector<bool> drawn;
+  for (const SurfaceKind kind : surfaces.kinds) drawn.push_back(kind != SurfaceKind::kHidden);
   const Positions mean = mean_head(faces);
-  mesh_ = reduce_mesh(faces.topology, mean, drawn, kMostTriangles);
+  const ReducedMesh fine = reduce_mesh(faces.topology, mean, drawn, 2 * kMostTriangles);
+  const std::vector<float> open =
+      vertex_openness(faces.topology, surfaces.kinds, mean, fine.vertices);
+  mesh_ = reduce_hidden(fine, mean, hidden_triangles(fine, open), kMostTriangles, kMostHidden);
+  std::vector<float> open_at(static_cast<std::size_t>(faces.topology.vertex_count));
+  for (std::size_t v = 0; v < fine.vertices.size(); ++v) open_at[fine.vertices[v]] = open[v];
+  for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open_at[vertex]);
   colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(
       mesh_.vertices, Eigen::placeholders::all);
-  open_ = vertex_openness(faces.topology, surfaces.kinds, mean, mesh_.vertices);
   corner_ = find_corners(faces);
   const std::vector<const Positions*> heads = positions_of(faces);
   frame_ = PackingFrame::around(heads);

@@ -24,13 +24,15 @@ std::vector<unsigned int> triangles_of(const Topology& topology, const std::vect
   return triangles;
 }
 
-void reduce(std::vector<unsigned int>& triangles, const Positions& positions, std::size_t most) {
+/// \param options  meshoptimizer's
+void reduce(std::vector<unsigned int>& triangles, const Positions& positions, std::size_t most,
+            unsigned int options = 0) {
   if (triangles.size() <= 3 * most) return;
   const std::vector<float> points(positions.data(), positions.data() + positions.size());
   constexpr float kAnyError = 1e30F;  // the count alone decides when to stop
   triangles.resize(meshopt_simplify(triangles.data(), triangles.data(), triangles.size(),
                                     points.data(), points.size() / 3, 3 * sizeof(float), 3 * most,
-                                    kAnyError, 0, nullptr));
+                                    kAnyError, options, nullptr));
 }
 
 /// Numbers the vertices anew in the order in which triangles first use them, which suits both the
@@ -63,6 +65,23 @@ ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
   reduce(triangles, typical, most_triangles);
   meshopt_optimizeVertexCache(triangles.data(), triangles.data(), triangles.size(), vertices);
   return compact(triangles, vertices);
+}
+
+ReducedMesh reduce_hidden(const ReducedMesh& mesh, const Positions& typical,
+                          const std::vector<bool>& hidden, std::size_t most,
+                          std::size_t most_hidden) {
+  require(3 * hidden.size() == mesh.triangles.size(), "reduce: ", hidden.size(), " marks, ",
+          mesh.triangles.size() / 3, " triangles");
+  std::vector<unsigned int> seen, unseen;
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    (hidden[c / 3] ? unseen : seen).push_back(mesh.vertices[mesh.triangles[c]]);
+  }
+  reduce(unseen, typical, most_hidden, meshopt_SimplifyLockBorder);
+  reduce(seen, typical, most - std::min(most, unseen.size() / 3), meshopt_SimplifyLockBorder);
+  seen.insert(seen.end(), unseen.begin(), unseen.end());
+  const auto vertices = static_cast<std::size_t>(typical.rows());
+  meshopt_optimizeVertexCache(seen.data(), seen.data(), seen.size(), vertices);
+  return compact(seen, vertices);
 }
 
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
