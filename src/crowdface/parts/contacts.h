@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace crowdface {
+
+/// What becomes of lips, and of other skin that nearly touches skin, in a generated face.
+enum class Contacts {
+  kAuto,  ///< they are as far apart as in the target and the sources
+  kNone,  ///< as blended (Eq. 7)
+};
+
+}  // namespace crowdface
