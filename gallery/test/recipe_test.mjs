@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The editor's mathematics: weights, levels, coefficients, blends, steps.
+// The editor's mathematics: weights, levels, coefficients, blends, steps; the colours of legends.
 //   node --test recipe_test.mjs
 import assert from 'node:assert/strict';
 import test from 'node:test';
@@ -12,6 +12,7 @@ import {
   amountAt, bandOf, between, coefficients, headAlone, levelOf, takeOver, targetShares, weightsAt, weightsOf, wire,
   withAmount, withBand,
 } from './src/editor/recipe.js';
+import { colourOf } from './src/plane.js';
 
 const names = ['ann', 'bob', 'cyd', 'dan'];
 const levels = { smoothness: [], iterations: [], size_mm: [] };
@@ -346,4 +347,8 @@ test('a ray meets the nearest triangle that looks at it, and no part', () => {
   assert.equal(hitTriangle([0.2, 0.3, 5], [0, 0, -1], points, both, [0, 0, 0, 1, 1, 1]).triangle, 0);
   assert.equal(hitTriangle([0.2, 0.3, -5], [0, 0, 1], points, both), null);
   assert.equal(hitTriangle([0.7, 0.7, 5], [0, 0, -1], points, both), null);
+});
+
+test('fifty heads have fifty colours', () => {
+  assert.equal(new Set(Array.from({ length: 50 }, (_, k) => colourOf(k))).size, 50);
 });
