@@ -126,6 +126,30 @@ TEST(SkinContacts, AreBroughtIntoTheirRanges) {
   }
 }
 
+// Skin that moves far changes which points lie at one depth: some of the gap was left.
+TEST(SkinContacts, AreBroughtIntoTheirRangesFromFarWhereWallsAreWaves) {
+  const auto waves = [](double gap) {
+    Positions points = slotted(gap).positions;
+    for (Index v = 0; v < points.rows(); ++v) {
+      points(v, 1) += 0.3 * std::sin(2 * points(v, 2) + 0.75 * points(v, 0));
+    }
+    return points;
+  };
+  FaceSet faces = heads_with_gaps({0.04, 0.12});
+  faces.heads[0].positions = waves(0.04);
+  faces.heads[1].positions = waves(0.12);
+  const SkinContacts contacts = contacts_of(faces);
+  ASSERT_GT(contacts.size(), 20U);
+  std::vector<SkinContacts::Range> ranges;
+  for (std::size_t p = 0; p < contacts.size(); ++p) {
+    const auto [least, most] = std::minmax(contacts.head_gaps(0)[p], contacts.head_gaps(1)[p]);
+    ranges.push_back({least, most});
+  }
+  Positions face = waves(1);
+  contacts.bring_into(ranges, face);
+  EXPECT_LT(contacts.wider(face), 3e-4);
+}
+
 TEST(SkinContacts, AreLeftAloneToTheBitWhereAllIsWell) {
   const FaceSet faces = heads_with_gaps({0.04, 0.12});
   const SkinContacts contacts = contacts_of(faces);

@@ -26,6 +26,7 @@ constexpr double kLeastWeight = 1e-3;  // what moves less does not move
 /// Added to what a place does to itself, so that what neighbours ask for differently is evened out.
 constexpr double kEvenness = 0.02;
 constexpr int kSteps = 24;
+constexpr int kRounds = 4;
 
 /// Smooth, 1 at 0 and 0 from 1 on (Wendland 1995, C² in space): with it as kernel, places that ask
 /// for different things always find a solution.
@@ -244,25 +245,28 @@ std::vector<double> SkinContacts::solve(const Contact& contact, std::span<const 
   return asked;
 }
 
+/// Skin that moves changes which points lie at one depth, so a few rounds are needed where much is asked for.
 void SkinContacts::bring_into(std::span<const Range> ranges, Positions& positions) const {
+  std::vector<Eigen::Vector3d> moves(places_.size());
   for (const Contact& contact : contacts_) {
-    const std::vector<double> asked = solve(contact, ranges, positions);
-    if (asked.empty()) continue;
-    std::vector<Eigen::Vector3d> moves(places_.size());
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      moves[contact.begin + i] = asked[i] * places_[contact.begin + i].up;
-    }
-    for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
-      double x = 0, y = 0, z = 0;
-      for (std::uint32_t s = contact.offsets[i]; s < contact.offsets[i + 1]; ++s) {
-        const auto [place, weight] = contact.shares[s];
-        x += weight * moves[place].x();
-        y += weight * moves[place].y();
-        z += weight * moves[place].z();
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<double> asked = solve(contact, ranges, positions);
+      if (asked.empty()) break;
+      for (std::size_t i = 0; i < asked.size(); ++i) {
+        moves[contact.begin + i] = asked[i] * places_[contact.begin + i].up;
       }
-      positions(contact.vertices[i], 0) += x;
-      positions(contact.vertices[i], 1) += y;
-      positions(contact.vertices[i], 2) += z;
+      for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
+        double x = 0, y = 0, z = 0;
+        for (std::uint32_t s = contact.offsets[i]; s < contact.offsets[i + 1]; ++s) {
+          const auto [place, weight] = contact.shares[s];
+          x += weight * moves[place].x();
+          y += weight * moves[place].y();
+          z += weight * moves[place].z();
+        }
+        positions(contact.vertices[i], 0) += x;
+        positions(contact.vertices[i], 1) += y;
+        positions(contact.vertices[i], 2) += z;
+      }
     }
   }
 }
