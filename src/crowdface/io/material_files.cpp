@@ -144,7 +144,7 @@ class Collector {
     if (!exists(relative)) {
       files_.warnings.push_back(
           concat(what, " ", quoted(relative.string()),
-                 " is missing; meshes will name it all the same, pictures do without"));
+                 " is missing; OBJ files name it all the same, pictures do without"));
       return false;
     }
     if (::access((folder_ / relative).c_str(), R_OK) != 0) {
