@@ -2,6 +2,8 @@
 // Contact sheets of a whole crowd, and what the gallery leaves in its folder.
 #include "crowdface/pictures/sheets.h"
 
+#include <chrono>
+
 #include <gmock/gmock.h>
 
 #include "crowdface/core/file.h"
@@ -208,6 +210,26 @@ TEST(Sheets, MadeAnewShowFoundersInTheNewForm) {
   EXPECT_EQ(width_of(founder), 64);
   // Founder and two members, two cells of 64 pixels a row.
   EXPECT_GT(height_of(folder.out() / "sheets/family_kin.png"), 2 * 64);
+}
+
+TEST(Sheets, MadeAnewTheyTakePicturesThatAreAsTheyShouldBe) {
+  SmallCrowd crowd;
+  crowd.contact_sheet = "{columns: 2, cell: 48}";
+  const SmallCrowdFolder folder(crowd);
+  run(folder);
+  const fs::path kept = folder.out() / "renders/mob_0001.png",
+                 damaged = folder.out() / "renders/mob_0002.png";
+  const std::string whole = read_file(damaged);
+  const auto drawn = fs::last_write_time(kept) - std::chrono::hours(1);
+  fs::last_write_time(kept, drawn);
+  write_file(damaged, whole.substr(0, whole.size() / 2));
+  remake_sheets(folder.out(), {"output.contact_sheet.columns=3"}, folder.cache());
+  EXPECT_EQ(fs::last_write_time(kept), drawn);
+  EXPECT_EQ(read_file(damaged), whole);
+  remake_sheets(folder.out(), {"output.contact_sheet.cell=64"}, folder.cache());
+  EXPECT_EQ(width_of(kept), 64);
+  remake_sheets(folder.out(), {}, folder.cache());
+  EXPECT_EQ(width_of(kept), 48);
 }
 
 TEST(Sheets, AnotherFormLeavesNothingOfTheOldOne) {

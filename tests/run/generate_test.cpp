@@ -397,6 +397,7 @@ TEST(Generate, SheetsAreRemadeFromTheMeshes) {
   run(folder, "out");
   const auto before = crowd_files(folder.out());
   fs::remove_all(folder.out() / "sheets");
+  fs::remove_all(folder.out() / "renders");
   remake_sheets(folder.out(), {});
   EXPECT_THAT(differing_files(before, crowd_files(folder.out())), ::testing::IsEmpty());
 }

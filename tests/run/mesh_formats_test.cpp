@@ -216,12 +216,16 @@ TEST(MeshFormats, GiveTheSameSheetsAgain) {
   std::string expected;
   for (const char* format : {"obj", "ply", "glb", "points"}) {
     run(folder, format, {concat("output.meshes=[", format, "]")});
+    fs::remove_all(folder / concat(format, "/renders"));
     remake_sheets(folder / format, {});
     const std::string sheet = testing::read_text(folder / concat(format, "/sheets/sheet_001.png"));
     if (expected.empty()) expected = sheet;
     EXPECT_TRUE(sheet == expected) << format;
   }
   run(folder, "none", {"output.meshes=[]"});
+  remake_sheets(folder / "none", {});
+  EXPECT_TRUE(testing::read_text(folder / "none/sheets/sheet_001.png") == expected);
+  fs::remove_all(folder / "none/renders");
   testing::expect_error(ExitCode::kMissingInput, {"no meshes"},
                         [&] { remake_sheets(folder / "none", {}); });
 }

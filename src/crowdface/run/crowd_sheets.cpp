@@ -71,6 +71,14 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
   return hasher.digest();
 }
 
+/// Those whose pictures are not there as this job would draw them.
+std::vector<CastFace> faces_to_draw(const FaceLedger& ledger, const std::vector<CastFace>& crowd) {
+  std::vector<CastFace> faces;
+  for (const std::size_t f : find_done_faces(ledger, crowd, Shard()).todo)
+    faces.push_back(crowd[f]);
+  return faces;
+}
+
 }  // namespace
 
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
@@ -124,14 +132,15 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs,
                                job.settings, directory, textures.blender());
   pictures.write_heads();
-  pictures.write_faces(crowd);
+  Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
+  pictures.write_faces(
+      faces_to_draw(FaceLedger(ledger, job, directory, face_extras(job), {}), crowd));
   const std::vector<FamilyFounder> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
   const WrittenSheets sheets = pictures.finish(crowd, likeness);
-  Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   ledger.adopt(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
   lock.require_still_there();
   log_info(concat(sheets.pages, sheets.pages == 1 ? " sheet" : " sheets", " in ",

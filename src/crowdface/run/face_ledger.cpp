@@ -7,6 +7,8 @@
 
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
+#include "crowdface/pictures/gallery.h"
+#include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/own_textures.h"
 
@@ -81,6 +83,11 @@ SkinDefects skin_of(const std::string& note) {
 }
 
 }  // namespace
+
+FaceExtras face_extras(const Job& job) {
+  return {job.config.output.contact_sheet.has_value(), has_gallery(job.config),
+          skin_is_judged(job.config, job.inputs)};
+}
 
 FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
                        FaceExtras extras, std::function<void()> recorded)

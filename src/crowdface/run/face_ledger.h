@@ -17,6 +17,7 @@ struct FaceExtras {
   bool preview = false;  ///< its mesh in the gallery
   bool skin = false;     ///< its mesh is judged
 };
+FaceExtras face_extras(const Job& job);
 
 /// The faces of a crowd in its ledger. A face is one item: its meshes, its picture and what was
 /// found about its skin, so that a run that goes on writes the same sheets and the same report.

@@ -218,11 +218,9 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   }
 
   const auto& sheet = job.config.output.contact_sheet;
-  const bool judged = skin_is_judged(job.config, job.inputs);
-  const FaceLedger face_ledger(ledger, job, directory,
-                               {sheet.has_value(), has_gallery(job.config), judged}, [&] {
-                                 if (progress) progress->step();
-                               });
+  const FaceLedger face_ledger(ledger, job, directory, face_extras(job), [&] {
+    if (progress) progress->step();
+  });
   FacesSoFar so_far =
       find_done_faces(face_ledger, crowd, cast_job.planned() ? Shard() : options.shard);
   const std::size_t built = so_far.todo.size();
