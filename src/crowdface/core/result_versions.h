@@ -7,7 +7,7 @@ namespace crowdface {
 // anew. What an older version made then counts as not done.
 
 inline constexpr int kBlendVersion =
-    5;  ///< positions of a face's skin; in `settings` of every recipe
+    6;  ///< positions of a face's skin; in `settings` of every recipe
 inline constexpr int kPartsVersion =
     4;  ///< where parts come to lie; in `settings` of heads with parts
 inline constexpr int kMirrorVersion =

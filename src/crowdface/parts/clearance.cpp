@@ -86,13 +86,14 @@ std::vector<Clearance::Opposite> Clearance::opposites(const Positions& positions
   return opposites;
 }
 
-double Clearance::gap(const Positions& positions) const {
-  const std::vector<double> heights = this->heights(positions);
+double Clearance::gap(std::span<const Opposite> opposites, std::span<const double> heights) {
   double least = std::numeric_limits<double>::max();
-  for (const Opposite& opposite : opposites(positions)) {
-    least = std::min(least, opposite.gap(heights));
-  }
+  for (const Opposite& opposite : opposites) least = std::min(least, opposite.gap(heights));
   return least;
+}
+
+double Clearance::gap(const Positions& positions) const {
+  return gap(opposites(positions), heights(positions));
 }
 
 }  // namespace crowdface

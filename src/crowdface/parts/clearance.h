@@ -29,7 +29,8 @@ class Clearance {
   std::vector<Opposite> opposites(const Positions& positions) const;
   /// Of all points, low ones first.
   std::vector<double> heights(const Positions& positions) const;
-  /// The smallest; negative where the profiles cross.
+  /// The smallest of some opposites; negative where the profiles cross.
+  static double gap(std::span<const Opposite> opposites, std::span<const double> heights);
   double gap(const Positions& positions) const;
 
  private:

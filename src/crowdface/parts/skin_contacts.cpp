@@ -6,8 +6,6 @@
 #include <limits>
 #include <unordered_map>
 
-#include "crowdface/core/fixed_order.h"
-#include "crowdface/core/parallel.h"
 #include "crowdface/mesh/edge_distances.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
@@ -23,10 +21,13 @@ constexpr double kSide = 0.09;         // how far along the surface a side is to
 constexpr double kRounding = 0.006;    // size of what is smoothed out of a side's edges
 constexpr double kTolerance = 1e-5;    // by which a gap may miss its range
 constexpr double kLeastWeight = 1e-3;  // what moves less does not move
-/// Added to what a place does to itself, so that what neighbours ask for differently is evened out.
-constexpr double kEvenness = 0.02;
-constexpr int kSteps = 24;
-constexpr int kRounds = 4;
+constexpr int kSweeps = 200;
+constexpr int kRounds = 3;
+/// Share of what is asked for at a place by which its gap may miss its range: evens out what neighbours ask for
+/// differently.
+constexpr double kEvenness = 0.001;
+/// What may be asked for at a place, in what is missing where most is.
+constexpr double kMost = 4;
 
 /// Smooth, 1 at 0 and 0 from 1 on (Wendland 1995, C² in space): with it as kernel, places that ask
 /// for different things always find a solution.
@@ -147,39 +148,28 @@ void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint3
     contact.vertices.push_back(v);
     contact.offsets.push_back(static_cast<std::uint32_t>(contact.shares.size()));
   }
-  const std::size_t count = contact.end - contact.begin;
-  contact.lower.assign(count, std::vector<double>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    const ContactPlace& a = places_[contact.begin + i];
-    for (std::size_t j = 0; j <= i; ++j) {
-      const ContactPlace& b = places_[contact.begin + j];
-      contact.lower[i][j] = bump(length3(a.middle - b.middle) / reach) * dot3(a.up, b.up);
-    }
-    contact.lower[i][i] += kEvenness;
-  }
-  contact.lower = cholesky(std::move(contact.lower), count);
 }
 
 void SkinContacts::find_rises(Contact& contact) const {
   std::unordered_map<std::uint32_t, std::size_t> row_of;
   for (std::size_t i = 0; i < contact.vertices.size(); ++i) row_of[contact.vertices[i]] = i;
+  contact.rises.resize(contact.end - contact.begin);
   for (std::size_t p = contact.begin; p < contact.end; ++p) {
     const Eigen::Vector3d& up = places_[p].up;
-    const auto add_vertex = [&](std::uint32_t v, double share, std::vector<double>& rises) {
+    const auto add_vertex = [&](std::uint32_t v, double share) {
       const auto row = row_of.find(v);
       if (row == row_of.end()) return;
       for (std::uint32_t s = contact.offsets[row->second]; s < contact.offsets[row->second + 1];
            ++s) {
         const auto [place, weight] = contact.shares[s];
-        rises[place - contact.begin] += share * weight * dot3(up, places_[place].up);
+        contact.rises[place - contact.begin].back() += share * weight * dot3(up, places_[place].up);
       }
     };
     for (const auto* profile : {&places_[p].low, &places_[p].high}) {
       for (const EdgePoint& point : *profile) {
-        std::vector<double> rises(contact.end - contact.begin, 0.0);
-        add_vertex(point.a, 1 - point.share, rises);
-        add_vertex(point.b, point.share, rises);
-        contact.rises.push_back(std::move(rises));
+        for (std::vector<double>& rises : contact.rises) rises.push_back(0);
+        add_vertex(point.a, 1 - point.share);
+        add_vertex(point.b, point.share);
       }
     }
   }
@@ -203,70 +193,83 @@ double SkinContacts::wider(const Positions& positions) const {
   return most;
 }
 
-/// What to ask for at each place. Which points of the profiles are nearest to each other changes on the
-/// way, so it is found in steps.
-std::vector<double> SkinContacts::solve(const Contact& contact, std::span<const Range> ranges,
-                                        const Positions& positions) const {
-  const std::size_t count = contact.end - contact.begin;
-  std::vector<std::vector<double>> heights(count);
-  std::vector<std::vector<Clearance::Opposite>> opposites(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    heights[i] = clearances_[contact.begin + i].heights(positions);
-    opposites[i] = clearances_[contact.begin + i].opposites(positions);
+SkinContacts::Profiles SkinContacts::profiles(const Contact& contact,
+                                              const Positions& positions) const {
+  Profiles profiles;
+  for (std::size_t p = contact.begin; p < contact.end; ++p) {
+    profiles.begins.push_back(profiles.heights.size());
+    const std::vector<double> heights = clearances_[p].heights(positions);
+    profiles.heights.insert(profiles.heights.end(), heights.begin(), heights.end());
+    profiles.opposites.push_back(clearances_[p].opposites(positions));
   }
-  std::vector<double> asked;
-  for (int step = 0; step < kSteps; ++step) {
-    std::vector<double> missing(count);
-    bool any = false;
-    std::size_t point = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      std::vector<double> now = heights[i];
-      for (double& height : now) {
-        if (!asked.empty()) height += fixed_dot(contact.rises[point], asked);
-        ++point;
-      }
-      double gap = std::numeric_limits<double>::max();
-      for (const Clearance::Opposite& opposite : opposites[i]) {
-        gap = std::min(gap, opposite.gap(now));
-      }
-      const Range& range = ranges[contact.begin + i];
-      missing[i] = std::clamp(gap, range.least, range.most) - gap;
-      any = any || std::abs(missing[i]) > tolerance_;
-    }
-    if (!any) break;
-    std::vector<double> more = solve_lower(contact.lower, std::move(missing), count);
-    for (std::size_t i = count; i-- > 0;) {
-      for (std::size_t j = i + 1; j < count; ++j) more[i] -= contact.lower[j][i] * more[j];
-      more[i] /= contact.lower[i][i];
-    }
-    asked.resize(count, 0.0);
-    for (std::size_t i = 0; i < count; ++i) asked[i] += more[i];
-  }
-  return asked;
+  return profiles;
 }
 
-/// Skin that moves changes which points lie at one depth, so a few rounds are needed where much is asked for.
+double SkinContacts::Profiles::gap(std::size_t place) const {
+  return Clearance::gap(opposites[place], std::span(heights).subspan(begins[place]));
+}
+
+/// What to ask for at each place, found from what was asked for already. None is asked to close what is not
+/// too wide or to open what is not too narrow, so that neighbours seldom pull against each other: a linear
+/// complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, 5.2). The nearest points of
+/// the profiles change on the way, so the gap is told anew each time.
+void SkinContacts::ask(const Contact& contact, std::span<const Range> ranges, double most,
+                       Profiles profiles, std::vector<double>& asked) const {
+  double largest = std::numeric_limits<double>::max();
+  for (int sweep = 0; sweep < kSweeps && largest > tolerance_; ++sweep) {
+    largest = 0;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const Range& range = ranges[contact.begin + i];
+      const double rest = asked[i] - profiles.gap(i);
+      const double wanted = std::clamp(0.0, (range.least + rest) / (1 + kEvenness),
+                                       (range.most + rest) / (1 + kEvenness));
+      const double change = std::clamp(wanted, -most, most) - asked[i];
+      if (change == 0) continue;
+      asked[i] += change;
+      largest = std::max(largest, std::abs(change));
+      for (std::size_t k = 0; k < profiles.heights.size(); ++k) {
+        profiles.heights[k] += contact.rises[i][k] * change;
+      }
+    }
+  }
+}
+
+void SkinContacts::move(const Contact& contact, std::span<const double> by,
+                        Positions& positions) const {
+  for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
+    double x = 0, y = 0, z = 0;
+    for (std::uint32_t s = contact.offsets[i]; s < contact.offsets[i + 1]; ++s) {
+      const auto [place, weight] = contact.shares[s];
+      const double share = weight * by[place - contact.begin];
+      x += share * places_[place].up.x();
+      y += share * places_[place].up.y();
+      z += share * places_[place].up.z();
+    }
+    positions(contact.vertices[i], 0) += x;
+    positions(contact.vertices[i], 1) += y;
+    positions(contact.vertices[i], 2) += z;
+  }
+}
+
+/// Skin that moves changes which points lie at one depth, so it takes a few rounds.
 void SkinContacts::bring_into(std::span<const Range> ranges, Positions& positions) const {
-  std::vector<Eigen::Vector3d> moves(places_.size());
   for (const Contact& contact : contacts_) {
+    std::vector<double> asked(contact.end - contact.begin, 0.0);
+    double most = 0;
     for (int round = 0; round < kRounds; ++round) {
-      const std::vector<double> asked = solve(contact, ranges, positions);
-      if (asked.empty()) break;
+      Profiles profiles = this->profiles(contact, positions);
+      double missing = 0;
       for (std::size_t i = 0; i < asked.size(); ++i) {
-        moves[contact.begin + i] = asked[i] * places_[contact.begin + i].up;
+        const auto [least, widest] = ranges[contact.begin + i];
+        const double gap = profiles.gap(i);
+        missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
-      for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
-        double x = 0, y = 0, z = 0;
-        for (std::uint32_t s = contact.offsets[i]; s < contact.offsets[i + 1]; ++s) {
-          const auto [place, weight] = contact.shares[s];
-          x += weight * moves[place].x();
-          y += weight * moves[place].y();
-          z += weight * moves[place].z();
-        }
-        positions(contact.vertices[i], 0) += x;
-        positions(contact.vertices[i], 1) += y;
-        positions(contact.vertices[i], 2) += z;
-      }
+      if (missing <= tolerance_) break;
+      if (round == 0) most = kMost * missing;
+      std::vector<double> change = asked;
+      ask(contact, ranges, most, std::move(profiles), asked);
+      for (std::size_t i = 0; i < asked.size(); ++i) change[i] = asked[i] - change[i];
+      move(contact, change, positions);
     }
   }
 }

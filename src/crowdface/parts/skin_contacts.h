@@ -50,14 +50,22 @@ class SkinContacts {
   };
   /// Places that act on the same skin: a mouth.
   struct Contact {
-    std::size_t begin = 0, end = 0;          ///< of the places
-    std::vector<std::uint32_t> vertices;     ///< that move
-    std::vector<std::uint32_t> offsets;      ///< #vertices + 1
-    std::vector<Share> shares;               ///< of vertex i: [offsets[i], offsets[i + 1])
-    std::vector<std::vector<double>> lower;  ///< Cholesky factor of how places act on each other
-    /// How much the points of the profiles of each place rise, low ones first, by what is asked for at
-    /// each place: #points by #places.
+    std::size_t begin = 0, end = 0;       ///< of the places
+    std::vector<std::uint32_t> vertices;  ///< that move
+    std::vector<std::uint32_t> offsets;   ///< #vertices + 1
+    std::vector<Share> shares;            ///< of vertex i: [offsets[i], offsets[i + 1])
+    /// How much the points of all profiles rise by what is asked for at each place, low ones of a place
+    /// first: #places by #points.
     std::vector<std::vector<double>> rises;
+  };
+
+  /// Of a contact's places in some positions.
+  struct Profiles {
+    std::vector<double> heights;                              ///< of all points
+    std::vector<std::size_t> begins;                          ///< of each place's points among them
+    std::vector<std::vector<Clearance::Opposite>> opposites;  ///< of each place
+
+    double gap(std::size_t place) const;
   };
 
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
@@ -65,8 +73,10 @@ class SkinContacts {
   void find_shares(const Positions& mean, std::span<const std::uint32_t> around,
                    const std::vector<double>& side, double extent, Contact& contact) const;
   void find_rises(Contact& contact) const;
-  std::vector<double> solve(const Contact& contact, std::span<const Range> ranges,
-                            const Positions& positions) const;
+  Profiles profiles(const Contact& contact, const Positions& positions) const;
+  void ask(const Contact& contact, std::span<const Range> ranges, double most, Profiles profiles,
+           std::vector<double>& asked) const;
+  void move(const Contact& contact, std::span<const double> by, Positions& positions) const;
 
   double tolerance_ = 0;
   std::vector<ContactPlace> places_;
