@@ -54,7 +54,7 @@ struct Folder {
 };
 
 Recipe recipe(Index target, Index source, std::uint64_t iterations, double extrapolation) {
-  return {target, {{std::nullopt, {{source, 1.0}}, 0, iterations, extrapolation}}};
+  return {target, {{std::nullopt, {{source, 1.0}}, 0, iterations, extrapolation, {}}}};
 }
 
 TEST(FaceBuilder, KeepsLipsBetweenTheTargetsAndTheSourcesGap) {

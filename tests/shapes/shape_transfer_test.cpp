@@ -233,11 +233,11 @@ GapsOff gaps_off(const Heads& heads, const ShapeSet& set, const Part& eye, std::
   const auto gaps = [&](const Positions& head, const Displacements& moves) {
     Positions moved = head;
     moves.add_to(moved);
-    std::vector<double> gaps;
+    std::vector<double> heights;
     for (std::size_t i = 0; i < rims.low.size(); ++i) {
-      gaps.push_back(moved(rims.high[i], 1) - moved(rims.low[i], 1));
+      heights.push_back(moved(rims.high[i], 1) - moved(rims.low[i], 1));
     }
-    return gaps;
+    return heights;
   };
   const Displacements& shape = set.shapes[blink].moves;
   const auto wanted = gaps(set.neutral, shape);

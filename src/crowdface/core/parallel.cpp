@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <exception>
 #include <utility>
 #include <vector>
@@ -113,6 +114,7 @@ void detail::run_items(std::ptrdiff_t count, const std::function<void(std::ptrdi
 }
 
 struct BackgroundTasks::Group {
+  std::deque<std::function<void()>> pending;  // handed over by our own means, not by TBB's
   tbb::task_group tasks;
   LoopItems items;
 };
@@ -124,8 +126,9 @@ BackgroundTasks::~BackgroundTasks() {
 }
 
 void BackgroundTasks::run(std::function<void()> task) {
+  const auto* pending = &group_->pending.emplace_back(std::move(task));
   group_->items.begin();
-  group_->tasks.run([group = group_.get(), task = std::move(task)] { group->items.run(task); });
+  group_->tasks.run([group = group_.get(), pending] { group->items.run(*pending); });
 }
 
 void BackgroundTasks::wait() {

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "crowdface/mesh/vector3.h"
-
 namespace crowdface {
 namespace {
 
@@ -29,14 +27,17 @@ bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoin
 }  // namespace
 
 Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
-    : points_(place.low), up_(place.up), deep_(cross3(place.along, place.up)) {
+    : points_(place.low), up_(place.up), deep_(place.deep()) {
   points_.insert(points_.end(), place.high.begin(), place.high.end());
   const auto add_pieces = [&](std::size_t begin, std::size_t end, std::vector<Piece>& pieces) {
     for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = i; j < end; ++j) {
-        if (i != j && !share_a_face(adjacency, points_[i], points_[j])) continue;
-        pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+      bool alone = true;
+      for (std::size_t j = begin; j < end; ++j) {
+        if (i == j || !share_a_face(adjacency, points_[i], points_[j])) continue;
+        alone = false;
+        if (i < j) pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
       }
+      if (alone) pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i)});
     }
   };
   add_pieces(0, place.low.size(), low_);
@@ -48,16 +49,17 @@ double Clearance::Opposite::gap(std::span<const double> heights) const {
          (1 - low_share) * heights[low[0]] - low_share * heights[low[1]];
 }
 
-std::vector<double> Clearance::heights(const Positions& positions) const {
+std::vector<double> Clearance::along(const Eigen::Vector3d& direction,
+                                     const Positions& positions) const {
   std::vector<double> heights;
   heights.reserve(points_.size());
-  for (const EdgePoint& point : points_) heights.push_back(height_of(point, up_, positions));
+  for (const EdgePoint& point : points_) {
+    heights.push_back(height_of(point, direction, positions));
+  }
   return heights;
 }
 
-std::vector<Clearance::Opposite> Clearance::opposites(const Positions& positions) const {
-  std::vector<double> depths;
-  for (const EdgePoint& point : points_) depths.push_back(height_of(point, deep_, positions));
+std::vector<Clearance::Opposite> Clearance::opposites(std::span<const double> depths) const {
   const auto share_at = [&](const Piece& piece, double depth) {
     const double span = depths[piece[1]] - depths[piece[0]];
     return span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
@@ -93,7 +95,7 @@ double Clearance::gap(std::span<const Opposite> opposites, std::span<const doubl
 }
 
 double Clearance::gap(const Positions& positions) const {
-  return gap(opposites(positions), heights(positions));
+  return gap(opposites(depths(positions)), heights(positions));
 }
 
 }  // namespace crowdface

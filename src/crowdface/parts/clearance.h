@@ -26,15 +26,20 @@ class Clearance {
   };
   /// Where the profiles' pieces begin or end above each other; at one of them the gap is smallest, since
   /// pieces are straight. At least one: where nothing is above anything, the points nearest in depth.
-  std::vector<Opposite> opposites(const Positions& positions) const;
-  /// Of all points, low ones first.
-  std::vector<double> heights(const Positions& positions) const;
+  /// \param depths  of all points
+  std::vector<Opposite> opposites(std::span<const double> depths) const;
+  /// Of all points, low ones first: along `up` and along `deep()` of the place.
+  std::vector<double> heights(const Positions& positions) const { return along(up_, positions); }
+  std::vector<double> depths(const Positions& positions) const { return along(deep_, positions); }
   /// The smallest of some opposites; negative where the profiles cross.
   static double gap(std::span<const Opposite> opposites, std::span<const double> heights);
   double gap(const Positions& positions) const;
 
  private:
-  using Piece = std::array<std::uint32_t, 2>;  ///< two points next to each other
+  /// Two points next to each other, or one that has none.
+  using Piece = std::array<std::uint32_t, 2>;
+
+  std::vector<double> along(const Eigen::Vector3d& direction, const Positions& positions) const;
 
   std::vector<EdgePoint> points_;  ///< low ones first
   std::vector<Piece> low_, high_;

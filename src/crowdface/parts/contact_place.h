@@ -7,6 +7,7 @@
 
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/facing_skin.h"
 
 namespace crowdface {
@@ -27,6 +28,8 @@ struct ContactPlace {
   /// How far the lowest point of the high profile is above the highest of the low one; negative where
   /// they overlap.
   double gap(const Positions& positions) const;
+  /// Unit: into the contact, within the cut.
+  Eigen::Vector3d deep() const { return cross3(along, up); }
 };
 
 /// Places evenly spread over a group, without profiles.

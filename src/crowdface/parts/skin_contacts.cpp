@@ -95,6 +95,10 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   }
 }
 
+void append(const std::vector<double>& more, std::vector<double>& values) {
+  values.insert(values.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
 SkinContacts::SkinContacts(const FaceSet& faces, const Adjacency& adjacency,
@@ -127,7 +131,7 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
   if (contact.begin == contact.end) return;
   round_off(adjacency, mean, kRounding * extent, sides);
   find_shares(mean, sides.vertices, sides.side, extent, contact);
-  find_rises(contact);
+  find_motions(contact);
   contacts_.push_back(std::move(contact));
 }
 
@@ -150,24 +154,29 @@ void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint3
   }
 }
 
-void SkinContacts::find_rises(Contact& contact) const {
+void SkinContacts::find_motions(Contact& contact) const {
   std::unordered_map<std::uint32_t, std::size_t> row_of;
   for (std::size_t i = 0; i < contact.vertices.size(); ++i) row_of[contact.vertices[i]] = i;
-  contact.rises.resize(contact.end - contact.begin);
+  contact.motions.resize(contact.end - contact.begin);
   for (std::size_t p = contact.begin; p < contact.end; ++p) {
-    const Eigen::Vector3d& up = places_[p].up;
+    const Eigen::Vector3d &up = places_[p].up, deep = places_[p].deep();
     const auto add_vertex = [&](std::uint32_t v, double share) {
       const auto row = row_of.find(v);
       if (row == row_of.end()) return;
       for (std::uint32_t s = contact.offsets[row->second]; s < contact.offsets[row->second + 1];
            ++s) {
         const auto [place, weight] = contact.shares[s];
-        contact.rises[place - contact.begin].back() += share * weight * dot3(up, places_[place].up);
+        Motions& motions = contact.motions[place - contact.begin];
+        motions.heights.back() += share * weight * dot3(up, places_[place].up);
+        motions.depths.back() += share * weight * dot3(deep, places_[place].up);
       }
     };
     for (const auto* profile : {&places_[p].low, &places_[p].high}) {
       for (const EdgePoint& point : *profile) {
-        for (std::vector<double>& rises : contact.rises) rises.push_back(0);
+        for (Motions& motions : contact.motions) {
+          motions.heights.push_back(0);
+          motions.depths.push_back(0);
+        }
         add_vertex(point.a, 1 - point.share);
         add_vertex(point.b, point.share);
       }
@@ -193,28 +202,12 @@ double SkinContacts::wider(const Positions& positions) const {
   return most;
 }
 
-SkinContacts::Profiles SkinContacts::profiles(const Contact& contact,
-                                              const Positions& positions) const {
-  Profiles profiles;
-  for (std::size_t p = contact.begin; p < contact.end; ++p) {
-    profiles.begins.push_back(profiles.heights.size());
-    const std::vector<double> heights = clearances_[p].heights(positions);
-    profiles.heights.insert(profiles.heights.end(), heights.begin(), heights.end());
-    profiles.opposites.push_back(clearances_[p].opposites(positions));
-  }
-  return profiles;
-}
-
-double SkinContacts::Profiles::gap(std::size_t place) const {
-  return Clearance::gap(opposites[place], std::span(heights).subspan(begins[place]));
-}
-
-/// What to ask for at each place, found from what was asked for already. None is asked to close what is not
-/// too wide or to open what is not too narrow, so that neighbours seldom pull against each other: a linear
-/// complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, 5.2). The nearest points of
-/// the profiles change on the way, so the gap is told anew each time.
+/// What to ask for at each place, added to what was asked for already. None is asked to close what is not too
+/// wide or to open what is not too narrow, so that neighbours seldom pull against each other: a linear
+/// complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, 5.2). Which points of the
+/// profiles are nearest changes on the way, so the gap is told anew each time.
 void SkinContacts::ask(const Contact& contact, std::span<const Range> ranges, double most,
-                       Profiles profiles, std::vector<double>& asked) const {
+                       Profiles& profiles, std::vector<double>& asked) const {
   double largest = std::numeric_limits<double>::max();
   for (int sweep = 0; sweep < kSweeps && largest > tolerance_; ++sweep) {
     largest = 0;
@@ -227,11 +220,17 @@ void SkinContacts::ask(const Contact& contact, std::span<const Range> ranges, do
       if (change == 0) continue;
       asked[i] += change;
       largest = std::max(largest, std::abs(change));
+      const Motions& motions = contact.motions[i];
       for (std::size_t k = 0; k < profiles.heights.size(); ++k) {
-        profiles.heights[k] += contact.rises[i][k] * change;
+        profiles.heights[k] += motions.heights[k] * change;
+        profiles.depths[k] += motions.depths[k] * change;
       }
     }
   }
+}
+
+double SkinContacts::Profiles::gap(std::size_t place) const {
+  return Clearance::gap(opposites[place], std::span(heights).subspan(begins[place]));
 }
 
 void SkinContacts::move(const Contact& contact, std::span<const double> by,
@@ -251,26 +250,32 @@ void SkinContacts::move(const Contact& contact, std::span<const double> by,
   }
 }
 
-/// Skin that moves changes which points lie at one depth, so it takes a few rounds.
+/// Points that move change which of them lie at one depth, so it takes a few rounds.
 void SkinContacts::bring_into(std::span<const Range> ranges, Positions& positions) const {
   for (const Contact& contact : contacts_) {
+    Profiles profiles;
+    for (std::size_t p = contact.begin; p < contact.end; ++p) {
+      profiles.begins.push_back(profiles.heights.size());
+      append(clearances_[p].heights(positions), profiles.heights);
+      append(clearances_[p].depths(positions), profiles.depths);
+    }
     std::vector<double> asked(contact.end - contact.begin, 0.0);
     double most = 0;
     for (int round = 0; round < kRounds; ++round) {
-      Profiles profiles = this->profiles(contact, positions);
       double missing = 0;
+      profiles.opposites.clear();
       for (std::size_t i = 0; i < asked.size(); ++i) {
+        const std::span depths = std::span(profiles.depths).subspan(profiles.begins[i]);
+        profiles.opposites.push_back(clearances_[contact.begin + i].opposites(depths));
         const auto [least, widest] = ranges[contact.begin + i];
         const double gap = profiles.gap(i);
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (missing <= tolerance_) break;
       if (round == 0) most = kMost * missing;
-      std::vector<double> change = asked;
-      ask(contact, ranges, most, std::move(profiles), asked);
-      for (std::size_t i = 0; i < asked.size(); ++i) change[i] = asked[i] - change[i];
-      move(contact, change, positions);
+      ask(contact, ranges, most, profiles, asked);
     }
+    if (most > 0) move(contact, asked, positions);
   }
 }
 

@@ -48,21 +48,23 @@ class SkinContacts {
     std::uint32_t place;
     double weight;  ///< positive on the high side, negative on the low one
   };
+  /// How the points of all profiles of a contact move: those of one place after another.
+  struct Motions {
+    std::vector<double> heights, depths;
+  };
   /// Places that act on the same skin: a mouth.
   struct Contact {
     std::size_t begin = 0, end = 0;       ///< of the places
     std::vector<std::uint32_t> vertices;  ///< that move
     std::vector<std::uint32_t> offsets;   ///< #vertices + 1
     std::vector<Share> shares;            ///< of vertex i: [offsets[i], offsets[i + 1])
-    /// How much the points of all profiles rise by what is asked for at each place, low ones of a place
-    /// first: #places by #points.
-    std::vector<std::vector<double>> rises;
+    std::vector<Motions> motions;         ///< by what is asked for at each place
   };
 
-  /// Of a contact's places in some positions.
+  /// The profiles of a contact's places.
   struct Profiles {
-    std::vector<double> heights;                              ///< of all points
-    std::vector<std::size_t> begins;                          ///< of each place's points among them
+    std::vector<double> heights, depths;  ///< of all points, those of one place after another
+    std::vector<std::size_t> begins;      ///< of each place's points among them
     std::vector<std::vector<Clearance::Opposite>> opposites;  ///< of each place
 
     double gap(std::size_t place) const;
@@ -72,9 +74,8 @@ class SkinContacts {
            double extent);
   void find_shares(const Positions& mean, std::span<const std::uint32_t> around,
                    const std::vector<double>& side, double extent, Contact& contact) const;
-  void find_rises(Contact& contact) const;
-  Profiles profiles(const Contact& contact, const Positions& positions) const;
-  void ask(const Contact& contact, std::span<const Range> ranges, double most, Profiles profiles,
+  void find_motions(Contact& contact) const;
+  void ask(const Contact& contact, std::span<const Range> ranges, double most, Profiles& profiles,
            std::vector<double>& asked) const;
   void move(const Contact& contact, std::span<const double> by, Positions& positions) const;
 
