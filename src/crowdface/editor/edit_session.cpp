@@ -65,6 +65,12 @@ std::string sentence(Reason reason, const Config& config) {
 
 EditSession::EditSession(Job job, const std::filesystem::path& cache, std::size_t preview_vertices)
     : job_(std::move(job)),
+      reducing_(std::async(std::launch::async,
+                           [this, preview_vertices] {
+                             return preview_mesh(job_.inputs.faces, mean_head(job_.inputs.faces),
+                                                 drawn_faces(surfaces_of(job_.config, job_.inputs)),
+                                                 preview_vertices);
+                           })),
       crowd_(crowd_of_job(job_)),
       prepared_(prepare(job_.config, job_.inputs, job_.smoothing, cache)),
       builder_(job_.config, job_.inputs, prepared_),
@@ -73,8 +79,7 @@ EditSession::EditSession(Job job, const std::filesystem::path& cache, std::size_
                           job_.config.plane.layout == Layout::kSimilarity
                               ? judging_.get().where->space.head_distances()
                               : Eigen::MatrixXd())),
-      preview_(preview_mesh(job_.inputs.faces, mean_head(job_.inputs.faces),
-                            drawn_faces(surfaces_of(job_.config, job_.inputs)), preview_vertices)),
+      preview_(reducing_.get()),
       around_(job_.inputs.faces.topology) {
   if (job_.config.smoothing.levels == Levels::kExact) {
     fitted_ = prepare(with_fitted_levels(job_.config), job_.inputs, job_.smoothing, cache);

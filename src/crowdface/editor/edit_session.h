@@ -83,6 +83,7 @@ class EditSession {
   std::vector<HeadLevels> preview_levels() const;
 
   Job job_;
+  std::future<PreviewMesh> reducing_;  ///< beside what follows
   std::optional<std::vector<CastFace>> crowd_;
   Prepared prepared_;
   std::optional<Prepared> fitted_;  ///< `levels: exact`: fields for the preview alone

@@ -13,15 +13,18 @@
 namespace crowdface {
 namespace {
 
-/// The distinct texture coordinates of each vertex of the whole mesh, ascending rows.
-std::vector<std::vector<std::uint32_t>> uvs_of_vertices(const Topology& topology) {
-  std::vector<std::vector<std::uint32_t>> rows(static_cast<std::size_t>(topology.vertex_count));
+/// The distinct texture coordinates of some vertices of the whole mesh, ascending rows.
+std::vector<std::vector<std::uint32_t>> uvs_of(const std::vector<std::uint32_t>& vertices,
+                                               const Topology& topology) {
+  std::vector<std::uint32_t> place(static_cast<std::size_t>(topology.vertex_count), kNoIndex);
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) place[vertices[i]] = i;
+  std::vector<std::vector<std::uint32_t>> rows(vertices.size());
   for (std::size_t c = 0; c < topology.corner_uvs.size(); ++c) {
-    if (topology.corner_uvs[c] == kNoIndex) continue;
-    auto& of_vertex = rows[topology.corner_vertices[c]];
-    const auto at = std::lower_bound(of_vertex.begin(), of_vertex.end(), topology.corner_uvs[c]);
-    if (at == of_vertex.end() || *at != topology.corner_uvs[c]) {
-      of_vertex.insert(at, topology.corner_uvs[c]);
+    const std::uint32_t i = place[topology.corner_vertices[c]];
+    if (i == kNoIndex || topology.corner_uvs[c] == kNoIndex) continue;
+    const auto at = std::lower_bound(rows[i].begin(), rows[i].end(), topology.corner_uvs[c]);
+    if (at == rows[i].end() || *at != topology.corner_uvs[c]) {
+      rows[i].insert(at, topology.corner_uvs[c]);
     }
   }
   return rows;
@@ -61,7 +64,7 @@ PreviewMesh preview_mesh(const FaceSet& faces, const Positions& typical,
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) mesh.twins.push_back(v);
     return mesh;
   }
-  const auto rows = uvs_of_vertices(faces.topology);
+  const auto rows = uvs_of(reduced.vertices, faces.topology);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> split;  // (vertex, uv)
   std::vector<std::uint32_t> first(reduced.vertices.size(), kNoIndex);
   const auto vertex_at = [&](std::uint32_t vertex, std::uint32_t uv) {
@@ -79,7 +82,7 @@ PreviewMesh preview_mesh(const FaceSet& faces, const Positions& typical,
   for (std::size_t t = 0; t < reduced.triangles.size(); t += 3) {
     std::array<const std::vector<std::uint32_t>*, 3> choices{};
     for (std::size_t c = 0; c < 3; ++c) {
-      choices[c] = &rows[reduced.vertices[reduced.triangles[t + c]]];
+      choices[c] = &rows[reduced.triangles[t + c]];
     }
     const Corners uvs = closest_uvs(faces.uvs, choices);
     for (std::size_t c = 0; c < 3; ++c) {

@@ -77,9 +77,20 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
   const double apart = 0.3 * reach_;
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());
   parallel_for_each(heads.size(), [&](std::size_t i) {
-    const PointGrid grid(heads[i].positions, skin);
-    for (const Pair& pair : pairs_) {
-      nearest[i].push_back(grid.nearest(row3(heads[i].positions, pair.vertex), 2 * reach_).vertex);
+    const Positions& head = heads[i].positions;
+    Eigen::AlignedBox3d box;
+    for (const Pair& pair : pairs_) box.extend(row3(head, pair.vertex));
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(2 * reach_);
+    box = {box.min() - reach, box.max() + reach};
+    std::vector<std::uint32_t> about;
+    for (const std::uint32_t v : skin) {
+      if (box.contains(row3(head, v))) about.push_back(v);
+    }
+    nearest[i].assign(pairs_.size(), kNoIndex);
+    if (about.empty()) return;
+    const PointGrid grid(head, about);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
   for (std::size_t i = 0; i < pairs_.size(); ++i) {

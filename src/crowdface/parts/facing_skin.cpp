@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -31,7 +32,7 @@ constexpr double kTimesAway = 3;        // along the surface, as a multiple of t
 constexpr double kOpposed = -0.3;       // cosine between normals
 constexpr double kEdgesTogether = 2.5;  // edges between pairs of one group
 constexpr double kSideways = 0.75;      // of the gap
-constexpr Index kBlock = 1024;
+constexpr Index kBlock = 1024, kSearches = 16;
 
 /// One of those vertices that share a cell of a grid, for all cells, ascending.
 std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const std::uint32_t> skin,
@@ -164,21 +165,29 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
     }
   });
 
-  FacingGroup pairs;
-  EdgeDistances along(adjacency, positions);
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    if (candidates[i].empty()) continue;
-    throw_if_interrupted();
-    along.search(std::span(&some[i], 1),
-                 std::max(kTimesAway * candidates[i].back().distance, kLeastAway * extent));
-    for (const Candidate& candidate : candidates[i]) {
-      const double least = std::max(kTimesAway * candidate.distance, kLeastAway * extent);
-      if (along.distance(candidate.vertex) <= least) continue;
-      pairs.push_back({some[i], candidate.vertex,
-                       (positions.row(some[i]) + positions.row(candidate.vertex)).transpose() / 2,
-                       candidate.across});
-      break;
+  std::vector<std::optional<FacingPair>> found(some.size());
+  const auto count = static_cast<Index>(some.size());
+  // Each search of distances has room for the whole mesh.
+  parallel_blocks(count, std::max(kBlock, count / kSearches), [&](Index begin, Index end) {
+    EdgeDistances along(adjacency, positions);
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      if (candidates[i].empty()) continue;
+      throw_if_interrupted();
+      along.search(std::span(&some[i], 1),
+                   std::max(kTimesAway * candidates[i].back().distance, kLeastAway * extent));
+      for (const Candidate& candidate : candidates[i]) {
+        const double least = std::max(kTimesAway * candidate.distance, kLeastAway * extent);
+        if (along.distance(candidate.vertex) <= least) continue;
+        found[i] = {some[i], candidate.vertex,
+                    (positions.row(some[i]) + positions.row(candidate.vertex)).transpose() / 2,
+                    candidate.across};
+        break;
+      }
     }
+  });
+  FacingGroup pairs;
+  for (const auto& pair : found) {
+    if (pair) pairs.push_back(*pair);
   }
   return grouped(
       pairs, std::max(kTogether * extent, kEdgesTogether * mean_edge(adjacency, positions, pairs)));

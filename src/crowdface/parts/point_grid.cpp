@@ -71,28 +71,31 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   const Index farthest = std::max({cells_[0], cells_[1], cells_[2]});
   // Shells of cells around the point's own; a cell of shell s is at least (s − 1) cells away from a
   // point inside the grid, and no nearer to one outside.
+  const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {  // neighbouring cells
+    const std::uint32_t end = offsets_[number_of({high_x, y, z}) + 1];
+    for (std::uint32_t i = offsets_[number_of({low_x, y, z})]; i < end; ++i) {
+      const double dx = positions_(vertices_[i], 0) - point.x();
+      const double dy = positions_(vertices_[i], 1) - point.y();
+      const double dz = positions_(vertices_[i], 2) - point.z();
+      const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+      if (distance < best.distance || (distance == best.distance && vertices_[i] < best.vertex)) {
+        best = {vertices_[i], distance};
+      }
+    }
+  };
   for (Index shell = 0; shell <= farthest; ++shell) {
     if (static_cast<double>(shell - 1) * width_ > best.distance) break;
+    const Index left = middle[0] - shell, right = middle[0] + shell;
     for (Index z = middle[2] - shell; z <= middle[2] + shell; ++z) {
       if (z < 0 || z >= cells_[2]) continue;
       for (Index y = middle[1] - shell; y <= middle[1] + shell; ++y) {
         if (y < 0 || y >= cells_[1]) continue;
-        const bool face = std::abs(z - middle[2]) == shell || std::abs(y - middle[1]) == shell;
-        const Index step = face || shell == 0 ? 1 : 2 * shell;
-        for (Index x = middle[0] - shell; x <= middle[0] + shell; x += step) {
-          if (x < 0 || x >= cells_[0]) continue;
-          const std::size_t cell = number_of({x, y, z});
-          for (std::uint32_t i = offsets_[cell]; i < offsets_[cell + 1]; ++i) {
-            const double dx = positions_(vertices_[i], 0) - point.x();
-            const double dy = positions_(vertices_[i], 1) - point.y();
-            const double dz = positions_(vertices_[i], 2) - point.z();
-            const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-            if (distance < best.distance ||
-                (distance == best.distance && vertices_[i] < best.vertex)) {
-              best = {vertices_[i], distance};
-            }
-          }
+        if (std::abs(z - middle[2]) == shell || std::abs(y - middle[1]) == shell) {
+          look_at(std::max<Index>(left, 0), std::min(right, cells_[0] - 1), y, z);
+          continue;
         }
+        if (left >= 0) look_at(left, left, y, z);
+        if (right < cells_[0]) look_at(right, right, y, z);
       }
     }
   }
