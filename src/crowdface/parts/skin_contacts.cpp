@@ -202,10 +202,10 @@ double SkinContacts::wider(const Positions& positions) const {
   return most;
 }
 
-/// What to ask for at each place, added to what was asked for already. None is asked to close what is not too
-/// wide or to open what is not too narrow, so that neighbours seldom pull against each other: a linear
-/// complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, 5.2). Which points of the
-/// profiles are nearest changes on the way, so the gap is told anew each time.
+/// What to ask for at each place, added to what was asked for already. None is asked to close what is
+/// not too wide or to open what is not too narrow, so that neighbours seldom pull against each other: a
+/// linear complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, chapter 5).
+/// Which points of the profiles are nearest changes on the way, so the gap is told anew each time.
 void SkinContacts::ask(const Contact& contact, std::span<const Range> ranges, double most,
                        Profiles& profiles, std::vector<double>& asked) const {
   double largest = std::numeric_limits<double>::max();
