@@ -104,6 +104,28 @@ TEST(UsdaTemplate, BindsEachFaceToItsMaterial) {
   EXPECT_THAT(text, HasSubstr("color3f inputs:diffuseColor = (0.5, 0.25, 0.125)"));
 }
 
+// Eyeballs of one material were blank.
+TEST(UsdaTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
+  Scene scene;
+  scene.options.materials[1] = {"eye", {0.7F, 0.7F, 0.6F, 1}, std::nullopt, true};
+  scene.options.overlay.emplace();
+  for (std::uint16_t v = 0; v < 8; ++v) scene.options.overlay->places.push_back({v, 65535});
+  scene.options.overlay->places[3] = {65535, 0};
+  const std::string text = scene.text();
+  EXPECT_THAT(numbers_of(text, "int[] primvars:st1:indices"), ElementsAre(0, 2, 1, 3, 4, 0, 0, 0))
+      << "of the second face alone";
+  const std::vector<double> places = numbers_of(text, "texCoord2f[] primvars:st1");
+  ASSERT_EQ(places.size(), 10U);
+  EXPECT_NEAR(places[2], 2 / 65535.0, 1e-8);
+  EXPECT_EQ(places[3], 0) << "the lower edge";
+  EXPECT_EQ(places[6], 1);
+  EXPECT_EQ(places[7], 1) << "the upper edge";
+  const std::string eye = text.substr(text.find("def Material \"eye\""));
+  EXPECT_THAT(eye, HasSubstr("asset inputs:file = @./topology/iris.png@"));
+  EXPECT_THAT(eye, HasSubstr("string inputs:varname = \"st1\""));
+  EXPECT_THAT(text.substr(0, text.size() - eye.size()), Not(HasSubstr("iris.png")));
+}
+
 TEST(UsdaTemplate, NamesTexturesBeside) {
   Scene scene;
   scene.options.face_materials = {0, 0, 0};

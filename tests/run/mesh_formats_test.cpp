@@ -151,6 +151,23 @@ TEST(MeshFormats, GlbEyesHaveAnIrisUnlessAColourIsGiven) {
   EXPECT_EQ(textured("green", {"output.surfaces={eye: \"#20a040\"}"}), std::vector<std::string>{});
 }
 
+TEST(MeshFormats, UsdFindsTheIrisOfItsEyesOnceBeside) {
+  SmallCrowd crowd;
+  crowd.bowl.materials = true;
+  const SmallCrowdFolder folder(crowd);
+  run(folder, "out", {"output.meshes=[usd]"});
+  const fs::path iris = folder.out() / "meshes/topology/iris.png";
+  EXPECT_THAT(testing::read_text(folder.out() / "meshes/mob_0001.usda"),
+              ::testing::HasSubstr("@./topology/iris.png@"));
+  const std::string picture = testing::read_text(iris);
+  EXPECT_TRUE(picture.starts_with("\x89PNG"));
+  fs::remove(iris);
+  run(folder, "out", {"output.meshes=[usd]"});
+  EXPECT_EQ(testing::read_text(iris), picture);
+  run(folder, "green", {"output.meshes=[usd]", "output.surfaces={eye: \"#20a040\"}"});
+  EXPECT_FALSE(fs::exists(folder / "green/meshes/topology"));
+}
+
 TEST(MeshFormats, PointsHaveTheirTopologyOnceBeside) {
   const SmallCrowdFolder folder(SmallCrowd{});
   run(folder, "out", {"output.meshes=[points]"});

@@ -14,6 +14,7 @@
 #include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/ledger.h"
+#include "crowdface/io/glb_options.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/shallow_json.h"
 
@@ -89,6 +90,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   }
   for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);
   for (const char* array : kTopologyArrays) remove_file(directory.topology() / array);
+  remove_file(directory.meshes() / GlbOverlay::kFile);
   for (const fs::path& review : directory.kept_reviews()) remove_file(review);
   const std::vector<fs::path> folders = crowd_folders(directory);
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) remove_file(*folder);

@@ -20,8 +20,11 @@ struct GlbMaterial {
   bool overlay = false;                   ///< its colours are the overlay's, opaque
 };
 
-/// A picture that all files have, such as an iris, and where on it each vertex lies.
+/// A picture that all files have, such as an iris, and where on it each vertex lies. Files that bring no
+/// pictures along find it beside them.
 struct GlbOverlay {
+  static constexpr const char* kFile = "topology/iris.png";
+
   std::string png;
   std::vector<std::array<std::uint16_t, 2>> places;  ///< #V; 65535 is the right or lower edge
 };

@@ -77,6 +77,31 @@ std::string uv_lines(const Topology& topology, const TextureCoordinates& uvs) {
                 usda_list(corners), '\n');
 }
 
+/// Where the vertices of overlaid faces lie on the overlay; all others share one place.
+std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
+  std::vector<std::uint32_t> places(static_cast<std::size_t>(topology.vertex_count), 0);
+  std::vector<std::uint32_t> vertices = {kNoIndex};  // of each place
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto at = static_cast<std::size_t>(f);
+    const std::size_t material = options.face_materials.empty() ? 0 : options.face_materials[at];
+    if (!options.materials[material].overlay) continue;
+    for (const std::uint32_t v : topology.face(f)) {
+      if (places[v] != 0) continue;
+      places[v] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(v);
+    }
+  }
+  TextureCoordinates uvs = TextureCoordinates::Zero(static_cast<Index>(vertices.size()), 2);
+  for (Index i = 1; i < uvs.rows(); ++i) {
+    const auto& place = options.overlay->places[vertices[static_cast<std::size_t>(i)]];
+    uvs.row(i) << place[0] / 65535.0, 1 - place[1] / 65535.0;  // from the left and lower edge
+  }
+  return concat("            texCoord2f[] primvars:st1 = ", uv_text(uvs),
+                " (\n                interpolation = \"vertex\"\n            )\n"
+                "            int[] primvars:st1:indices = ",
+                usda_list(places), '\n');
+}
+
 std::string corner_counts(const Topology& topology) {
   std::vector<std::uint32_t> counts;
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -95,10 +120,13 @@ std::string extent_of_points(const Positions& positions) {
 
 std::string material_text(const std::string& path, const std::string& name,
                           const GlbMaterial& material, std::span<const std::string> images) {
+  const std::string picture = material.image     ? images[*material.image]
+                              : material.overlay ? concat("./", GlbOverlay::kFile)
+                                                 : std::string();
   const std::string inner = "            ";
   const std::string deep = inner + "    ";
-  const std::string colour = material.image ? concat(".connect = <", path, "/colour.outputs:rgb>")
-                                            : concat(" = ", colour_text(material));
+  const std::string colour = !picture.empty() ? concat(".connect = <", path, "/colour.outputs:rgb>")
+                                              : concat(" = ", colour_text(material));
   std::string text =
       concat("        def Material \"", name, "\"\n        {\n", inner,
              "token outputs:surface.connect = <", path, "/surface.outputs:surface>\n\n", inner,
@@ -107,16 +135,17 @@ std::string material_text(const std::string& path, const std::string& name,
              colour, '\n', deep, "float inputs:metallic = 0\n", deep,
              "float inputs:opacity = ", static_cast<double>(material.colour[3]), '\n', deep,
              "float inputs:roughness = 0.6\n", deep, "token outputs:surface\n", inner, "}\n");
-  if (material.image) {
-    text +=
-        concat('\n', inner, "def Shader \"colour\"\n", inner, "{\n", deep,
-               "uniform token info:id = \"UsdUVTexture\"\n", deep, "asset inputs:file = @",
-               images[*material.image], "@\n", deep, "token inputs:sourceColorSpace = \"sRGB\"\n",
-               deep, "float2 inputs:st.connect = <", path, "/st.outputs:result>\n", deep,
-               "token inputs:wrapS = \"repeat\"\n", deep, "token inputs:wrapT = \"repeat\"\n", deep,
-               "float3 outputs:rgb\n", inner, "}\n\n", inner, "def Shader \"st\"\n", inner, "{\n",
-               deep, "uniform token info:id = \"UsdPrimvarReader_float2\"\n", deep,
-               "string inputs:varname = \"st\"\n", deep, "float2 outputs:result\n", inner, "}\n");
+  if (!picture.empty()) {
+    const std::string_view wrap = material.overlay ? "clamp" : "repeat";
+    text += concat(
+        '\n', inner, "def Shader \"colour\"\n", inner, "{\n", deep,
+        "uniform token info:id = \"UsdUVTexture\"\n", deep, "asset inputs:file = @", picture, "@\n",
+        deep, "token inputs:sourceColorSpace = \"sRGB\"\n", deep, "float2 inputs:st.connect = <",
+        path, "/st.outputs:result>\n", deep, "token inputs:wrapS = \"", wrap, "\"\n", deep,
+        "token inputs:wrapT = \"", wrap, "\"\n", deep, "float3 outputs:rgb\n", inner, "}\n\n",
+        inner, "def Shader \"st\"\n", inner, "{\n", deep,
+        "uniform token info:id = \"UsdPrimvarReader_float2\"\n", deep, "string inputs:varname = \"",
+        material.overlay ? "st1" : "st", "\"\n", deep, "float2 outputs:result\n", inner, "}\n");
   }
   return text + "        }\n";
 }
@@ -169,6 +198,7 @@ void UsdaTemplate::add_mesh(const Topology& topology, const TextureCoordinates& 
              corner_counts(topology),
              "\n            int[] faceVertexIndices = ", usda_list(topology.corner_vertices), '\n');
   if (!topology.corner_uvs.empty()) faces_ += uv_lines(topology, uvs);
+  if (options.overlay) faces_ += overlay_lines(topology, options);
   faces_ += concat("            uniform token subdivisionScheme = \"",
                    subdivision_ == Subdivision::kNone ? "none" : "catmullClark", "\"\n");
   std::vector<std::vector<std::uint32_t>> of_material(options.materials.size());

@@ -16,7 +16,7 @@
 namespace crowdface {
 
 /// USD layers (text, `.usda`) of one topology: a Mesh with its faces as they are, texture coordinates
-/// as the primvar `st`, material subsets bound to preview surfaces, and blend shapes of UsdSkel where
+/// as the primvar `st`, places on an overlay as `st1`, material subsets bound to preview surfaces, and blend shapes of UsdSkel where
 /// there are targets. Positions stay in their own unit, which metersPerUnit tells; the stage's up axis
 /// is Y or Z, and a transform turns other heads to Y. All but the vectors and names is made once.
 class UsdaTemplate {

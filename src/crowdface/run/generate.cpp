@@ -235,7 +235,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   if (!cast_job.planned() && std::ranges::find(formats, MeshFormat::kUsd) != formats.end()) {
     write(directory.stage(), format_stage(job.config, job.inputs, crowd));
   }
-  write_shared_arrays(job.inputs, formats, directory, ledger);
+  write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
                                            cast_job.textures.get().blender());

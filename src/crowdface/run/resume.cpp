@@ -12,10 +12,48 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/npy.h"
+#include "crowdface/run/glb_form.h"
 
 namespace crowdface {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+void write_shared_arrays(const Inputs& inputs, const CrowdDirectory& directory, Ledger& ledger) {
+  constexpr const char* kItem = "topology";
+  const TextureCoordinates& uvs = inputs.faces.uvs;
+  Hasher key;
+  key.add(inputs.topology_digest)
+      .add_array(std::span(inputs.faces.topology.corner_uvs))
+      .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
+  std::vector<std::string> shapes;
+  for (const Shape& shape : inputs.shapes.shapes) shapes.push_back(shape.name);
+  for (const std::string& shape : shapes) key.add(shape);
+  if (ledger.proven(kItem, key.digest())) return;
+  std::vector<std::string> names;
+  for (const fs::path& file :
+       write_topology_arrays(inputs.faces.topology, uvs, shapes, directory.topology())) {
+    names.push_back(directory.relative(file));
+  }
+  ledger.record(kItem, key.digest(), names);
+}
+
+/// The eyes' iris, for files that do not bring it along.
+void write_iris(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
+                Ledger& ledger) {
+  constexpr const char* kItem = "iris";
+  const GlbOptions options = glb_options(config, inputs);
+  if (!options.overlay) return;
+  const Digest key = Hasher().add(options.overlay->png).digest();
+  if (ledger.proven(kItem, key)) return;
+  const fs::path file = directory.meshes() / GlbOverlay::kFile;
+  make_directories(file.parent_path());
+  write_file(file, options.overlay->png);
+  ledger.record(kItem, key, std::vector{directory.relative(file)});
+}
+
+}  // namespace
 
 void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan) {
   std::error_code ignored;
@@ -62,25 +100,13 @@ void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Cas
                             "; run their shards again, or generate without --shard"));
 }
 
-void write_shared_arrays(const Inputs& inputs, const std::vector<MeshFormat>& formats,
-                         const CrowdDirectory& directory, Ledger& ledger) {
-  constexpr const char* kItem = "topology";
-  if (std::find(formats.begin(), formats.end(), MeshFormat::kPoints) == formats.end()) return;
-  const TextureCoordinates& uvs = inputs.faces.uvs;
-  Hasher key;
-  key.add(inputs.topology_digest)
-      .add_array(std::span(inputs.faces.topology.corner_uvs))
-      .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
-  std::vector<std::string> shapes;
-  for (const Shape& shape : inputs.shapes.shapes) shapes.push_back(shape.name);
-  for (const std::string& shape : shapes) key.add(shape);
-  if (ledger.proven(kItem, key.digest())) return;
-  std::vector<std::string> names;
-  for (const fs::path& file :
-       write_topology_arrays(inputs.faces.topology, uvs, shapes, directory.topology())) {
-    names.push_back(directory.relative(file));
-  }
-  ledger.record(kItem, key.digest(), names);
+void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
+                        Ledger& ledger) {
+  const auto writes = [&](MeshFormat format) {
+    return std::ranges::find(config.output.meshes, format) != config.output.meshes.end();
+  };
+  if (writes(MeshFormat::kPoints)) write_shared_arrays(inputs, directory, ledger);
+  if (writes(MeshFormat::kUsd)) write_iris(config, inputs, directory, ledger);
 }
 
 std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const Shard& shard) {

@@ -29,9 +29,9 @@ FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
                           const std::vector<std::size_t>& todo);
 
-/// Writes the arrays beside all faces, if a format needs them and they are not there.
-void write_shared_arrays(const Inputs& inputs, const std::vector<MeshFormat>& formats,
-                         const CrowdDirectory& directory, Ledger& ledger);
+/// Writes the arrays and the picture beside all faces, if a format needs them and they are not there.
+void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
+                        Ledger& ledger);
 
 /// Of the folder's ledgers those that may hold what a shard looks for: none of another shard that shares
 /// the crowd with it, whose faces are others.
