@@ -102,7 +102,8 @@ std::set<DIR*> watched_listings;
 
 }  // namespace
 
-// The linker gives these names to calls of open, write, … and to the real ones.
+// Calls of open, write, … and the real ones.
+// NOLINTBEGIN(readability-identifier-naming): the linker's own names
 extern "C" {
 int __real_open(const char* path, int flags, ...);
 ssize_t __real_read(int fd, void* to, size_t size);
@@ -236,6 +237,7 @@ time_t time(time_t* result) noexcept {
   return now.tv_sec;
 }
 }
+// NOLINTEND(readability-identifier-naming)
 
 namespace crowdface::testing {
 namespace {
