@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/likeness_file.h"
 #include "crowdface/crowd/verify.h"
@@ -64,6 +65,22 @@ TEST(SheetLabel, HasALineForEachThingAskedFor) {
   // Lines stay where they are where there is nothing to say.
   EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 2, three_likeness(), heads),
             "\nmob_0001");
+}
+
+// With bands a child has more parts than there are regions: names beyond the last region's were read.
+TEST(InheritanceLabel, TellsRegionsAndWhereParentsShareOneItsBands) {
+  CastFace child;
+  child.id = "mob_smith_03";
+  child.mother_share = 0.4;
+  child.inherits = {"mother", "father"};
+  EXPECT_EQ(inheritance_label(child, {{"ann"}, {"top", "bottom"}, {}}),
+            "mob_smith_03\nform 40 % mother\nmother: top\nfather: bottom");
+  child.inherits = {"mother", "father", "father", "father"};
+  const PlanNames banded{{"ann"}, {"top", "bottom"}, {"build", "skin"}};
+  EXPECT_EQ(inheritance_label(child, banded),
+            "mob_smith_03\nform 40 % mother\nmother: top/build\nfather: top/skin, bottom");
+  child.inherits.pop_back();
+  EXPECT_THROW(inheritance_label(child, banded), BrokenPrecondition);
 }
 
 // A plan holds four decimals: sheets made anew from it said 32.31 where the run had said 32.32.

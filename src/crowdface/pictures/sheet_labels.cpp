@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
+#include "crowdface/core/require.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 
@@ -20,6 +22,29 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
                            std::lround(100 * part.weight), " %"));
   }
   return join(parts);
+}
+
+/// The regions that `parent` gave: "brow", or of a region of which both gave bands "brow/skin".
+std::vector<std::string> given_by(std::string_view parent, const CastFace& face,
+                                  const PlanNames& names) {
+  const std::size_t bands = std::max(names.bands.size(), std::size_t{1});
+  require(face.inherits.size() == names.regions.size() * bands, "a child of ",
+          face.inherits.size(), " parts where there are ", names.regions.size(), " regions of ",
+          bands);
+  std::vector<std::string> given;
+  for (std::size_t k = 0; k < names.regions.size(); ++k) {
+    const auto first = face.inherits.begin() + static_cast<std::ptrdiff_t>(k * bands);
+    const auto last = first + static_cast<std::ptrdiff_t>(bands);
+    if (std::all_of(first, last, [&](const auto& by) { return by == parent; })) {
+      given.push_back(names.regions[k]);
+      continue;
+    }
+    for (std::size_t b = 0; b < names.bands.size(); ++b) {
+      if (first[static_cast<std::ptrdiff_t>(b)] != parent) continue;
+      given.push_back(concat(names.regions[k], '/', names.bands[b]));
+    }
+  }
+  return given;
 }
 
 }  // namespace
@@ -70,6 +95,19 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
   std::string text;
   for (std::size_t i = 0; i < lines.size(); ++i) text += concat(i > 0 ? "\n" : "", lines[i]);
   return text;
+}
+
+std::string inheritance_label(const CastFace& face, const PlanNames& names) {
+  std::string label = face.id;
+  if (face.mother_share > 0) {
+    label += concat("\nform ", std::lround(100 * face.mother_share), " % mother");
+  }
+  if (face.inherits.empty()) return label;
+  for (const std::string_view parent : {"mother", "father"}) {
+    const std::vector<std::string> given = given_by(parent, face, names);
+    if (!given.empty()) label += concat("\n", parent, ": ", join(given));
+  }
+  return label;
 }
 
 }  // namespace crowdface

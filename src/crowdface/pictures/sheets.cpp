@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <system_error>
@@ -224,18 +223,7 @@ class CrowdSheets {
       return sheet_label({SheetLabel::kId, SheetLabel::kNearest}, crowd_, member, likeness_,
                          config_.faces.names);
     }
-    std::string label = face.id;
-    if (face.mother_share > 0) {
-      label += concat("\nform ", std::lround(100 * face.mother_share), " % mother");
-    }
-    for (const std::string role : {"mother", "father"}) {
-      std::vector<std::string> regions;
-      for (std::size_t k = 0; k < face.inherits.size(); ++k) {
-        if (face.inherits[k] == role) regions.push_back(config_.region_names()[k]);
-      }
-      if (!regions.empty()) label += concat("\n", role, ": ", join(regions));
-    }
-    return label;
+    return inheritance_label(face, config_.plan_names());
   }
 
   /// The picture of a family's founder, if there is one that can stand beside the members'.
