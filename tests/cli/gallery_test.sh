@@ -5,20 +5,8 @@
 # where there is no Chromium or the page was not built; scripts/test.sh sees to both.
 #   gallery_test.sh PROGRAM ROOT
 set -euo pipefail
-program=$1 root=$2
-skip() {
-  echo "SKIPPED: $1"
-  exit 77
-}
-chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
-[ -n "$chromium" ] || skip "no Chromium: scripts/install_dependencies.sh --test installs it"
-command -v node >/dev/null || skip "no node"
-page=$(dirname "$(dirname "$program")")/share/crowdface/gallery
-[ -f "$page/gallery.js" ] || skip "the gallery's page was not built: scripts/build_gallery.sh"
-[ -d "$root/build/gallery/node_modules/playwright-core" ] || skip "playwright-core is not installed"
+. "$(dirname "$0")/page.sh"
 
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 "$program" synth -o "$folder/heads" --count 5 --vertices 20000 --seed 2 --quiet
 cat >"$folder/config.yaml" <<YAML
 schema: 1
@@ -37,8 +25,7 @@ largest=$(stat -c %s "$gallery/data/faces"/*.js | sort -n | tail -n 1)
 echo "$largest bytes a face"
 [ "$largest" -lt 190000 ] || { echo "a face's mesh takes $largest bytes"; exit 1; }
 
-cp "$root/gallery/test/browser.mjs" "$root/build/gallery/browser.mjs"
-CHROMIUM=$chromium node "$root/build/gallery/browser.mjs" "$gallery" "$folder/review.yaml" "${PICTURES-}"
+browse browser.mjs "$gallery" "$folder/review.yaml" "${PICTURES-}"
 cat "$folder/review.yaml"
 cp "$folder/out/plan.jsonl" "$folder/before.jsonl"
 "$program" plan "$folder/config.yaml" --cache "$folder/cache" --quiet --review "$folder/review.yaml"

@@ -181,6 +181,53 @@ TEST_F(EditCommandTest, GeneratesTheCrowdBesideThePage) {
   EXPECT_EQ(verify.code, 0) << verify.err;
 }
 
+TEST_F(EditCommandTest, OpensTheFacesThatWereGenerated) {
+  const auto job = [&] { return Json::parse(get("api/job")->body); };
+  edit([&] {
+    EXPECT_TRUE(job()["crowd"].is_null());
+    ASSERT_EQ(run_program(CROWDFACE_PROGRAM,
+                          {"generate", folder_.config(), "--cache", folder_.cache(), "--quiet"})
+                  .code,
+              0);
+    EXPECT_EQ(post("api/open", Json::object())->status, 200);
+    EXPECT_EQ(job()["crowd"]["faces"].size(), 4U);
+  });
+}
+
+TEST_F(EditCommandTest, RegionsComeAndGoInTheConfig) {
+  const auto names = [&] {
+    std::vector<std::string> names;
+    const Json job = Json::parse(get("api/job")->body);
+    for (const Json& region : job["regions"]) names.push_back(region["name"]);
+    return names;
+  };
+  const auto error = [](const httplib::Result& answer) {
+    EXPECT_EQ(answer->status, 400);
+    return Json::parse(answer->body)["error"].get<std::string>();
+  };
+  edit([&] {
+    EXPECT_EQ(post("api/regions", {{"add", "cheek"}})->status, 200);
+    EXPECT_THAT(names(), ::testing::ElementsAre("region_1", "region_2", "cheek"));
+    const std::string config = read_text(folder_.config());
+    EXPECT_THAT(config, ::testing::HasSubstr("names: [region_1, region_2, cheek]"));
+    EXPECT_THAT(config, ::testing::HasSubstr("edited/masks.png"));
+    EXPECT_EQ(post("api/save", {{"recipe", start()}, {"format", "ply"}})->status, 200);
+
+    EXPECT_THAT(error(post("api/regions", {{"add", "a: b"}})), ::testing::HasSubstr("a: b"));
+    EXPECT_THAT(error(post("api/regions", {{"add", "cheek"}})), ::testing::HasSubstr("twice"));
+    EXPECT_THAT(error(post("api/regions", {{"remove", "chin"}})), ::testing::HasSubstr("remove"));
+    EXPECT_EQ(read_text(folder_.config()), config);
+
+    EXPECT_EQ(post("api/regions", {{"remove", "region_2"}})->status, 200);
+    EXPECT_THAT(names(), ::testing::ElementsAre("region_1", "cheek"));
+    EXPECT_THAT(read_text(folder_.config()), ::testing::HasSubstr("edited/other_masks.png"));
+    EXPECT_EQ(post("api/face", {{"recipe", start()}})->status, 200);
+  });
+  const Outcome check =
+      run_program(CROWDFACE_PROGRAM, {"check", folder_.config(), "--cache", folder_.cache()});
+  EXPECT_EQ(check.code, 0) << check.err;
+}
+
 TEST_F(EditCommandTest, BenchmarksWithoutServing) {
   std::vector<std::string> benchmark = arguments();
   benchmark.emplace_back("--benchmark");

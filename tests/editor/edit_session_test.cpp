@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <string>
@@ -87,6 +88,7 @@ struct Editor {
   CastFace face(const Json& recipe) const {
     return face_of_json(recipe, session->casting(), session->job().config);
   }
+  std::filesystem::path strokes() const { return folder / "strokes.jsonl"; }
   testing::TemporaryFolder folder;
   std::optional<EditSession> session;
 };
@@ -316,7 +318,7 @@ TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
   EditSession& session = *editor.session;
   const CastFace face = editor.face(some_recipe());
   const Positions before = session.build(face.recipe);
-  RegionPainting painting(session);
+  RegionPainting painting(session, editor.strokes());
   const std::vector<float> masks = painting.masks();
   painting.stroke(stroke_on(session, "paint"));
   EXPECT_TRUE(painting.painted());
@@ -343,10 +345,10 @@ TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
 TEST(RegionPainting, ImagesReadBackAsWhatIsPainted) {
   Editor editor("basis");
   EditSession& session = *editor.session;
-  RegionPainting painting(session);
+  RegionPainting painting(session, editor.strokes());
   painting.stroke(stroke_on(session, "paint"));
   painting.apply();
-  const auto files = painting.save(editor.folder.path());
+  const auto files = painting.save(painting.regions({}), editor.folder / "masks.png");
   const FaceSet& faces = session.job().inputs.faces;
   const RegionWeights read =
       region_weights(faces.topology, faces.uvs, {files.begin(), files.end()}, 3);
@@ -363,9 +365,76 @@ TEST(RegionPainting, ImagesReadBackAsWhatIsPainted) {
   EXPECT_LT(sum / static_cast<double>(skin), 0.01) << "at most " << most;
 }
 
+TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
+  Editor editor("basis");
+  EditSession& session = *editor.session;
+  std::vector<float> painted, masks;
+  {
+    RegionPainting painting(session, editor.strokes());
+    masks = painting.masks();
+    painting.stroke(stroke_on(session, "paint"));
+    painting.stroke(stroke_on(session, "grow"));
+    painting.undo();
+    painted = painting.masks();
+  }
+  ASSERT_NE(painted, masks);
+  std::ofstream(editor.strokes(), std::ios::app) << R"({"region": "to)";  // cut short
+  {
+    RegionPainting painting(session, editor.strokes());
+    EXPECT_EQ(painting.masks(), painted);
+    painting.stroke(stroke_on(session, "smooth"));
+    painting.undo();
+  }
+  {
+    RegionPainting painting(session, editor.strokes());
+    EXPECT_EQ(painting.masks(), painted);
+    EXPECT_TRUE(painting.painted());
+  }
+  EditSession other(load_job(editor.folder / "config.yaml", {}), editor.folder / "cache", 3000);
+  EXPECT_FALSE(RegionPainting(other, editor.strokes()).painted()) << "on another preview";
+  EXPECT_FALSE(RegionPainting(session, editor.strokes()).painted());
+
+  RegionPainting painting(session, editor.strokes());
+  painting.stroke(stroke_on(session, "paint"));
+  painting.forget();
+  EXPECT_FALSE(RegionPainting(session, editor.strokes()).painted());
+}
+
+TEST(RegionPainting, RegionsAreAddedRemovedAndProposed) {
+  Editor editor("basis");
+  RegionPainting painting(*editor.session, editor.strokes());
+  painting.stroke(stroke_on(*editor.session, "paint"));
+  const PaintedRegions now = painting.regions({});
+  EXPECT_THAT(now.names, ::testing::ElementsAre("top", "middle", "bottom"));
+
+  const PaintedRegions more = painting.regions({{"add", "ears"}});
+  EXPECT_THAT(more.names, ::testing::ElementsAre("top", "middle", "bottom", "ears"));
+  EXPECT_EQ(more.alpha.leftCols(3), now.alpha);
+  EXPECT_TRUE(more.alpha.col(3).isZero(0));
+
+  const PaintedRegions fewer = painting.regions({{"remove", "middle"}});
+  EXPECT_THAT(fewer.names, ::testing::ElementsAre("top", "bottom"));
+  EXPECT_EQ(painting.regions({}).alpha, now.alpha) << "only asked for";
+  const PaintedRegions proposed =
+      painting.regions({{"propose", {"brow", "nose", "mouth", "ears"}}});
+  EXPECT_THAT(proposed.names, ::testing::ElementsAre("brow", "nose", "mouth", "ears"));
+  for (const PaintedRegions* regions : {&more, &fewer, &proposed}) {
+    EXPECT_GE(regions->alpha.minCoeff(), 0);
+    EXPECT_LT((regions->alpha.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-9);
+  }
+  for (const auto& [change, words] :
+       std::vector<std::pair<Json, std::string>>{{{{"add", 3}}, "add"},
+                                                 {{{"remove", "chin"}}, "remove"},
+                                                 {{{"propose", "brow"}}, "propose"},
+                                                 {{{"propose", {"brow", "chin"}}}, "chin"}}) {
+    testing::expect_error(ExitCode::kUsage, {words},
+                          [&, &change = change] { painting.regions(change); });
+  }
+}
+
 TEST(RegionPainting, RefusesWhatItCannotRead) {
   Editor editor("basis");
-  RegionPainting painting(*editor.session);
+  RegionPainting painting(*editor.session, editor.strokes());
   const Json good = stroke_on(*editor.session, "smooth");
   for (const auto& [key, value] : std::map<std::string, Json>{{"region", "chin"},
                                                               {"mode", "wipe"},

@@ -51,6 +51,29 @@ export function showPutBack(editor) {
         : el('p', { class: 'muted' }, 'Open a face of the crowd first.')) : null);
 }
 
+/// \param painting  use(change), which opens the page anew.
+export function showAddRegion(painting) {
+  const name = el('input', { type: 'text', 'aria-label': 'Name of the region', placeholder: 'cheeks', spellcheck: 'false', maxlength: 64 });
+  const dialog = openDialog('Another region',
+    el('form', { method: 'dialog', onsubmit: () => painting.editor.attempt(() => painting.use({ add: name.value.trim() })) },
+      el('p', { class: 'muted' }, 'It is nowhere until it is painted. The config gets it at once.'),
+      el('div', { class: 'choices' }, name, el('button', { class: 'export' }, 'Add'))));
+  name.focus();
+  return dialog;
+}
+
+const optional = ['ears', 'neck'];
+
+export function showProposeRegions(painting) {
+  const boxes = optional.map((name) => el('input', { type: 'checkbox', value: name }));
+  const names = () => ['brow', 'nose', 'mouth', ...boxes.filter((box) => box.checked).map((box) => box.value)];
+  return openDialog('Regions from the heads’ shape',
+    el('form', { method: 'dialog', onsubmit: () => painting.editor.attempt(() => painting.use({ propose: names() })) },
+      el('p', { class: 'muted' }, 'Brow, nose and mouth in place of the regions that there are; the config gets them at once.'),
+      el('div', { class: 'choices' }, boxes.map((box) => el('label', {}, box, ` ${box.value}`)),
+        el('button', { class: 'export' }, 'Propose'))));
+}
+
 function duration(seconds) {
   if (!Number.isFinite(seconds)) return '';
   if (seconds < 90) return `${Math.round(seconds)} s`;
@@ -68,12 +91,16 @@ export function showGenerate(editor) {
     }),
   }, 'Generate the crowd');
   const stop = el('button', { onclick: () => editor.attempt(() => post('generate/stop', {})) }, 'Stop');
+  const open = el('button', {
+    hidden: true, onclick: () => editor.attempt(() => editor.openAgain('open', {})),
+  }, 'Open the new faces');
   let timer = null;
   async function look() {
     const run = await getJson('generate');
     const running = run.state === 'running';
     bar.max = run.total || 1;
     bar.value = run.done || 0;
+    open.hidden = run.state !== 'done';
     text.textContent = running
       ? `${run.done} of ${run.total}${Number.isFinite(run.eta_s) ? `, ${duration(run.eta_s)} left` : ''} ${run.message ?? ''}`
       : run.message || (run.state === 'idle' ? '' : run.state);
@@ -84,7 +111,7 @@ export function showGenerate(editor) {
   }
   const dialog = openDialog('The whole crowd',
     el('p', { class: 'muted' }, 'Runs crowdface generate with the config as it stands on disk.'),
-    bar, text, el('div', { class: 'choices' }, begin, stop));
+    bar, text, el('div', { class: 'choices' }, begin, stop, open));
   dialog.addEventListener('close', () => clearTimeout(timer));
   editor.attempt(look);
 }

@@ -431,6 +431,13 @@ class Editor {
     this.keeping = setTimeout(() => this.keepNow(false), 250);
   }
 
+  /// The program opens config and crowd as they stand then; the page is loaded with every step.
+  async openAgain(path, change) {
+    await this.keepNow(false);
+    await post(path, change);
+    location.reload();
+  }
+
   keepNow(leaving) {
     clearTimeout(this.keeping);
     const { kept, look } = this;
@@ -438,7 +445,7 @@ class Editor {
       history: this.history.toJson(mostKept), kept, look: { ...look, place: this.view.place() },
       linked: [...this.linked], locked: [...this.locked],
     };
-    put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
+    return put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
   }
 
   // -- heads --

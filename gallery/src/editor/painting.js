@@ -4,6 +4,7 @@
 import { Mesh, MeshBasicMaterial, Ray, RingGeometry, Vector2, Vector3 } from 'three';
 import { el } from '../dom.js';
 import { post, postForBinary } from './api.js';
+import { showAddRegion, showProposeRegions } from './dialogs.js';
 import { hitTriangle } from './hit.js';
 
 const pause = 30; // ms between points of a stroke
@@ -47,9 +48,16 @@ export class Painting {
     const node = el('section', { class: 'painting', hidden: true, 'aria-label': 'Masks' },
       el('header', {}, el('h2', {}, 'Masks'), el('span', { class: 'grow' }),
         el('button', { onclick: () => this.undo() }, 'Undo stroke'),
-        ask('Save masks', () => this.save(), 'As images in the layout of the textures'),
+        this.editor.job.can_edit_config
+          ? ask('Use masks', () => this.use({}), 'Saved as images, and named in the config')
+          : ask('Save masks', () => this.save(), 'As images in the layout of the textures'),
         el('button', { onclick: () => this.setOn(false), 'aria-label': 'Stop painting' }, '✕')),
-      el('div', { class: 'choices', role: 'group', 'aria-label': 'Region to paint' }, this.regionButtons),
+      el('div', { class: 'choices' },
+        el('span', { class: 'choices', role: 'group', 'aria-label': 'Region to paint' }, this.regionButtons),
+        this.editor.job.can_edit_config ? el('span', { class: 'group' },
+          ask('Add …', () => showAddRegion(this), 'Another region'),
+          ask('Remove', () => this.use({ remove: this.region }), 'The chosen region; the others take its place'),
+          ask('Propose …', () => showProposeRegions(this), 'Regions told from the heads’ shape, in place of these')) : null),
       el('div', { class: 'choices' }, el('span', { class: 'group', role: 'group', 'aria-label': 'Brush' }, this.modeButtons),
         el('label', {}, this.mirror, ' mirror')),
       this.radius.node, this.strength.node, this.falloff.node,
@@ -170,6 +178,13 @@ export class Painting {
       radius_mm: Number(this.radius.input.value), strength: Number(this.strength.input.value),
       falloff: Number(this.falloff.input.value),
     });
+  }
+
+  /// The config gets these regions and is opened again with them.
+  /// \param change  {add: name}, {remove: name}, {propose: names} or nothing more than what is painted.
+  async use(change) {
+    this.editor.say('Opening again with these regions …');
+    await this.editor.openAgain('regions', change);
   }
 
   /// Images in the layout of the textures, which a config names.

@@ -2,6 +2,8 @@
 #include "crowdface/editor/edit.h"
 
 #include <chrono>
+#include <memory>
+#include <mutex>
 #include <system_error>
 
 #include "crowdface/core/interrupt.h"
@@ -36,6 +38,18 @@ std::vector<std::string> generate_arguments(const Config& config, const ConfigOv
   return arguments;
 }
 
+/// A job as it stood when it was opened, and what answers for it.
+struct OpenedJob {
+  OpenedJob(Job job, const EditOptions& options, const std::filesystem::path& path, MarkLines marks,
+            GenerateRun& run, bool may_edit_config, std::function<void()> open_again)
+      : session(std::move(job), options.cache, options.preview_vertices),
+        folder(session.job(), path, std::move(marks)),
+        api(session, folder, run, may_edit_config, std::move(open_again)) {}
+  EditSession session;
+  EditedFolder folder;
+  EditApi api;
+};
+
 }  // namespace
 
 std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
@@ -52,13 +66,33 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
   Job job = load_edited_job(given, overrides, options.cache);
   const std::filesystem::path path = make_edited_folder(job.config);
   EditorLock lock(path);
-  EditSession session(std::move(job), options.cache, options.preview_vertices);
-  EditedFolder folder(session.job(), path);
   std::error_code ignored;
-  GenerateRun run(generate_arguments(session.job().config, overrides, options.cache),
-                  path / "generate.log");
-  EditApi api(session, folder, run, !std::filesystem::is_directory(given, ignored));
-  LocalServer server([&](const HttpRequest& request) { return api.answer(request); }, options.port);
+  const bool is_crowd = std::filesystem::is_directory(given, ignored);
+  GenerateRun run(generate_arguments(job.config, overrides, options.cache), path / "generate.log");
+
+  std::mutex opening, answering;
+  std::shared_ptr<OpenedJob>
+      opened;  // under `answering`; requests to an older one are answered to the end
+  const auto now_opened = [&] {
+    const std::lock_guard its(answering);
+    return opened;
+  };
+  std::function<void()> open_again;
+  const auto open = [&](Job next) {
+    const auto before = now_opened();
+    auto made = std::make_shared<OpenedJob>(std::move(next), options, path,
+                                            before ? before->folder.marks() : MarkLines(), run,
+                                            !is_crowd, open_again);
+    const std::lock_guard its(answering);
+    opened = std::move(made);
+  };
+  open_again = [&] {
+    const std::lock_guard one(opening);
+    open(load_edited_job(given, overrides, options.cache));
+  };
+  open(std::move(job));
+  LocalServer server([&](const HttpRequest& request) { return now_opened()->api.answer(request); },
+                     options.port);
   lock.tell(server.address());
   started(server.address());
   server.run(interrupted);

@@ -41,13 +41,15 @@ int status_of(const Error& error) {
 
 }  // namespace
 
-EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config)
+EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
+                 std::function<void()> open_again)
     : session_(session),
       may_edit_config_(may_edit_config),
       folder_(folder),
       run_(run),
+      open_again_(std::move(open_again)),
       pictures_(session.job()),
-      painting_(session) {}
+      painting_(session, folder.path() / "strokes.jsonl") {}
 
 const std::vector<EditApi::Route>& EditApi::routes() {
   static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
@@ -66,7 +68,9 @@ const std::vector<EditApi::Route>& EditApi::routes() {
                                             {"POST", "api/review", &EditApi::review},
                                             {"POST", "api/masks/stroke", &EditApi::paint_masks},
                                             {"POST", "api/masks/undo", &EditApi::undo_masks},
-                                            {"POST", "api/masks/save", &EditApi::save_masks}};
+                                            {"POST", "api/masks/save", &EditApi::save_masks},
+                                            {"POST", "api/regions", &EditApi::use_regions},
+                                            {"POST", "api/open", &EditApi::open_again}};
   return routes;
 }
 
@@ -94,7 +98,9 @@ HttpAnswer EditApi::page(const HttpRequest& request, const std::string& rest) {
 }
 
 HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
-  return json_answer(session_.description());
+  Json json = session_.description();
+  json["can_edit_config"] = may_edit_config_;
+  return json_answer(json);
 }
 
 HttpAnswer EditApi::mesh(const HttpRequest&, const std::string&) {

@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -23,8 +25,11 @@ namespace crowdface {
 class EditApi {
  public:
   /// \param session, folder, run  must outlive this object
-  /// \param may_edit_config  whether recipes may be put into the job's config: it is the user's own
-  EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config);
+  /// \param may_edit_config  whether recipes and regions may be put into the job's config: it is the
+  ///                         user's own
+  /// \param open_again  opens config and crowd as they stand now; from then on another object answers
+  EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
+          std::function<void()> open_again);
 
   /// Never throws for what a request holds: mistakes are answers, {"error": sentence}.
   HttpAnswer answer(const HttpRequest& request);
@@ -58,8 +63,14 @@ class EditApi {
   HttpAnswer paint_masks(const HttpRequest& request, const std::string& rest);
   HttpAnswer undo_masks(const HttpRequest& request, const std::string& rest);
   HttpAnswer save_masks(const HttpRequest& request, const std::string& rest);
+  HttpAnswer use_regions(const HttpRequest& request, const std::string& rest);
+  HttpAnswer open_again(const HttpRequest& request, const std::string& rest);
   HttpAnswer painted_masks() const;
+  /// Where masks can be written beside those that the config names.
+  std::filesystem::path unused_masks() const;
   void require_masks_of_config() const;
+  void require_own_config() const;
+  void require_no_run();
 
   // What a request's body holds. \throws UsageError with the key's name.
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
@@ -71,6 +82,7 @@ class EditApi {
   bool may_edit_config_;
   EditedFolder& folder_;
   GenerateRun& run_;
+  std::function<void()> open_again_;
   EditPictures pictures_;
   RegionPainting painting_;               ///< under `building_`
   std::mutex building_;                   ///< one face at a time, by all cores

@@ -86,12 +86,15 @@ HttpAnswer EditApi::picture(const HttpRequest& request, const std::string&) {
   return {200, "image/png", std::move(png)};
 }
 
+void EditApi::require_own_config() const {
+  if (may_edit_config_) return;
+  throw UsageError(
+      "a crowd's own config.yaml tells what its faces were made of and is not changed: open the "
+      "config it was made from");
+}
+
 HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
-  if (!may_edit_config_) {
-    throw UsageError(
-        "a crowd's own config.yaml tells what its faces were made of and is not changed: open the "
-        "config it was made from");
-  }
+  require_own_config();
   const Json body = body_of(request);
   const Config& config = session_.job().config;
   const HandRecipe recipe =
@@ -115,14 +118,23 @@ HttpAnswer EditApi::stop_generate(const HttpRequest&, const std::string&) {
 HttpAnswer EditApi::generate_progress(const HttpRequest&, const std::string&) {
   const GenerateRun::State state = run_.state();
   const RunProgress progress = run_.progress();
-  std::string message = printable(progress.message);
-  if (state == GenerateRun::State::kDone)
-    message += "; start the editor again to open the new faces";
+  const std::string message = printable(progress.message);
   return json_answer({{"state", name_of(state)},
                       {"done", progress.done},
                       {"total", progress.total},
                       {"eta_s", progress.seconds_left},
                       {"message", message}});
+}
+
+void EditApi::require_no_run() {
+  if (run_.state() != GenerateRun::State::kRunning) return;
+  throw UsageError("the crowd is being generated: wait until it is done, or stop it");
+}
+
+HttpAnswer EditApi::open_again(const HttpRequest&, const std::string&) {
+  require_no_run();
+  open_again_();
+  return json_answer(Json::object());
 }
 
 HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {

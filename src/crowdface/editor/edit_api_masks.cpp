@@ -3,6 +3,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/editor/binary_answer.h"
 #include "crowdface/editor/edit_api.h"
+#include "crowdface/editor/regions_in_config.h"
 #include "crowdface/editor/request_values.h"
 
 namespace crowdface {
@@ -17,9 +18,9 @@ HttpAnswer EditApi::painted_masks() const {
 void EditApi::require_masks_of_config() const {
   if (!painting_.painted()) return;
   throw UsageError(
-      "masks were painted: save them, name the images under regions.mask in the config and open "
-      "the "
-      "editor again; then what is saved is what the config makes");
+      "masks were painted that the config does not name yet: press \"Use masks\"; then what is "
+      "saved "
+      "is what the config makes");
 }
 
 HttpAnswer EditApi::paint_masks(const HttpRequest& request, const std::string&) {
@@ -38,8 +39,32 @@ HttpAnswer EditApi::undo_masks(const HttpRequest&, const std::string&) {
 HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(building_);
   Json files = Json::array();
-  for (const auto& file : painting_.save(folder_.path())) files.push_back(file.string());
+  for (const auto& file : painting_.save(painting_.regions({}), unused_masks())) {
+    files.push_back(file.string());
+  }
   return json_answer({{"files", files}});
+}
+
+std::filesystem::path EditApi::unused_masks() const {
+  const std::filesystem::path first = folder_.path() / "masks.png";
+  const std::filesystem::path other = folder_.path() / "other_masks.png";
+  for (const std::string& mask : session_.job().config.regions.mask) {
+    if (std::filesystem::path(mask).filename().string().starts_with("masks")) return other;
+  }
+  return first;
+}
+
+HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& rest) {
+  require_own_config();
+  require_no_run();
+  const Json body = body_of(request);
+  {
+    const std::lock_guard lock(building_);
+    const PaintedRegions regions = painting_.regions(body);
+    put_regions(session_.job().config.file, regions.names, painting_.save(regions, unused_masks()));
+    painting_.forget();
+  }
+  return open_again(request, rest);
 }
 
 }  // namespace crowdface

@@ -47,7 +47,8 @@ fs::path make_edited_folder(const Config& config) {
   return path;
 }
 
-EditedFolder::EditedFolder(const Job& job, fs::path path) : job_(job), path_(std::move(path)) {
+EditedFolder::EditedFolder(const Job& job, fs::path path, MarkLines marks)
+    : job_(job), path_(std::move(path)), marks_(std::move(marks)) {
   remove_leftovers(path_);
 }
 
@@ -82,12 +83,17 @@ fs::path EditedFolder::save_picture(const std::string& name, std::string_view pn
 
 fs::path EditedFolder::save_mark(const ReviewMark& mark) {
   const std::lock_guard lock(mutex_);
-  marks_[mark.id] = mark;
+  marks_[mark.id] = format_mark(mark, job_.config.part_names());
   std::string text = "schema: 1\nfaces:\n";
-  for (const auto& [id, one] : marks_) text += format_mark(one, job_.config.part_names());
+  for (const auto& [id, line] : marks_) text += line;
   fs::path file = path_ / "review.yaml";
   write_file(file, text);
   return file;
+}
+
+MarkLines EditedFolder::marks() {
+  const std::lock_guard lock(mutex_);
+  return marks_;
 }
 
 }  // namespace crowdface

@@ -17,13 +17,17 @@ namespace crowdface {
 /// \throws CannotCreate, also if it is a link that leads out of the output folder.
 std::filesystem::path make_edited_folder(const Config& config);
 
+/// Lines of a review, by the face's id.
+using MarkLines = std::map<std::string, std::string>;
+
 /// What an editor leaves behind. Every file is whole or not
 /// there, whenever the editor is killed. Any thread may ask.
 class EditedFolder {
  public:
-  /// \param job   must outlive this object
-  /// \param path  see make_edited_folder
-  EditedFolder(const Job& job, std::filesystem::path path);
+  /// \param job    must outlive this object
+  /// \param path   see make_edited_folder
+  /// \param marks  what this editor has said about faces before it opened the job again
+  EditedFolder(const Job& job, std::filesystem::path path, MarkLines marks);
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -41,12 +45,13 @@ class EditedFolder {
   /// Writes the mark among those of review.yaml that this editor made, in place of one about the same
   /// face.
   std::filesystem::path save_mark(const ReviewMark& mark);
+  MarkLines marks();
 
  private:
   const Job& job_;
   std::filesystem::path path_;
   std::mutex mutex_;
-  std::map<std::string, ReviewMark> marks_;  ///< by the face's id
+  MarkLines marks_;
 };
 
 }  // namespace crowdface

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,8 @@ namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kUndo = "undo";
 
 BrushMode mode_in(const Json& body) {
   constexpr std::array<std::pair<std::string_view, BrushMode>, 4> kModes = {
@@ -38,10 +41,27 @@ bool is_true(const Json& body, const std::string& key) {
   return body.contains(key) && body[key] == true;
 }
 
+/// What strokes are painted on: places of the preview, and the masks.
+Digest ground_of(const EditSession& session) {
+  const RegionWeights::Alpha& alpha = session.job().inputs.regions.alpha;
+  const std::span values(alpha.data(), static_cast<std::size_t>(alpha.size()));
+  return Hasher().add_array(values).add_array(std::span(session.preview().triangles)).digest();
+}
+
 }  // namespace
 
-RegionPainting::RegionPainting(EditSession& session)
-    : session_(session), mean_(shape_of_mean(session.job().inputs.faces)) {}
+RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path& strokes)
+    : session_(session),
+      mean_(shape_of_mean(session.job().inputs.faces)),
+      strokes_(strokes, ground_of(session)) {
+  for (const Json& stroke : strokes_.strokes()) {
+    if (!stroke.contains(kUndo)) {
+      paint(stroke);
+    } else if (painted()) {
+      painter().undo();
+    }
+  }
+}
 
 MaskPainter& RegionPainting::painter() {
   if (!painter_) {
@@ -69,12 +89,17 @@ SurfacePoint RegionPainting::place_of(const Json& point) {
   return painter().surface().nearest((1 - u - v) * corner(0) + u * corner(1) + v * corner(2));
 }
 
-void RegionPainting::stroke(const Json& body) {
+Index RegionPainting::region_in(const Json& body, const std::string& key) const {
+  const std::vector<std::string>& names = session_.casting().region_names;
+  const auto region = std::find(names.begin(), names.end(), text_in(body, key));
+  if (region == names.end()) throw UsageError(concat(key, ": expected the name of a region"));
+  return region - names.begin();
+}
+
+void RegionPainting::paint(const Json& body) {
   constexpr std::size_t kMostPoints = 1000;
   constexpr double kLeastRadius = 0.1, kMostRadius = 200;
-  const std::vector<std::string>& names = session_.casting().region_names;
-  const auto region = std::find(names.begin(), names.end(), text_in(body, "region"));
-  if (region == names.end()) throw UsageError("region: expected the name of one");
+  const Index region = region_in(body, "region");
   Brush brush;
   brush.mode = mode_in(body);
   brush.radius = number_in(body, "radius_mm", kLeastRadius, kMostRadius) /
@@ -88,14 +113,20 @@ void RegionPainting::stroke(const Json& body) {
   }
   std::vector<SurfacePoint> places;
   for (const Json& point : body["points"]) places.push_back(place_of(point));
-  painter().paint(region - names.begin(), places, brush, !is_true(body, "begin") && painted());
+  painter().paint(region, places, brush, !is_true(body, "begin") && painted());
   painted_ = true;
+}
+
+void RegionPainting::stroke(const Json& body) {
+  paint(body);
+  strokes_.add(body);
 }
 
 void RegionPainting::undo() {
   if (!painted()) throw UsageError("nothing is painted that could be taken back");
   painter().undo();
   painted_ = true;
+  strokes_.add({{kUndo, true}});
 }
 
 std::vector<float> RegionPainting::masks() const {
@@ -116,13 +147,41 @@ void RegionPainting::apply() {
   painted_ = false;
 }
 
-std::vector<std::filesystem::path> RegionPainting::save(const std::filesystem::path& folder) {
+PaintedRegions RegionPainting::regions(const Json& change) {
+  PaintedRegions regions{session_.casting().region_names, painter().alpha()};
+  if (change.contains("add")) {
+    regions.names.push_back(text_in(change, "add"));
+    regions.alpha.conservativeResize(Eigen::NoChange, regions.alpha.cols() + 1);
+    regions.alpha.rightCols(1).setZero();
+  } else if (change.contains("remove")) {
+    const Index region = region_in(change, "remove");
+    if (regions.names.size() == 1) throw UsageError("remove: there is no other region");
+    regions.names.erase(regions.names.begin() + region);
+    painter().remove_region(region);
+    regions.alpha = painter().alpha();
+    painter().undo();
+  } else if (change.contains("propose")) {
+    if (!change["propose"].is_array()) throw UsageError("propose: expected a list of names");
+    std::vector<std::string> wanted;
+    for (const Json& name : change["propose"]) {
+      if (!name.is_string()) throw UsageError("propose: expected a list of names");
+      wanted.push_back(name);
+    }
+    const std::vector<Band> bands = parse_bands(join(wanted, ","));
+    const Config& config = session_.job().config;
+    regions = {names_of(bands), propose_regions(session_.job().inputs.faces.topology, mean_,
+                                                {config.faces.up, config.faces.front}, bands)};
+  }
+  return regions;
+}
+
+std::vector<std::filesystem::path> RegionPainting::save(const PaintedRegions& regions,
+                                                        const std::filesystem::path& path) const {
   const FaceSet& faces = session_.job().inputs.faces;
   const int size = mask_size(faces.topology.vertex_count);
   const MaskFiles images =
-      encode_masks(paint_masks(faces.topology, faces.uvs, painter().alpha(), mean_.skin, size),
-                   folder / "masks.png");
-  for (const auto& [path, bytes] : images.files) write_file(path, bytes);
+      encode_masks(paint_masks(faces.topology, faces.uvs, regions.alpha, mean_.skin, size), path);
+  for (const auto& [file, bytes] : images.files) write_file(file, bytes);
   return images.masks;
 }
 

@@ -167,7 +167,7 @@ Json EditSession::description() const {
     }
   }
   json["can_generate"] = true;
-  json["can_paint"] = casting_.region_names.size() > 1 && job_.inputs.faces.uvs.rows() > 0;
+  json["can_paint"] = job_.inputs.faces.uvs.rows() > 0;
   return json;
 }
 

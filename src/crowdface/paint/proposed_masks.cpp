@@ -54,16 +54,11 @@ int mask_size(Index vertices) {
   return vertices > kMany ? 2048 : 1024;
 }
 
-PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Bearing& bearing,
-                           const std::vector<Band>& bands, int size) {
-  if (faces.topology.corner_uvs.empty()) {
-    throw InvalidInput(
-        "the heads have no texture coordinates (vt lines), and a mask is an image in their layout: "
-        "unwrap one head, with all others of the same mesh, or blend without regions");
-  }
-  const auto marks = find_face_marks(faces.topology, mean, axes_of(bearing));
+RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
+                                     const Bearing& bearing, const std::vector<Band>& bands) {
+  const auto marks = find_face_marks(topology, mean, axes_of(bearing));
   if (!marks) {
-    const auto other = find_bearing(faces.topology, mean);
+    const auto other = find_bearing(topology, mean);
     throw InvalidInput(concat("no face is found that looks along ", name_of(bearing.front),
                               " with ", name_of(bearing.up), " up: ",
                               other
@@ -71,8 +66,18 @@ PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Be
                                            name_of(other->up), " up")
                                   : "no nose stands out of the mean head; paint the mask by hand"));
   }
-  const auto alpha = propose_bands(faces.topology, mean, axes_of(bearing), *marks, bands);
-  return paint_masks(faces.topology, faces.uvs, alpha, mean.skin, size);
+  return propose_bands(topology, mean, axes_of(bearing), *marks, bands);
+}
+
+PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Bearing& bearing,
+                           const std::vector<Band>& bands, int size) {
+  if (faces.topology.corner_uvs.empty()) {
+    throw InvalidInput(
+        "the heads have no texture coordinates (vt lines), and a mask is an image in their layout: "
+        "unwrap one head, with all others of the same mesh, or blend without regions");
+  }
+  return paint_masks(faces.topology, faces.uvs,
+                     propose_regions(faces.topology, mean, bearing, bands), mean.skin, size);
 }
 
 }  // namespace crowdface

@@ -28,9 +28,8 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
 std::vector<std::string> given_by(std::string_view parent, const CastFace& face,
                                   const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});
-  require(face.inherits.size() == names.regions.size() * bands, "a child of ",
-          face.inherits.size(), " parts where there are ", names.regions.size(), " regions of ",
-          bands);
+  require(face.inherits.size() == names.regions.size() * bands, "a child of ", face.inherits.size(),
+          " parts where there are ", names.regions.size(), " regions of ", bands);
   std::vector<std::string> given;
   for (std::size_t k = 0; k < names.regions.size(); ++k) {
     const auto first = face.inherits.begin() + static_cast<std::ptrdiff_t>(k * bands);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/config_text.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "crowdface/config/complaints.h"
+#include "crowdface/config/config_reader.h"
+#include "crowdface/config/yaml.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+YamlNode parsed(std::string_view text, const std::string& source) {
+  Complaints complaints;
+  auto root = parse_yaml(text, source, complaints);
+  Problems problems;
+  complaints.tell(problems);
+  problems.throw_if_any();
+  return std::move(*root);
+}
+
+/// Whether nothing but a comment stands there.
+bool is_empty(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  return first == std::string::npos || line[first] == '#';
+}
+
+}  // namespace
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::size_t line_of(const YamlPlace& place) {
+  return static_cast<std::size_t>(place.line) - 1;
+}
+
+ConfigText::ConfigText(std::string_view text, const std::string& source)
+    : lines_(lines_of(text)), root_(parsed(text, source)) {}
+
+std::size_t ConfigText::end_of_block(std::size_t begin, std::size_t indent) const {
+  std::size_t end = begin + 1;
+  for (std::size_t i = end; i < lines_.size(); ++i) {
+    if (is_empty(lines_[i])) continue;
+    if (lines_[i].find_first_not_of(' ') <= indent) break;
+    end = i + 1;
+  }
+  return end;
+}
+
+std::string ConfigText::with(std::size_t from, std::size_t to,
+                             const std::vector<std::string>& others) const {
+  std::string text;
+  for (std::size_t i = 0; i < from; ++i) text += lines_[i] + '\n';
+  for (const std::string& line : others) text += line + '\n';
+  for (std::size_t i = to; i < lines_.size(); ++i) text += lines_[i] + '\n';
+  return text;
+}
+
+void replace_config(const std::filesystem::path& file, const std::string& text) {
+  // Paths in a config start at its folder, so that it is tried there.
+  const std::filesystem::path trial =
+      file.parent_path() / concat(".", file.filename().string(), ".edited");
+  write_file(trial, text);
+  Problems problems;
+  read_config(trial, {}, problems);
+  std::error_code ignored;
+  std::filesystem::remove(trial, ignored);
+  problems.throw_if_any();
+  write_file(file, text);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/stroke_log.h"
+
+#include <sstream>
+#include <string>
+#include <system_error>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/shallow_json.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPaintedOn = "painted_on";
+
+}  // namespace
+
+StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
+    : file_(std::move(file)), painted_on_(painted_on) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file_, ignored)) return;
+  std::istringstream lines(read_file(file_));
+  bool known = false;
+  for (std::string line; std::getline(lines, line) && !lines.eof();) {
+    Json stroke = parse_shallow_json(line);
+    if (!stroke.is_object()) break;
+    if (known) {
+      strokes_.push_back(std::move(stroke));
+      continue;
+    }
+    known = stroke.contains(kPaintedOn) && stroke[kPaintedOn] == painted_on_.hex();
+    if (!known) break;
+  }
+  if (!known) {
+    log_info(concat(file_.string(), ": was painted on other masks and is left out"));
+    std::filesystem::remove(file_, ignored);
+  } else {
+    log_info(concat(file_.string(),
+                    ": strokes that were not saved are painted again: ", strokes_.size()));
+  }
+}
+
+void StrokeLog::add(const Json& stroke) {
+  std::string lines;
+  if (!open_) {
+    // Written anew, as the last line may be cut short.
+    lines = Json({{kPaintedOn, painted_on_.hex()}}).dump() + '\n';
+    for (const Json& before : strokes_) lines += before.dump() + '\n';
+    write_file(file_, lines);
+    open_ = std::make_unique<AppendFile>(file_);
+  }
+  open_->append(stroke.dump() + '\n');
+  strokes_.push_back(stroke);
+}
+
+void StrokeLog::clear() {
+  open_.reset();
+  strokes_.clear();
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
+}  // namespace crowdface
