@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <thread>
@@ -142,14 +143,17 @@ TEST_F(EditCommandTest, PutsARecipeIntoTheConfig) {
 }
 
 TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
+  std::ofstream(folder_.config(), std::ios::app)
+      << "recipes: [{id: adam, target: " << folder_.names()[0]
+      << ", regions: {all: {smoothness: 0.2, position: [0, 0]}}}]\n";
   ASSERT_EQ(run_program(CROWDFACE_PROGRAM,
                         {"generate", folder_.config(), "--cache", folder_.cache(), "--quiet"})
                 .code,
             0);
   edit([&] {
     const Json crowd = Json::parse(get("api/job")->body)["crowd"];
-    ASSERT_EQ(crowd["faces"].size(), 4U);
-    const Json first = crowd["faces"][0];
+    ASSERT_EQ(crowd["faces"].size(), 5U);
+    const Json first = crowd["faces"][1];
     const auto face = post("api/face", {{"recipe", first}, {"measure", true}});
     EXPECT_EQ(face->status, 200);
     EXPECT_EQ(post("api/save", {{"recipe", first}, {"format", "obj"}})->status, 200);
@@ -160,6 +164,10 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
                   ->status,
               200);
     EXPECT_EQ(post("api/review", {{"id", "nobody"}, {"verdict", "keep"}})->status, 400);
+    const auto by_hand = post("api/review", {{"id", "adam"}, {"verdict", "reject"}});
+    EXPECT_EQ(by_hand->status, 400);
+    EXPECT_THAT(by_hand->body, ::testing::HasSubstr("written by hand"));
+    EXPECT_EQ(post("api/review", {{"id", "adam"}, {"verdict", "keep"}})->status, 200);
   });
   const Outcome plan = run_program(
       CROWDFACE_PROGRAM, {"plan", folder_.config(), "--cache", folder_.cache(), "--review",

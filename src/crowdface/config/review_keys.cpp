@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "crowdface/cast/family_draws.h"
+#include "crowdface/config/check_review.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/core/file.h"
 
@@ -104,9 +105,8 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   read_keys(node, keys, mark, draft);
 }
 
-Review read_review_file(const std::filesystem::path& file, ConfigDraft& draft) {
+Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   Review review;
-  const auto root = read_yaml(file.string(), draft.complaints);
   if (!root) return review;
   const MapReader map(&*root, {"schema", "faces"}, draft.complaints);
   if (const YamlNode* schema = map.require("schema", "write \"schema: 1\"")) {
@@ -146,7 +146,7 @@ Review read_review_file(const std::filesystem::path& file, ConfigDraft& draft) {
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;
-  Review review = read_review_file(file, draft);
+  Review review = read_marks(read_yaml(file.string(), draft.complaints), draft);
   std::string text = draft.complaints.empty() ? read_file(file) : std::string();
   std::vector<std::string>& texts = config.review.texts;
   if (!text.empty() && std::find(texts.begin(), texts.end(), text) != texts.end()) return;
@@ -169,6 +169,16 @@ void read_review(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::string write_review(const Config& config, const ConfigWriting& writing) {
   return list(path(""), "").write(config.review.files, writing);
+}
+
+void check_review(std::string_view text, const std::string& source, const Config& config,
+                  Problems& problems) {
+  Complaints complaints;
+  ConfigDraft draft(complaints);
+  draft.config = config;
+  draft.heads_known = true;
+  read_marks(parse_yaml(text, source, complaints), draft);
+  complaints.tell(problems);
 }
 
 }  // namespace crowdface

@@ -120,8 +120,8 @@ HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
   if (what.empty()) return binary_answer(session_.head(head));
   if (what == "/thumbnail") return {200, "image/png", pictures_.thumbnail(head)};
   if (what != "/texture") return refusal(404, "there is nothing at this address");
-  auto texture = pictures_.texture(head);
-  if (!texture) return refusal(404, "the head has no texture, or one of several pictures");
+  auto texture = session_.textures().picture(head);
+  if (!texture) return refusal(404, "the head has no texture");
   return {200, "image/jpeg", std::move(*texture)};
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Masks that are painted on the editor's page.
+#include <algorithm>
+
 #include "crowdface/core/error.h"
 #include "crowdface/editor/binary_answer.h"
 #include "crowdface/editor/edit_api.h"
@@ -46,12 +48,11 @@ HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
 }
 
 std::filesystem::path EditApi::unused_masks() const {
-  const std::filesystem::path first = folder_.path() / "masks.png";
-  const std::filesystem::path other = folder_.path() / "other_masks.png";
-  for (const std::string& mask : session_.job().config.regions.mask) {
-    if (std::filesystem::path(mask).filename().string().starts_with("masks")) return other;
-  }
-  return first;
+  const std::vector<std::string>& used = session_.job().config.regions.mask;
+  const bool first_is_used = std::any_of(used.begin(), used.end(), [](const std::string& mask) {
+    return std::filesystem::path(mask).filename().string().starts_with("masks");
+  });
+  return folder_.path() / (first_is_used ? "other_masks.png" : "masks.png");
 }
 
 HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& rest) {

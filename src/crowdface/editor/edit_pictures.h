@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 
 #include "crowdface/heads/face_textures.h"
@@ -12,9 +11,6 @@
 #include "crowdface/run/pipeline.h"
 
 namespace crowdface {
-
-/// Whether a head's texture is one picture over the whole of its coordinates, as the page can show it.
-bool has_one_texture(const HeadTextures& textures, Index head);
 
 /// Pictures for the editor's page. What they need is made when it is first asked for. Any thread may ask.
 class EditPictures {
@@ -24,8 +20,6 @@ class EditPictures {
 
   /// The head from the front, as a PNG file.
   std::string thumbnail(Index head);
-  /// The head's texture as a JPEG file; nothing unless it has one (see has_one_texture).
-  std::optional<std::string> texture(Index head) const;
   /// A face as contact sheets show it, as a PNG file. \param size  pixels a side.
   std::string picture(const Recipe& recipe, const Positions& positions, View view, int size);
   /// What blends faces' own textures; null: they have none.

@@ -65,9 +65,12 @@ std::string sentence(Reason reason, const Config& config) {
 
 EditSession::EditSession(Job job, const std::filesystem::path& cache, std::size_t preview_vertices)
     : job_(std::move(job)),
+      textures_(job_.inputs),
       reducing_(std::async(std::launch::async,
                            [this, preview_vertices] {
-                             return preview_mesh(job_.inputs.faces, mean_head(job_.inputs.faces),
+                             const FaceSet& faces = job_.inputs.faces;
+                             return preview_mesh(faces.topology, textures_.coordinates(),
+                                                 mean_head(faces),
                                                  drawn_faces(surfaces_of(job_.config, job_.inputs)),
                                                  preview_vertices);
                            })),

@@ -15,6 +15,7 @@
 #include "crowdface/cast/face_point_index.h"
 #include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/preview_mesh.h"
+#include "crowdface/editor/texture_atlas.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
@@ -45,6 +46,8 @@ class EditSession {
   const Casting& casting() const { return casting_; }
   const std::vector<CastFace>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
   const PreviewMesh& preview() const { return preview_; }
+  /// The heads' textures as the preview's coordinates show them.
+  const TextureAtlas& textures() const { return textures_; }
 
   /// What the page has to know before anything else.
   nlohmann::ordered_json description() const;
@@ -83,6 +86,7 @@ class EditSession {
   std::vector<HeadLevels> preview_levels() const;
 
   Job job_;
+  TextureAtlas textures_;
   std::future<PreviewMesh> reducing_;  ///< beside what follows
   std::optional<std::vector<CastFace>> crowd_;
   Prepared prepared_;

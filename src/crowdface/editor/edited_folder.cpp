@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "crowdface/config/check_review.h"
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
@@ -83,11 +84,16 @@ fs::path EditedFolder::save_picture(const std::string& name, std::string_view pn
 
 fs::path EditedFolder::save_mark(const ReviewMark& mark) {
   const std::lock_guard lock(mutex_);
-  marks_[mark.id] = format_mark(mark, job_.config.part_names());
+  MarkLines marks = marks_;
+  marks[mark.id] = format_mark(mark, job_.config.part_names());
   std::string text = "schema: 1\nfaces:\n";
-  for (const auto& [id, line] : marks_) text += line;
+  for (const auto& [id, line] : marks) text += line;
   fs::path file = path_ / "review.yaml";
+  Problems problems;
+  check_review(text, file.string(), job_.config, problems);
+  problems.throw_if_any();
   write_file(file, text);
+  marks_ = std::move(marks);
   return file;
 }
 

@@ -43,7 +43,7 @@ class EditedFolder {
                              const TextureBlender* textures);
   std::filesystem::path save_picture(const std::string& name, std::string_view png);
   /// Writes the mark among those of review.yaml that this editor made, in place of one about the same
-  /// face.
+  /// face. \throws Error if a config would refuse it.
   std::filesystem::path save_mark(const ReviewMark& mark);
   MarkLines marks();
 

@@ -54,17 +54,18 @@ Corners closest_uvs(const TextureCoordinates& uvs,
 
 }  // namespace
 
-PreviewMesh preview_mesh(const FaceSet& faces, const Positions& typical,
-                         const std::vector<bool>& drawn, std::size_t most_vertices) {
-  const ReducedMesh reduced = reduce_mesh(faces.topology, typical, drawn, 2 * most_vertices);
+PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
+                         const Positions& typical, const std::vector<bool>& drawn,
+                         std::size_t most_vertices) {
+  const ReducedMesh reduced = reduce_mesh(topology, typical, drawn, 2 * most_vertices);
   PreviewMesh mesh;
-  if (faces.uvs.rows() == 0 || faces.topology.corner_uvs.empty()) {
+  if (uvs.rows() == 0 || topology.corner_uvs.empty()) {
     mesh.vertices = reduced.vertices;
     mesh.triangles = reduced.triangles;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) mesh.twins.push_back(v);
     return mesh;
   }
-  const auto rows = uvs_of(reduced.vertices, faces.topology);
+  const auto rows = uvs_of(reduced.vertices, topology);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> split;  // (vertex, uv)
   std::vector<std::uint32_t> first(reduced.vertices.size(), kNoIndex);
   const auto vertex_at = [&](std::uint32_t vertex, std::uint32_t uv) {
@@ -75,7 +76,7 @@ PreviewMesh preview_mesh(const FaceSet& faces, const Positions& typical,
     mesh.vertices.push_back(reduced.vertices[vertex]);
     mesh.twins.push_back(first[vertex]);
     for (int axis = 0; axis < 2; ++axis) {
-      mesh.uvs.push_back(uv == kNoIndex ? 0.0F : static_cast<float>(faces.uvs(uv, axis)));
+      mesh.uvs.push_back(uv == kNoIndex ? 0.0F : static_cast<float>(uvs(uv, axis)));
     }
     return number;
   };
@@ -84,9 +85,9 @@ PreviewMesh preview_mesh(const FaceSet& faces, const Positions& typical,
     for (std::size_t c = 0; c < 3; ++c) {
       choices[c] = &rows[reduced.triangles[t + c]];
     }
-    const Corners uvs = closest_uvs(faces.uvs, choices);
+    const Corners rows_of = closest_uvs(uvs, choices);
     for (std::size_t c = 0; c < 3; ++c) {
-      mesh.triangles.push_back(vertex_at(reduced.triangles[t + c], uvs[c]));
+      mesh.triangles.push_back(vertex_at(reduced.triangles[t + c], rows_of[c]));
     }
   }
   return mesh;

@@ -16,10 +16,12 @@ struct PreviewMesh {
   std::vector<float> uvs;                ///< two a vertex, or empty: the heads have none
 };
 
+/// \param uvs            #uvs by 2 where the faces have texture coordinates: those to be shown
 /// \param typical        #V by 3, by which is judged what may go
 /// \param drawn          one a face; see reduce_mesh
 /// \param most_vertices  about how many may be left before splitting
-PreviewMesh preview_mesh(const FaceSet& faces, const Positions& typical,
-                         const std::vector<bool>& drawn, std::size_t most_vertices);
+PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
+                         const Positions& typical, const std::vector<bool>& drawn,
+                         std::size_t most_vertices);
 
 }  // namespace crowdface

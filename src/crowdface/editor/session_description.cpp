@@ -9,7 +9,6 @@
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
 #include "crowdface/editor/binary_answer.h"
-#include "crowdface/editor/edit_pictures.h"
 #include "crowdface/editor/edit_session.h"
 #include "crowdface/editor/recipe_json.h"
 #include "crowdface/pictures/surfaces.h"
@@ -133,11 +132,10 @@ Json EditSession::description() const {
   }
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < config.faces.names.size(); ++h) {
-    json["heads"].push_back(
-        {{"name", config.faces.names[h]},
-         {"tags", config.faces.tags[h]},
-         {"anchor", {casting_.anchors[h].x(), casting_.anchors[h].y()}},
-         {"texture", has_one_texture(job_.inputs.textures, static_cast<Index>(h))}});
+    json["heads"].push_back({{"name", config.faces.names[h]},
+                             {"tags", config.faces.tags[h]},
+                             {"anchor", {casting_.anchors[h].x(), casting_.anchors[h].y()}},
+                             {"texture", textures_.has(static_cast<Index>(h))}});
   }
   json["normalization"] =
       config.blending.normalization == Normalization::kPartition ? "partition" : "printed";

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/texture_atlas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "crowdface/io/image.h"
+#include "crowdface/render/shading.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kMostTexels = 2048, kMostOfAll = 4096;  // a side
+
+void append(std::vector<std::uint8_t>& pixels, const Light& texel) {
+  for (const std::uint8_t value : to_srgb8(texel)) pixels.push_back(value);
+}
+
+}  // namespace
+
+TextureAtlas::TextureAtlas(const Inputs& inputs) : inputs_(inputs) {
+  const HeadTextures& textures = inputs.textures;
+  int largest = 1;
+  if (textures.blend()) {
+    for (const auto& picture : textures.blended.layout.pictures) {
+      largest = std::max({largest, picture.width, picture.height});
+    }
+    cell_of_face_ = textures.blended.layout.of_face;
+    cells_ = static_cast<std::uint32_t>(textures.blended.layout.pictures.size());
+  } else {
+    const auto first = std::find_if(textures.coats.begin(), textures.coats.end(),
+                                    [](const TextureCoat& coat) { return !coat.textures.empty(); });
+    if (first == textures.coats.end()) return;
+    cell_of_face_ = first->of_face;
+    cells_ = static_cast<std::uint32_t>(first->textures.size());
+    for (const TextureCoat& coat : textures.coats) {
+      for (const auto& texture : coat.textures) {
+        largest = std::max({largest, texture->width, texture->height});
+      }
+    }
+  }
+  columns_ = static_cast<int>(std::ceil(std::sqrt(cells_)));
+  rows_ = (static_cast<int>(cells_) + columns_ - 1) / columns_;
+  cell_px_ = std::min({largest, kMostTexels, kMostOfAll / columns_});
+}
+
+TextureCoordinates TextureAtlas::coordinates() const {
+  const Topology& topology = inputs_.faces.topology;
+  const TextureCoordinates& uvs = inputs_.faces.uvs;
+  if (cells_ < 2) return uvs;
+  TextureCoordinates placed = TextureCoordinates::Zero(uvs.rows(), 2);
+  const double margin = 0.5 / cell_px_;  // a cell's colours do not run into the next one's
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const std::uint32_t cell = cell_of_face_[static_cast<std::size_t>(f)];
+    if (cell == TextureCoat::kNone) continue;
+    const auto corners = topology.face_uvs(f);
+    Eigen::RowVector2d middle = Eigen::RowVector2d::Zero();
+    for (const std::uint32_t uv : corners) middle += uvs.row(uv);
+    const Eigen::RowVector2d tile = (middle / static_cast<double>(corners.size())).array().floor();
+    const auto [row, column] = std::div(static_cast<int>(cell), columns_);
+    const Eigen::RowVector2d corner(column, rows_ - 1 - row);
+    for (const std::uint32_t uv : corners) {
+      const Eigen::RowVector2d inside =
+          (uvs.row(uv) - tile).cwiseMax(margin).cwiseMin(1 - margin) + corner;
+      placed.row(uv) = inside.cwiseQuotient(Eigen::RowVector2d(columns_, rows_));
+    }
+  }
+  return placed;
+}
+
+bool TextureAtlas::has(Index head) const {
+  const HeadTextures& textures = inputs_.textures;
+  const auto h = static_cast<std::size_t>(head);
+  if (!textures.blend()) return !textures.coats.empty() && !textures.coats[h].textures.empty();
+  const auto& maps = textures.blended.maps;
+  return std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map[h] != nullptr; });
+}
+
+std::optional<std::string> TextureAtlas::picture(Index head) const {
+  if (!has(head)) return std::nullopt;
+  const TextureCoat coat = *coat_of_head(inputs_.textures, head, cell_px_);
+  std::vector<std::uint8_t> pixels;
+  if (cells_ == 1 && coat.textures.size() == 1) {
+    const Texture& texture = *coat.textures.front();
+    for (const Light& texel : texture.texels) append(pixels, texel);
+    return encode_jpeg(texture.width, texture.height, pixels);
+  }
+  std::vector<const Texture*> shown(cells_, nullptr);
+  for (std::size_t f = 0; f < coat.of_face.size(); ++f) {
+    if (coat.of_face[f] == TextureCoat::kNone || cell_of_face_[f] == TextureCoat::kNone) continue;
+    const Texture*& texture = shown[cell_of_face_[f]];
+    if (texture == nullptr) texture = coat.textures[coat.of_face[f]].get();
+  }
+  const int width = columns_ * cell_px_, height = rows_ * cell_px_;
+  const auto side = static_cast<float>(cell_px_);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto cell = static_cast<std::size_t>(y / cell_px_ * columns_ + x / cell_px_);
+      const Texture* texture = cell < shown.size() ? shown[cell] : nullptr;
+      const Eigen::Vector2f uv((static_cast<float>(x % cell_px_) + 0.5F) / side,
+                               1 - (static_cast<float>(y % cell_px_) + 0.5F) / side);
+      append(pixels, texture != nullptr ? colour_at(*texture, uv) : albedo_of(SurfaceKind::kSkin));
+    }
+  }
+  return encode_jpeg(width, height, pixels);
+}
+
+}  // namespace crowdface
