@@ -36,6 +36,7 @@ parts 3
 lod 4
 paint 4
 shapes 4
+attach 4
 blend 4
 wrap 4
 cast 5

@@ -49,9 +49,12 @@ void describe(const Job& job) {
       describe_mirror(job.config, find_mirror(job.config, inputs)), "\nregions     ",
       join(job.names.regions), "\n",
       bands.size() > 1 ? concat("bands       ", join(bands), "\n") : "",
-      levels.empty() ? "" : concat("lods        ", levels, "\n"), "faces       ", sampled,
-      " sampled, ", by_hand, " by hand, ", face_count(job.config) - sampled - by_hand,
-      " in families\n", "output      ", job.config.output.directory.string(), "\n"));
+      levels.empty() ? "" : concat("lods        ", levels, "\n"),
+      job.names.attachments.empty() ? ""
+                                    : concat("attachments ", join(job.names.attachments), "\n"),
+      "faces       ", sampled, " sampled, ", by_hand, " by hand, ",
+      face_count(job.config) - sampled - by_hand, " in families\n", "output      ",
+      job.config.output.directory.string(), "\n"));
 }
 
 /// The regions' colours, #R by 3: as they were painted where they are the channels of one picture.

@@ -94,6 +94,9 @@ TEST_F(ExampleConfigs, ThoseOfTheReferenceAreReadToo) {
   touch("configs/mask.png");
   touch("configs/template/neutral.obj");
   touch("configs/template/shapes/smile.obj");
+  for (const char* name : {"bob", "crop", "cap", "round"}) {
+    touch(concat("configs/attachments/", name, ".obj"));
+  }
   touch("masks/bands.1001.png");
   const auto page = std::filesystem::path(CROWDFACE_SOURCE_DIR) / "docs/config.md";
   const std::vector<std::string> blocks = yaml_blocks(read_file(page));

@@ -274,6 +274,11 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "tolerance: 0.125 mm}\n"
       "shapes: {neutral: heads/ann.obj, directory: heads}\n"
       "points: mask.png\n"
+      "attachments:\n"
+      "  fitted_to: 'null'\n"
+      "  items: [{name: mop, kind: hair, file: heads/ann.obj, tags: [old, thin], share: 0.125},\n"
+      "          {name: cap, kind: hat, file: heads/bob.obj, moves: rigid, excludes: [hair]}]\n"
+      "  none: {hair: 0.1, hat: 0.7}\n"
       "plane: {layout: similarity, anchors: {ann: [0.1, -1e-7], 'null': [1e5, "
       "0.30000000000000004]}}\n"
       "sampling:\n"
@@ -310,6 +315,7 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "         surfaces: {M Lash: '#A0b1ff', 'no': hidden, M_Gum: gums}}\n");
   EXPECT_THAT(written, HasSubstr("name: \"2024\""));
   EXPECT_THAT(written, HasSubstr("iterations: [0, 10000000]"));
+  EXPECT_THAT(written, HasSubstr("moves: rigid"));
   EXPECT_THAT(written, Not(HasSubstr(folder_.string()))) << "paths are relative";
 }
 

@@ -36,6 +36,7 @@ struct CastFace {
   std::vector<std::string> parents;   ///< of a family with parents: mother and father, heads or ids
   std::vector<std::string> inherits;  ///< with parents: #regions by #bands, whose detail
   double mother_share = 0;            ///< of the large forms, where these are inherited
+  std::vector<std::string> attachments;  ///< by name
   CastingNotes notes;
 };
 

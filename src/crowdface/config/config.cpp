@@ -22,6 +22,7 @@ std::vector<std::string> Config::part_names() const {
 PlanNames Config::plan_names() const {
   PlanNames names{faces.names, region_names()};
   for (const BandSampling& band : sampling.bands) names.bands.push_back(band.name);
+  for (const Attachment& item : attachments.items) names.attachments.push_back(item.name);
   return names;
 }
 

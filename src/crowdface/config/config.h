@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/attach/attachment_move.h"
 #include "crowdface/blend/normalization.h"
+#include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/believability.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_area.h"
@@ -134,6 +136,19 @@ struct Config {
   } shapes;
 
   std::filesystem::path points;  ///< that follow the face: a file; empty: none
+
+  /// Something that may sit on a head, in a mesh of its own.
+  struct Attachment : AttachmentItem {
+    std::filesystem::path file;
+    AttachmentMove moves = AttachmentMove::kBend;
+  };
+  struct Attachments {
+    /// What all were fitted to: a head, or a file in the heads' topology; neither: the mean of the heads.
+    std::optional<Eigen::Index> head;
+    std::filesystem::path file;
+    std::vector<Attachment> items;
+    std::map<std::string, double> none;  ///< by kind: the share of faces without one
+  } attachments;
 
   struct Textures {
     TextureBlend blend = TextureBlend::kAuto;

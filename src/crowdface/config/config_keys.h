@@ -165,6 +165,8 @@ void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_parts(const Config& config, const ConfigWriting& writing);
 void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_shapes(const Config& config, const ConfigWriting& writing);
+void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft);
+std::string write_attachments(const Config& config, const ConfigWriting& writing);
 void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_believability(const Config& config, const ConfigWriting& writing);
 Starter believability_starter();

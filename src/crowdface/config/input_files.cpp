@@ -52,6 +52,9 @@ std::vector<fs::path> input_files(const Config& config) {
   if (!config.shapes.files.empty()) files.push_back(config.shapes.neutral);
   files.insert(files.end(), config.shapes.files.begin(), config.shapes.files.end());
   if (!config.points.empty()) files.push_back(config.points);
+  const Config::Attachments& attachments = config.attachments;
+  if (!attachments.file.empty()) files.push_back(attachments.file);
+  for (const Config::Attachment& item : attachments.items) files.push_back(item.file);
   for (const std::string& mask : config.regions.mask) add_image(mask, files);
   if (config.distance.mask) add_image(*config.distance.mask, files);
   files.insert(files.end(), config.review.files.begin(), config.review.files.end());

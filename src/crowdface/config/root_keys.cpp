@@ -143,6 +143,7 @@ const Keys<Config>& root_keys() {
       {"parts", read_parts, write_parts},
       {"shapes", read_shapes, write_shapes},
       {"points", read_points, write_points},
+      {"attachments", read_attachments, write_attachments},
       section_key("textures", &Config::textures, textures_keys()),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
       section_key("sampling", &Config::sampling, sampling_keys()),

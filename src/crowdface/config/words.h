@@ -57,6 +57,7 @@ inline const auto& all_words() {
       Words<SheetTexture>{{"auto", SheetTexture::kAuto},
                           {"true", SheetTexture::kYes},
                           {"false", SheetTexture::kNo}},
+      Words<AttachmentMove>{{"bend", AttachmentMove::kBend}, {"rigid", AttachmentMove::kRigid}},
       Words<PartShape>{{"target", PartShape::kTarget}, {"blend", PartShape::kBlend}},
       Words<Layout>{{"circle", Layout::kCircle},
                     {"grid", Layout::kGrid},

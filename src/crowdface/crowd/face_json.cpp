@@ -75,6 +75,7 @@ Json face_to_json(const CastFace& face, const PlanNames& names, const Digest& se
       json["inherits"][names.regions[k]] = inherits_to_json(face.inherits, k, names);
     }
   }
+  if (!names.attachments.empty()) json["attachments"] = face.attachments;
   if (face.notes.review) json["note"] = *face.notes.review;
   json["regions"] = Json::object();
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {

@@ -79,6 +79,9 @@ class LineReader {
         }
       }
     }
+    if (const auto worn = json.find("attachments"); worn != json.end()) {
+      face.attachments = attachments(*worn);
+    }
     if (json.contains("note")) face.notes.review = text(json, "note");
     if (const auto found = json.find("nearest"); found != json.end()) {
       face.notes.nearest = nearest(*found);
@@ -145,6 +148,21 @@ class LineReader {
     const auto found = std::find(names_.heads.begin(), names_.heads.end(), name);
     if (found == names_.heads.end()) fail(key, "the name of a head", quoted(name));
     return found - names_.heads.begin();
+  }
+
+  std::vector<std::string> attachments(const Json& json) const {
+    if (!json.is_array()) fail("attachments", "a list of names", json.dump());
+    std::vector<std::string> worn;
+    for (const Json& value : json) {
+      const std::string name = value.is_string() ? value.get<std::string>() : "";
+      const auto& known = names_.attachments;
+      if (std::find(known.begin(), known.end(), name) == known.end() ||
+          std::find(worn.begin(), worn.end(), name) != worn.end()) {
+        fail("attachments", "names of attachments, each once", value.dump());
+      }
+      worn.push_back(name);
+    }
+    return worn;
   }
 
   double coordinate(const Json& value) const {
@@ -315,6 +333,7 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
   const bool any_mirrored = std::any_of(
       crowd.begin(), crowd.end(), [](const CastFace& face) { return !is_unmirrored(face.recipe); });
   if (any_mirrored) header.insert(header.end(), {"asymmetry", "mirrored"});
+  if (!names.attachments.empty()) header.emplace_back("attachments");
   std::string table = join(header, ",") + "\r\n";
   for (const CastFace& face : crowd) {
     std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
@@ -342,6 +361,7 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
       row.push_back(format_number(face.recipe.asymmetry));
       row.emplace_back(face.recipe.mirrored ? "true" : "false");
     }
+    if (!names.attachments.empty()) row.push_back(csv_field(join(face.attachments, ";")));
     table += join(row, ",") + "\r\n";
   }
   return table;

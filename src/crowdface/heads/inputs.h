@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/attachments.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/lod/detail_level.h"
@@ -42,6 +43,7 @@ struct Inputs {
   std::vector<MeasuredLevel> levels;
   PointSet points;
   Digest points_digest;  ///< if there are any
+  AttachmentSet attachments;
   RegionWeights regions;
   std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without
   double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads

@@ -15,6 +15,7 @@
 #include "crowdface/heads/alignment_check.h"
 #include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/head_mirror.h"
+#include "crowdface/heads/load_attachments.h"
 #include "crowdface/heads/load_points.h"
 #include "crowdface/heads/load_shapes.h"
 #include "crowdface/heads/named_parts.h"
@@ -361,6 +362,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   read_textures(config, inputs, problems);
   load_shapes(config, inputs, problems);
   load_points(config, inputs, problems);
+  load_attachments(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;
   find_levels(config, inputs);
   return inputs;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/capacity_forecast.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
@@ -95,6 +96,12 @@ std::vector<FamilyReport> report_families(const Config& config, const CrowdCast&
     reports.push_back(std::move(report));
   }
   return reports;
+}
+
+AttachmentDraw attachment_draw(const Config& config) {
+  AttachmentDraw draw{config.crowd.seed, {}, config.attachments.none, config.faces.tags};
+  for (const Config::Attachment& item : config.attachments.items) draw.items.push_back(item);
+  return draw;
 }
 
 std::string asked_of(const Config& config, Reason reason) {
@@ -335,6 +342,10 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   result.families = report_families(config, crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
+  if (!config.attachments.items.empty()) {
+    const AttachmentDraw draw = attachment_draw(config);
+    for (CastFace& face : result.crowd) face.attachments = draw_attachments(draw, face);
+  }
   for (FamilyCast& family : crowd.families) {
     result.founders.push_back({family.name, std::move(family.founder)});
   }

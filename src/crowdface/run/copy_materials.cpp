@@ -11,6 +11,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/run/attachment_writers.h"
 
 namespace crowdface {
 namespace {
@@ -33,6 +34,13 @@ class MaterialCopies {
     }
     for (const MaterialFile& material : found->second.files) {
       if (!own_colours_ || !(material.is_library || material.is_colour)) copy(material, head);
+    }
+  }
+
+  /// What an attachment's material files need, in a folder of its own.
+  void add(const Attachment& item) {
+    for (const MaterialFile& material : item.materials.files) {
+      copy({material.from, attachment_folder(item.name) / material.relative}, item.name);
     }
   }
 
@@ -85,6 +93,9 @@ std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirecto
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
+  std::set<std::string> worn;
+  for (const CastFace& face : crowd) worn.insert(face.attachments.begin(), face.attachments.end());
+  for (const std::string& name : worn) copies.add(inputs.attachments.at(name));
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);
   return warnings;

@@ -15,11 +15,13 @@
 
 namespace crowdface {
 
-/// Which of a face's mesh files: the face, or what it has of its shapes, on a level of detail.
+/// Which of a face's mesh files: the face, or what it has of its shapes, on a level of detail, or something
+/// that it wears.
 struct MeshName {
   MeshFormat format = MeshFormat::kObj;
-  std::string shape = {};  ///< of one shape; kAllShapes; kFollowingPoints; empty: the face
-  std::size_t level = 0;   ///< of detail; 0: the whole mesh
+  std::string shape = {};      ///< of one shape; kAllShapes; kFollowingPoints; empty: the face
+  std::size_t level = 0;       ///< of detail; 0: the whole mesh
+  bool is_attachment = false;  ///< of which `shape` is the name
 };
 /// The displacements of all shapes.
 inline constexpr const char* kAllShapes = "shapes";

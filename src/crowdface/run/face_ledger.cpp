@@ -8,6 +8,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/pictures/gallery.h"
+#include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/own_textures.h"
@@ -28,6 +29,9 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   }
   if (!job.inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(job.inputs.shapes_digest);
   if (!job.inputs.points.empty()) hasher.add(kPointsVersion).add(job.inputs.points_digest);
+  if (!job.inputs.attachments.empty()) {
+    hasher.add(kAttachmentsVersion).add(job.inputs.attachments.digest);
+  }
   if (!job.inputs.levels.empty()) {
     hasher.add(kLevelsVersion);
     for (const MeasuredLevel& level : job.inputs.levels) hasher.add(level.level.share);
@@ -107,7 +111,7 @@ Digest FaceLedger::key_of(const CastFace& face) const {
 std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   const auto entry = ledger_.proven(item_of(face), key_of(face));
   if (!entry) return std::nullopt;
-  const std::vector<MeshName> names = mesh_names(job_.config.output.meshes, job_.inputs);
+  const std::vector<MeshName> names = mesh_names_of(face, job_.config.output.meshes, job_.inputs);
   const std::vector<std::string> own =
       own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);
   const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);

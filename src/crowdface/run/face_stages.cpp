@@ -90,7 +90,8 @@ class FaceOutput {
   FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const TextureBlender* textures,
              const OwnTextures* own, std::span<const MeshFormat> formats,
              const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
-             const FaceLedger& ledger)
+             const FaceLedger& ledger, const FaceAttachments* attachments,
+             const AttachmentWriters& attachment_writers)
       : builder_(builder),
         writers_(writers),
         textures_(textures),
@@ -99,7 +100,9 @@ class FaceOutput {
         directory_(directory),
         renders_(renders),
         check_(check),
-        ledger_(ledger) {}
+        ledger_(ledger),
+        attachments_(attachments),
+        attachment_writers_(attachment_writers) {}
 
   FaceFiles write(const CastFace& face, const Positions& positions) {
     throw_if_interrupted();
@@ -109,7 +112,12 @@ class FaceOutput {
       const Busy busy(blend_);
       pictures = textures_->blend(face.recipe);
     }
-    write_meshes(face, positions, pictures, files);
+    std::vector<WornAttachment> worn;
+    if (attachments_ != nullptr) {
+      const Busy busy(blend_);
+      worn = attachments_->worn_by(face, positions);
+    }
+    write_meshes(face, positions, worn, pictures, files);
     if (renders_ != nullptr) {
       const Busy busy(render_);
       const WrittenPictures written =
@@ -136,6 +144,7 @@ class FaceOutput {
 
  private:
   void write_meshes(const CastFace& face, const Positions& positions,
+                    const std::vector<WornAttachment>& worn,
                     const std::vector<BlendedPicture>& pictures, FaceFiles& files) {
     if (formats_.empty()) return;
     std::vector<std::string> textures;
@@ -148,6 +157,7 @@ class FaceOutput {
         of_mesh = own_->of_mesh(textures);
       }
       meshes = writers_.encode(face, positions, of_mesh);
+      if (attachments_have_files(formats_)) attachment_writers_.add_to(meshes, face.id, worn);
     }
     const Busy busy(write_);
     for (const EncodedMesh& mesh : meshes) {
@@ -169,6 +179,8 @@ class FaceOutput {
   const CrowdRenders* renders_;
   const SkinCheck* check_;
   const FaceLedger& ledger_;
+  const FaceAttachments* attachments_;
+  const AttachmentWriters& attachment_writers_;
   std::atomic<double> blend_ = 0, encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
 };
 
@@ -187,11 +199,14 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const FaceBuilder& builder, const TextureBlender* textures,
-                       const std::vector<CastFace>& crowd, std::uint64_t memory)
+                       const FaceAttachments* attachments, const std::vector<CastFace>& crowd,
+                       std::uint64_t memory)
     : writes_meshes_(!config.output.meshes.empty()),
       writers_(config, inputs, config.output.meshes, crowd),
       builder_(builder),
       textures_(textures),
+      attachments_(attachments),
+      attachment_writers_(inputs),
       meshes_(config.output.meshes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + writers_.memory_bytes();
@@ -220,7 +235,8 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (renders != nullptr) renders->make_folders(directory);
 
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
-                    renders, check_ ? &*check_ : nullptr, ledger);
+                    renders, check_ ? &*check_ : nullptr, ledger, attachments_,
+                    attachment_writers_);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;

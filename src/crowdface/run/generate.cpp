@@ -16,6 +16,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/ledger.h"
+#include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/face_comparison.h"
 #include "crowdface/pictures/sheets.h"
@@ -75,11 +76,13 @@ struct CastJob {
         builder([&job, this] {
           return std::make_unique<FaceBuilder>(job.config, job.inputs, prepared);
         }),
-        textures([&job] { return std::make_unique<FaceTextures>(job.config, job.inputs); }) {}
+        textures([&job] { return std::make_unique<FaceTextures>(job.config, job.inputs); }),
+        attachments([&job] { return std::make_unique<FaceAttachments>(job.config, job.inputs); }) {}
 
   Prepared prepared;
   Lazy<FaceBuilder> builder;
   Lazy<FaceTextures> textures;
+  Lazy<FaceAttachments> attachments;
   Cast cast;
   /// If not empty, `cast` holds a shard's faces, as the folder's plan has them, and no more.
   std::vector<LedgerEntry::File> plan_files;
@@ -303,7 +306,8 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   Lazy<FaceStages> face_stages([&] {
     return std::make_unique<FaceStages>(job.config, job.inputs, crowd->prepared,
                                         crowd->builder.get(), crowd->textures.get().blender(),
-                                        crowd->cast.crowd, memory_for(options));
+                                        &crowd->attachments.get(), crowd->cast.crowd,
+                                        memory_for(options));
   });
   if (is_new && !crowd->cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);

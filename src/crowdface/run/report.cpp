@@ -137,6 +137,8 @@ Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
           name.level > 0 || !name.shape.empty() ? file_end(name).substr(1) : "";
       if (name.level > 0) {
         face["lods"][file] = mesh.digest.hex();
+      } else if (name.is_attachment) {
+        face["attachments"][file] = mesh.digest.hex();
       } else if (name.shape == kFollowingPoints) {
         face["following_points"] = mesh.digest.hex();
       } else if (name.shape.empty()) {

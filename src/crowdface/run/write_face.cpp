@@ -6,14 +6,42 @@
 #include <vector>
 
 #include "crowdface/core/file.h"
+#include "crowdface/heads/face_attachments.h"
+#include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a face wears, beside its mesh, and the materials of that.
+void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
+                       const Positions& positions, const fs::path& file) {
+  if (face.attachments.empty() || !attachments_have_files(std::span(&format, 1))) return;
+  std::vector<EncodedMesh> meshes;
+  const AttachmentWriters writers(job.inputs);
+  writers.add_to(meshes, face.id, FaceAttachments(job.config, job.inputs).worn_by(face, positions));
+  for (const EncodedMesh& mesh : meshes) {
+    write_mesh(mesh, file.parent_path() / (file.stem().string() + file_end(mesh.name)));
+  }
+  for (const std::string& name : face.attachments) {
+    for (const MaterialFile& material : job.inputs.attachments.at(name).materials.files) {
+      const fs::path to = file.parent_path() / attachment_folder(name) / material.relative;
+      make_directories(to.parent_path());
+      write_file(to, MappedFile(material.from).bytes());
+    }
+  }
+}
+
+}  // namespace
+
 void write_face(const Job& job, const TextureBlender* textures, const CastFace& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file) {
   const MeshWriters writers(job.config, job.inputs, {format}, {&face, 1});
+  write_attachments(job, face, format, positions, file);
   if (textures == nullptr) {
     write_mesh(writers.encode(face, positions).front(), file);
     return;

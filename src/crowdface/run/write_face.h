@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// Writes one face by itself: the mesh, and beside it what a crowd's folder has beside it, textures and
-/// materials of its own.
+/// materials of its own, and its attachments.
 /// \param textures   blends those, or null: it has none
 /// \param positions  #V by 3
 /// \throws CannotCreate, IoError

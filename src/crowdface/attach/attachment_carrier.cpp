@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/attach/attachment_carrier.h"
+
+namespace crowdface {
+
+AttachmentCarrier::AttachmentCarrier(const FittedSkin& skin, const Topology& topology,
+                                     const Positions& points, AttachmentMove move)
+    : gaps_(std::make_unique<const SkinGaps>(skin, topology, points)) {
+  if (move == AttachmentMove::kBend) {
+    bend_ = std::make_unique<const SmoothBend>(skin, points);
+  } else {
+    seat_ = std::make_unique<const RigidSeat>(skin, points, *gaps_);
+  }
+}
+
+Positions AttachmentCarrier::carry(const Positions& face, const Positions& normals) const {
+  if (seat_) return seat_->seat(face, normals);
+  Positions points = bend_->bend(face);
+  gaps_->restore(face, normals, points);
+  return points;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/attach/fitted_skin.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "crowdface/core/require.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+/// How far skin is heard at the skin itself, and how that grows with the distance from it.
+constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
+/// At least this many vertices are within that share of the reach.
+constexpr std::size_t kFewest = 12;
+constexpr double kFewestReach = 1.4;
+/// A level is used where the reach is so many of its spacings; from there on the next takes over, up
+/// to twice as many.
+constexpr double kSpacings = 3;
+constexpr std::size_t kCoarsest = 150;
+
+double bump(double distance) {
+  const double rest = 1 - distance * distance;
+  return rest > 0 ? rest * rest : 0;
+}
+
+using Cell = std::array<std::int64_t, 3>;
+
+struct InCell {
+  Cell cell;
+  std::uint32_t vertex;
+};
+
+}  // namespace
+
+FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std::uint32_t> skin,
+                       double mm)
+    : topology_(topology),
+      mesh_(std::move(mesh)),
+      skin_(std::move(skin)),
+      mm_(mm),
+      around_(topology),
+      fans_(topology),
+      areas_(static_cast<std::size_t>(topology.vertex_count), 0.0) {
+  require(mesh_.rows() == topology.vertex_count && skin_.size() >= 3, "fitted skin: ", mesh_.rows(),
+          " positions, ", skin_.size(), " vertices of skin");
+  const Positions vectors = face_area_vectors(topology, mesh_);
+  std::vector<bool> is_skin(areas_.size(), false);
+  for (const std::uint32_t v : skin_) is_skin[v] = true;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const std::uint32_t v : skin_) middle += row3(mesh_, v);
+  middle /= static_cast<double>(skin_.size());
+  double volume = 0;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto face = topology.face(f);
+    if (!is_skin[face[0]]) continue;
+    const Eigen::Vector3d vector = row3(vectors, f);
+    const double share = length3(vector) / 2 / static_cast<double>(face.size());
+    for (const std::uint32_t v : face) areas_[v] += share;
+    volume += dot3(vector, row3(mesh_, face[0]) - middle);
+  }
+  side_ = volume < 0 ? -1 : 1;
+  std::vector<double> areas;
+  double area = 0;
+  for (const std::uint32_t v : skin_) {
+    areas.push_back(areas_[v]);
+    area += areas_[v];
+  }
+  const double spacing = std::sqrt(area / static_cast<double>(skin_.size()));
+  require(spacing > 0, "fitted skin: no area");
+  add_level(spacing, skin_, areas_);
+  while (levels_.back()->vertices.size() > kCoarsest) {
+    const std::size_t before = levels_.back()->vertices.size();
+    add_coarser(2 * levels_.back()->spacing);
+    if (levels_.back()->vertices.size() == before) break;
+  }
+}
+
+void FittedSkin::add_level(double spacing, std::vector<std::uint32_t> vertices,
+                           std::vector<double> areas) {
+  PointGrid grid(mesh_, vertices);
+  levels_.push_back(std::make_unique<const Level>(
+      Level{spacing, std::move(vertices), std::move(areas), std::move(grid)}));
+}
+
+/// One vertex for each cell, the one nearest to the middle of its skin, with the area of all.
+void FittedSkin::add_coarser(double spacing) {
+  std::vector<InCell> cells;
+  const Eigen::Vector3d low = row3(mesh_, skin_.front());
+  for (const std::uint32_t v : skin_) {
+    const Eigen::Vector3d at = (row3(mesh_, v) - low) / spacing;
+    cells.push_back({{static_cast<std::int64_t>(std::floor(at.x())),
+                      static_cast<std::int64_t>(std::floor(at.y())),
+                      static_cast<std::int64_t>(std::floor(at.z()))},
+                     v});
+  }
+  std::sort(cells.begin(), cells.end(), [](const InCell& a, const InCell& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.vertex < b.vertex;
+  });
+  std::vector<std::uint32_t> vertices;
+  std::vector<double> areas(areas_.size(), 0.0);
+  for (std::size_t begin = 0; begin < cells.size();) {
+    std::size_t end = begin;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    double area = 0;
+    for (; end < cells.size() && cells[end].cell == cells[begin].cell; ++end) {
+      middle += areas_[cells[end].vertex] * row3(mesh_, cells[end].vertex);
+      area += areas_[cells[end].vertex];
+    }
+    if (area > 0) {
+      middle /= area;
+      std::uint32_t chosen = cells[begin].vertex;
+      double least = std::numeric_limits<double>::max();
+      for (std::size_t i = begin; i < end; ++i) {
+        const double distance = length3(row3(mesh_, cells[i].vertex) - middle);
+        if (distance >= least) continue;
+        least = distance;
+        chosen = cells[i].vertex;
+      }
+      vertices.push_back(chosen);
+      areas[chosen] = area;
+    }
+    begin = end;
+  }
+  std::sort(vertices.begin(), vertices.end());
+  add_level(spacing, std::move(vertices), std::move(areas));
+}
+
+double FittedSkin::reach_at(const Eigen::Vector3d& point) const {
+  const Level& finest = *levels_.front();
+  const double nearest = finest.grid.nearest(point).distance;
+  const double reach =
+      kReachGrowth * nearest + std::max(kReachMm * mm_, kReachSpacings * spacing());
+  const std::size_t fewest = std::min(kFewest, finest.vertices.size());
+  std::vector<double> distances;
+  for (double around = reach;; around *= 2) {
+    distances.clear();
+    for (const std::uint32_t v : finest.grid.about(point, around)) {
+      const double distance = length3(row3(mesh_, v) - point);
+      if (distance <= around) distances.push_back(distance);
+    }
+    if (distances.size() >= fewest) break;
+  }
+  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(fewest - 1),
+                   distances.end());
+  return std::max(reach, kFewestReach * distances[fewest - 1]);
+}
+
+void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, double share,
+                             Patch& patch) const {
+  if (share <= 0) return;
+  for (const std::uint32_t v : level.grid.about(point, patch.reach)) {
+    const double weight =
+        share * level.areas[v] * bump(length3(row3(mesh_, v) - point) / patch.reach);
+    if (weight <= 0) continue;
+    patch.vertices.push_back(v);
+    patch.weights.push_back(weight);
+  }
+}
+
+FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point) const {
+  Patch patch;
+  patch.reach = reach_at(point);
+  std::size_t level = 0;
+  while (level + 1 < levels_.size() && patch.reach > 2 * kSpacings * levels_[level]->spacing) {
+    ++level;
+  }
+  double next = 0;
+  if (level + 1 < levels_.size()) {
+    next = std::clamp(patch.reach / (kSpacings * levels_[level]->spacing) - 1, 0.0, 1.0);
+  }
+  add_samples(*levels_[level], point, 1 - next, patch);
+  if (next > 0) add_samples(*levels_[level + 1], point, next, patch);
+  return patch;
+}
+
+Positions FittedSkin::normals(const Positions& face) const {
+  return side_ * fans_.normals(topology_, face, {0, 0, 0});
+}
+
+SkinPlace FittedSkin::place_near(const Positions& face, const Positions& normals,
+                                 std::uint32_t start, const Eigen::Vector3d& point) const {
+  const SurfacePoint place = nearest_from(topology_, around_, face,
+                                          descend(topology_, around_, face, start, point), point);
+  const Eigen::Vector3d outward = unit3(point_on(normals, place.corners, place.shares));
+  return {place.corners[0], dot3(point - place.position, outward), outward};
+}
+
+}  // namespace crowdface

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/attach/rigid_seat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/small_program.h"
+
+namespace crowdface {
+namespace {
+
+/// How far the skin that carries reaches beyond the part nearest to it.
+constexpr double kReachMm = 15;
+constexpr std::size_t kFewest = 12;
+constexpr int kRounds = 8;
+/// What a nudge by so much as a missing millimetre counts, against all that is missing.
+constexpr double kStillness = 0.02;
+
+}  // namespace
+
+RigidSeat::RigidSeat(const FittedSkin& skin, const Positions& points, const SkinGaps& gaps)
+    : skin_(skin), points_(points), gaps_(gaps) {
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(points.rows()));
+  if (all.empty()) return;
+  std::iota(all.begin(), all.end(), 0U);
+  for (const std::uint32_t p : all) middle_ += row3(points, p);
+  middle_ /= static_cast<double>(all.size());
+  double squares = 0;
+  for (const std::uint32_t p : all) {
+    const Eigen::Vector3d from = row3(points, p) - middle_;
+    squares += dot3(from, from);
+  }
+  radius_ = std::max(std::sqrt(squares / static_cast<double>(all.size())), skin.mm());
+  const PointGrid grid(points, all);
+  const std::size_t fewest = std::min(kFewest, skin.vertices().size());
+  for (double reach = kReachMm * skin.mm(); socket_.vertices.size() < fewest; reach *= 2) {
+    socket_ = find_socket(skin.mesh(), grid, skin.vertices(), skin.areas(), reach);
+    if (reach > 1e6 * skin.mm()) break;
+  }
+}
+
+Positions RigidSeat::moved(const RigidMotion& motion) const {
+  Positions result(points_.rows(), 3);
+  for (Index p = 0; p < points_.rows(); ++p) {
+    result.row(p) = motion.apply(row3(points_, p)).transpose();
+  }
+  return result;
+}
+
+/// One step of least squares towards what is missing.
+RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
+                                 const std::vector<SkinGaps::Missing>& missing) const {
+  constexpr std::size_t kUnknowns = 7;  // shift, turn and growth, the last two times the radius
+  SmallProgram program(kUnknowns);
+  const Eigen::Vector3d pivot = motion.apply(middle_);
+  const double radius = motion.scale * radius_;
+  const double weight = 1 / static_cast<double>(missing.size());
+  for (const SkinGaps::Missing& one : missing) {
+    const Eigen::Vector3d arm = (motion.apply(row3(points_, one.vertex)) - pivot) / radius;
+    const Eigen::Vector3d turned = cross3(arm, one.outward);
+    const Eigen::Vector3d& n = one.outward;
+    program.want({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), dot3(arm, n)},
+                 one.height, weight);
+  }
+  for (std::size_t u = 0; u < kUnknowns; ++u) program.want(u, 0, kStillness);
+  const SmallProgram::Vector x = program.solve(0);
+  return nudged(motion, pivot, {x[0], x[1], x[2]}, Eigen::Vector3d(x[3], x[4], x[5]) / radius,
+                x[6] / radius);
+}
+
+RigidMotion RigidSeat::motion(const Positions& face, const Positions& normals) const {
+  if (socket_.vertices.size() < 3) return {};
+  RigidMotion motion = fit_rigid_motion(skin_.mesh(), face, socket_.vertices, socket_.weights);
+  for (int round = 0; round < kRounds; ++round) {
+    const auto missing = gaps_.missing(face, normals, moved(motion));
+    if (missing.empty()) break;
+    motion = nudge_off(motion, missing);
+  }
+  return motion;
+}
+
+Positions RigidSeat::seat(const Positions& face, const Positions& normals) const {
+  return moved(motion(face, normals));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `attachments`.
+#include <algorithm>
+
+#include "crowdface/config/config_keys.h"
+#include "crowdface/config/config_writer.h"
+#include "crowdface/io/mesh_format.h"
+
+namespace crowdface {
+namespace {
+
+using Attachment = Config::Attachment;
+using Attachments = Config::Attachments;
+
+constexpr std::size_t kMostAttachments = 1000;
+constexpr double kMostShare = 1e6;
+constexpr const char* kMean = "mean";
+
+bool is_obj(const std::filesystem::path& file) {
+  return mesh_format_of(file) == MeshFormat::kObj;
+}
+
+void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+  if (is_word(node, kMean)) return;
+  const auto text = read_text(node, "mean, the name of a head or an OBJ file", draft.complaints);
+  if (!text) return;
+  if (is_obj(*text)) {
+    const auto file = path("an OBJ file").read(node, draft);
+    if (file && expect_file(node, *file, draft)) attachments.file = *file;
+  } else {
+    attachments.head = find_head(*text, node.place, node.path, draft);
+  }
+}
+
+std::string write_fitted_to(const Attachments& attachments, const ConfigWriting& writing) {
+  if (attachments.head) return writing.head(*attachments.head);
+  return attachments.file.empty() ? kMean : path("").write(attachments.file, writing);
+}
+
+void read_file(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
+  const auto file = path("an OBJ file").read(node, draft);
+  if (!file) return;
+  if (!is_obj(*file)) {
+    draft.complaints.expected(node, "a file whose name ends in .obj");
+  } else if (expect_file(node, *file, draft)) {
+    item.file = *file;
+  }
+}
+
+/// Some head must have all of them, or the item is for nobody.
+void read_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
+  const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
+  if (!tags) return;
+  item.tags = *tags;
+  const auto& of_heads = draft.config.faces.tags;
+  const bool any = std::any_of(of_heads.begin(), of_heads.end(), [&](const auto& of_head) {
+    return std::all_of(tags->begin(), tags->end(), [&](const std::string& tag) {
+      return std::find(of_head.begin(), of_head.end(), tag) != of_head.end();
+    });
+  });
+  if (!any && draft.heads_known && draft.tags_known) {
+    draft.complaints.about(node,
+                           "no head has all of these tags, so that no face would ever get it");
+  }
+}
+
+/// A key of what casting knows of an attachment, too.
+template <class Member>
+Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
+                        const Codec<Member>& codec, std::string_view required = {}) {
+  return key(name, static_cast<Member Attachment::*>(member), codec, required);
+}
+
+const Keys<Attachment>& item_keys() {
+  const auto names = [](const char* expected) { return list(name(), expected); };
+  const auto write_file = [](const Attachment& item, const ConfigWriting& writing) {
+    return path("").write(item.file, writing);
+  };
+  const auto write_tags = [](const Attachment& item, const ConfigWriting&) {
+    return item.tags.empty() ? "" : flow_names(item.tags);
+  };
+  Key<Attachment> excludes =
+      of_item("excludes", &AttachmentItem::excludes, names("a list of kinds and names, [hair]"));
+  excludes.write = [write = excludes.write](const Attachment& item, const ConfigWriting& writing) {
+    return item.excludes.empty() ? "" : write(item, writing);
+  };
+  static const Keys<Attachment> keys = {
+      of_item("name", &AttachmentItem::name, name(), "such as bob"),
+      of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
+      {"file", read_file, write_file, "an OBJ file"},
+      {"tags", read_tags, write_tags},
+      word_key("moves", &Attachment::moves),
+      of_item("share", &AttachmentItem::share, number(0, kMostShare)),
+      excludes};
+  return keys;
+}
+
+/// Whether files of a face are called so already.
+bool is_taken(const std::string& name, const Config& config) {
+  const auto& shapes = config.shapes.names;
+  const bool is_level =
+      name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
+  return is_level || name == "shapes" ||
+         std::find(shapes.begin(), shapes.end(), name) != shapes.end();
+}
+
+void check_item(const YamlNode& node, const Attachment& item, ConfigDraft& draft) {
+  const auto& items = draft.config.attachments.items;
+  const auto same_name = [&](const Attachment& other) { return other.name == item.name; };
+  if (std::any_of(items.begin(), items.end(), same_name)) {
+    draft.complaints.about(node, concat("two attachments are called ", quoted(item.name)));
+  } else if (is_taken(item.name, draft.config)) {
+    draft.complaints.about(node, concat("faces have other files that are called ",
+                                        quoted(item.name), ": choose another name"));
+  }
+}
+
+void read_items(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+  draft.complaints.expect_list(node,
+                               "a list of attachments, [{name: bob, kind: hair, file: bob.obj}]");
+  for (const YamlNode& child : node.items) {
+    Attachment item;
+    if (!read_keys(child, item_keys(), item, draft)) continue;
+    if (!item.name.empty()) check_item(child, item, draft);
+    attachments.items.push_back(std::move(item));
+  }
+  if (attachments.items.size() > kMostAttachments) {
+    draft.complaints.about(node, concat("expected at most ", kMostAttachments,
+                                        " attachments, found ", attachments.items.size()));
+  }
+}
+
+std::string write_items(const Attachments& attachments, const ConfigWriting& writing) {
+  std::vector<std::string> items;
+  for (const Attachment& item : attachments.items) {
+    items.push_back(block_map(write_keys(item_keys(), item, writing)));
+  }
+  return block_list(items);
+}
+
+std::vector<std::string> kinds_of(const Attachments& attachments) {
+  std::vector<std::string> kinds;
+  for (const Attachment& item : attachments.items) {
+    if (std::find(kinds.begin(), kinds.end(), item.kind) == kinds.end()) {
+      kinds.push_back(item.kind);
+    }
+  }
+  return kinds;
+}
+
+void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+  draft.complaints.expect_map(node, "a mapping from kinds to shares, {hair: 0.1}");
+  const std::vector<std::string> kinds = kinds_of(attachments);
+  for (const YamlEntry& entry : node.entries) {
+    const auto share = number(0, 1).read(entry.value, draft);
+    if (std::find(kinds.begin(), kinds.end(), entry.key) == kinds.end()) {
+      draft.complaints.about(entry.value, concat("no attachment is of the kind ", quoted(entry.key),
+                                                 suggestion(entry.key, kinds)));
+    } else if (share) {
+      attachments.none[entry.key] = *share;
+    }
+  }
+}
+
+std::string write_none(const Attachments& attachments, const ConfigWriting& writing) {
+  std::vector<std::string> entries;
+  for (const auto& [kind, share] : attachments.none) {
+    entries.push_back(entry(write_scalar(kind), number(0, 1).write(share, writing)));
+  }
+  return entries.empty() ? "" : flow_map(entries);
+}
+
+const Keys<Attachments>& attachments_keys() {
+  static const Keys<Attachments> keys = {
+      {"fitted_to", read_fitted_to, write_fitted_to},
+      {"items", read_items, write_items,
+       "a list of attachments, [{name: bob, kind: hair, file: bob.obj}]"},
+      {"none", read_none, write_none}};
+  return keys;
+}
+
+/// What an item excludes must be there.
+void check_excluded(const YamlNode& items, const Attachments& attachments, ConfigDraft& draft) {
+  std::vector<std::string> known = kinds_of(attachments);
+  for (const Attachment& item : attachments.items) known.push_back(item.name);
+  for (const YamlNode& item : items.items) {
+    const YamlEntry* excludes = item.find("excludes");
+    if (excludes == nullptr) continue;
+    for (const YamlNode& name : excludes->value.items) {
+      if (std::find(known.begin(), known.end(), name.text) != known.end()) continue;
+      draft.complaints.about(name, concat("no attachment is called ", quoted(name.text),
+                                          " or of that kind", suggestion(name.text, known)));
+    }
+  }
+}
+
+}  // namespace
+
+void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  if (is_word(node, "none")) return;
+  if (!draft.complaints.expect_map(node,
+                                   "none or a mapping with the keys fitted_to, items, none")) {
+    return;
+  }
+  read_keys(node, attachments_keys(), config.attachments, draft);
+  if (const YamlEntry* items = node.find("items")) {
+    check_excluded(items->value, config.attachments, draft);
+  }
+}
+
+std::string write_attachments(const Config& config, const ConfigWriting& writing) {
+  if (config.attachments.items.empty()) return "";
+  return block_map(write_keys(attachments_keys(), config.attachments, writing));
+}
+
+}  // namespace crowdface

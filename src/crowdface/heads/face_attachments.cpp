@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/face_attachments.h"
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/units.h"
+
+namespace crowdface {
+
+FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs) : inputs_(inputs) {
+  const AttachmentSet& set = inputs.attachments;
+  if (set.empty()) return;
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
+    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
+  }
+  skin_ = std::make_unique<const FittedSkin>(inputs.faces.topology, set.fitted_to, std::move(skin),
+                                             1 / mm_per(config.faces.units));
+  carriers_.resize(set.items.size());
+  parallel_for_each(carriers_.size(), [&](std::size_t i) {
+    const ObjFile& file = set.items[i].file;
+    carriers_[i] = std::make_unique<const AttachmentCarrier>(*skin_, file.topology, file.positions,
+                                                             set.items[i].moves);
+  });
+}
+
+std::vector<WornAttachment> FaceAttachments::worn_by(const CastFace& face,
+                                                     const Positions& positions) const {
+  std::vector<WornAttachment> worn;
+  if (face.attachments.empty() || skin_ == nullptr) return worn;
+  const Positions normals = skin_->normals(positions);
+  for (const std::string& name : face.attachments) {
+    const Attachment& item = inputs_.attachments.at(name);
+    const auto i = static_cast<std::size_t>(&item - inputs_.attachments.items.data());
+    worn.push_back({&item, carriers_[i]->carry(positions, normals)});
+  }
+  return worn;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "crowdface/attach/attachment_carrier.h"
+#include "crowdface/cast/cast_face.h"
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+
+namespace crowdface {
+
+/// An attachment on a face.
+struct WornAttachment {
+  const Attachment* item;
+  Positions positions;  ///< of its own vertices
+};
+
+/// The attachments of faces: what is bound to the fitted mesh is bound once.
+class FaceAttachments {
+ public:
+  /// \param inputs  must outlive this object.
+  FaceAttachments(const Config& config, const Inputs& inputs);
+
+  /// What a face wears, in the order of its recipe; refers to the inputs.
+  /// \param positions  of the face, #V by 3.
+  std::vector<WornAttachment> worn_by(const CastFace& face, const Positions& positions) const;
+
+ private:
+  const Inputs& inputs_;
+  std::unique_ptr<const FittedSkin> skin_;  ///< none: there are no attachments
+  std::vector<std::unique_ptr<const AttachmentCarrier>> carriers_;  ///< of each item
+};
+
+}  // namespace crowdface

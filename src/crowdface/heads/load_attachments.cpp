@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/load_attachments.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+Positions read_fitted(const std::filesystem::path& file, const Config& config,
+                      const Inputs& inputs) {
+  ObjFile mesh = read_obj(file);
+  const std::string difference = first_difference(inputs.faces.topology, mesh.topology);
+  if (difference.empty()) return std::move(mesh.positions);
+  throw InvalidInput(concat(file.string(), ": not the same mesh as ",
+                            config.faces.files.front().string(), ": ", difference));
+}
+
+Positions fitted_mesh(const Config& config, const Inputs& inputs) {
+  const Config::Attachments& asked = config.attachments;
+  if (!asked.file.empty()) return read_fitted(asked.file, config, inputs);
+  if (!asked.head) return mean_head(inputs.faces);
+  const auto head = static_cast<std::size_t>(*asked.head);
+  // Attachments stand beside a head as its file has it, wherever it was moved since.
+  if (config.faces.align == Align::kRigid) {
+    return read_fitted(config.faces.files[head], config, inputs);
+  }
+  return inputs.faces.heads[head].positions;
+}
+
+Attachment read_item(const Config::Attachment& asked) {
+  Attachment item{asked.name, asked.moves, read_obj(asked.file), {}};
+  item.materials = find_material_files(item.file.path, item.file.material_libraries);
+  return item;
+}
+
+/// In another unit or frame than the heads an attachment is nowhere near them.
+void check_place(const Attachment& item, const Positions& head) {
+  constexpr double kFarthest = 0.5, kLargest = 4;  // of the head's diagonal
+  const Eigen::RowVector3d low = head.colwise().minCoeff(), high = head.colwise().maxCoeff();
+  const Positions& own = item.file.positions;
+  const double diagonal = length3((high - low).transpose());
+  const double size = length3((own.colwise().maxCoeff() - own.colwise().minCoeff()).transpose());
+  const Eigen::RowVector3d middle = (own.colwise().maxCoeff() + own.colwise().minCoeff()) / 2;
+  const Eigen::RowVector3d off = (low - middle).cwiseMax(middle - high).cwiseMax(0.0);
+  if (size <= kLargest * diagonal && length3(off.transpose()) <= kFarthest * diagonal) return;
+  throw InvalidInput(
+      concat(item.file.path.string(),
+             ": expected a mesh beside the head that it was fitted to, in its unit; ",
+             "the head is ", format_fixed(diagonal, 2), " units across, this mesh ",
+             format_fixed(size, 2), ", and its middle is ",
+             format_fixed(length3(off.transpose()), 2), " outside the head's box"));
+}
+
+void add_positions(const Positions& values, Hasher& hasher) {
+  hasher.add_array(std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+}
+
+Digest digest_of(const AttachmentSet& set) {
+  Hasher hasher;
+  add_positions(set.fitted_to, hasher);
+  for (const Attachment& item : set.items) {
+    hasher.add(item.name).add(static_cast<int>(item.moves)).add(hash_bytes(item.file.file.bytes()));
+    for (const MaterialFile& file : item.materials.files) {
+      throw_if_interrupted();
+      hasher.add(file.relative.generic_string()).add(hash_file(file.from).digest);
+    }
+  }
+  return hasher.digest();
+}
+
+}  // namespace
+
+const Attachment& AttachmentSet::at(const std::string& name) const {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const Attachment& item) { return item.name == name; });
+  require(found != items.end(), "attachments: none is called ", name);
+  return *found;
+}
+
+void load_attachments(const Config& config, Inputs& inputs, Problems& problems) {
+  const std::vector<Config::Attachment>& asked = config.attachments.items;
+  if (asked.empty()) return;
+  AttachmentSet set;
+  std::vector<std::optional<Attachment>> items(asked.size());
+  std::vector<std::optional<Error>> errors(asked.size());
+  const std::size_t before = problems.size();
+  try {
+    set.fitted_to = fitted_mesh(config, inputs);
+  } catch (const Error& error) {
+    problems.add(error);
+    return;
+  }
+  parallel_for_each(asked.size(), [&](std::size_t i) {
+    throw_if_interrupted();
+    try {
+      items[i] = read_item(asked[i]);
+      check_place(*items[i], set.fitted_to);
+    } catch (const Error& error) {
+      errors[i] = error;
+    }
+  });
+  for (const auto& error : errors) {
+    if (error) problems.add(*error);
+  }
+  if (problems.size() > before) return;
+  for (std::optional<Attachment>& item : items) {
+    for (const std::string& text : item->materials.warnings) {
+      inputs.warnings.push_back(concat(text, " (attachment ", item->name, ")"));
+      log_warning(inputs.warnings.back());
+    }
+    set.items.push_back(std::move(*item));
+  }
+  const auto& meshes = config.output.meshes;
+  if (!meshes.empty() &&
+      std::find(meshes.begin(), meshes.end(), MeshFormat::kObj) == meshes.end()) {
+    inputs.warnings.emplace_back(
+        "attachments are written beside OBJ files, and output.meshes has no obj: no file has them");
+    log_warning(inputs.warnings.back());
+  }
+  set.digest = digest_of(set);
+  inputs.attachments = std::move(set);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crowdface/heads/face_attachments.h"
+#include "crowdface/io/obj_template.h"
+#include "crowdface/run/mesh_writers.h"
+
+namespace crowdface {
+
+/// Whether attachments have OBJ files of their own beside faces in these formats.
+bool attachments_have_files(std::span<const MeshFormat> formats);
+
+/// The files that a face has in these formats: see mesh_names, and after those its attachments'.
+std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<MeshFormat>& formats,
+                                    const Inputs& inputs);
+
+/// Where the material files of an attachment and the textures that those name lie, beside meshes.
+std::filesystem::path attachment_folder(const std::string& name);
+
+/// Writes attachments as OBJ files: their own, with other positions and the place of their materials.
+class AttachmentWriters {
+ public:
+  /// \param inputs  must outlive this object and all that it encodes.
+  explicit AttachmentWriters(const Inputs& inputs);
+
+  /// Adds the files of what a face wears.
+  /// \param id  the face's, for messages.
+  void add_to(std::vector<EncodedMesh>& meshes, const std::string& id,
+              std::span<const WornAttachment> worn) const;
+
+ private:
+  struct Form {
+    ObjTemplate obj;
+    std::string libraries;  ///< the line that names material files; empty: there is none
+  };
+  std::map<const Attachment*, Form> forms_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hair and glasses on the faces of a crowd.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/verify.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/run/generate.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+class AttachmentsOfACrowd : public ::testing::Test {
+ protected:
+  AttachmentsOfACrowd() : folder_(crowd()) {
+    folder_.folder().write("wear/cap.obj", cap());
+    folder_.folder().write("wear/cap.mtl",
+                           "newmtl hair\nKd 1 1 1\nmap_Kd maps/hair.png\nmap_d maps/hair.png\n");
+    folder_.folder().write("wear/maps/hair.png", "no picture");
+    folder_.folder().write("wear/rod.obj", "v 0 0 1\nv 1 0 1\nv 0 1 1.5\nf 1 2 3\n");
+  }
+  static SmallCrowd crowd() {
+    SmallCrowd crowd;
+    crowd.count = 6;
+    crowd.levels = "basis";
+    crowd.more =
+        "\nattachments:\n"
+        "  fitted_to: ann\n"
+        "  items: [{name: cap, kind: hair, file: wear/cap.obj},\n"
+        "          {name: rod, kind: glasses, file: wear/rod.obj, moves: rigid}]\n"
+        "  none: {glasses: 0.5}\n"
+        "recipes: [{id: herself, target: ann, regions: {all: {iterations: 0, extrapolation: 1}}}]";
+    return crowd;
+  }
+  /// The head ann, a little off her skin.
+  std::string cap() const {
+    const ObjFile ann = read_obj(folder_.head("ann"));
+    const Positions off = ann.positions + 0.1 * vertex_normals(ann.topology, ann.positions);
+    std::string text = "mtllib cap.mtl\n";
+    for (Index v = 0; v < off.rows(); ++v) {
+      text += concat("v ", off(v, 0), ' ', off(v, 1), ' ', off(v, 2), '\n');
+    }
+    text += "usemtl hair\n";
+    for (Index f = 0; f < ann.topology.face_count(); ++f) {
+      text += 'f';
+      for (const std::uint32_t v : ann.topology.face(f)) text += concat(' ', v + 1);
+      text += '\n';
+    }
+    return text;
+  }
+  void run(const std::vector<std::string>& set = {}, Replace replace = Replace::kRefuse) {
+    ConfigOverrides overrides;
+    overrides.set = set;
+    generate(folder_.config(), overrides, {folder_.cache(), replace, false});
+  }
+  fs::path mesh(const std::string& name) const { return folder_.out() / "meshes" / name; }
+  auto faces_built() const {
+    return testing::read_json(folder_.out() / "timings.json").at("faces");
+  }
+
+  SmallCrowdFolder folder_;
+};
+
+TEST_F(AttachmentsOfACrowd, LieBesideTheMeshesOfThoseWhoWearThem) {
+  run();
+  std::size_t with = 0, without = 0;
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const std::string id = line.at("id");
+    const std::vector<std::string> worn = line.at("attachments");
+    EXPECT_THAT(worn, ::testing::Contains("cap"));
+    EXPECT_TRUE(fs::exists(mesh(id + "+cap.obj")));
+    const bool rod = worn.size() == 2;
+    EXPECT_EQ(fs::exists(mesh(id + "+rod.obj")), rod);
+    (rod ? with : without) += 1;
+  }
+  EXPECT_GT(with, 0U);
+  EXPECT_GT(without, 0U);
+  EXPECT_THAT(testing::read_text(folder_.out() / "crowd.csv"), HasSubstr(",attachments\r\n"));
+}
+
+TEST_F(AttachmentsOfACrowd, StandOnTheHeadTheyWereFittedToAsTheyWere) {
+  run();
+  const ObjFile cap = read_obj(folder_ / "wear/cap.obj");
+  const ObjFile own = read_obj(mesh("herself+cap.obj"));
+  EXPECT_EQ(own.topology.corner_vertices, cap.topology.corner_vertices);
+  EXPECT_LT((own.positions - cap.positions).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST_F(AttachmentsOfACrowd, FindTheirMaterialsInAFolderOfTheirOwn) {
+  run();
+  EXPECT_THAT(testing::read_text(mesh("herself+cap.obj")),
+              HasSubstr("mtllib attachments/cap/cap.mtl\n"));
+  EXPECT_EQ(testing::read_text(mesh("attachments/cap/cap.mtl")),
+            testing::read_text(folder_ / "wear/cap.mtl"));
+  EXPECT_EQ(testing::read_text(mesh("attachments/cap/maps/hair.png")), "no picture");
+}
+
+TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
+  run();
+  const auto whole = testing::crowd_files(folder_.out());
+  fs::remove(mesh("herself+cap.obj"));
+  fs::remove(mesh("attachments/cap/cap.mtl"));
+  EXPECT_THAT(
+      verify_crowd(folder_.out()).missing,
+      ::testing::UnorderedElementsAre("meshes/attachments/cap/cap.mtl", "meshes/herself+cap.obj"));
+  run();
+  EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
+  EXPECT_EQ(faces_built(), 1);
+  folder_.folder().write("wear/cap.mtl", "newmtl hair\nKd 1 0 0\n");
+  run();
+  EXPECT_EQ(faces_built(), 7) << "other materials";
+  run({"output.meshes=[]"}, Replace::kForce);
+  EXPECT_FALSE(fs::exists(mesh("herself+cap.obj")));
+}
+
+TEST_F(AttachmentsOfACrowd, ChangeNothingElseOfAPlan) {
+  run();
+  const auto with = testing::plan_lines(folder_.out());
+  run({"attachments=none"}, Replace::kForce);
+  const auto without = testing::plan_lines(folder_.out());
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    auto line = with[i];
+    EXPECT_EQ(line.erase("attachments"), 1U);
+    EXPECT_EQ(line, without[i]);
+  }
+  EXPECT_THAT(testing::read_text(folder_.out() / "config.yaml"), Not(HasSubstr("attachments")));
+}
+
+TEST_F(AttachmentsOfACrowd, AreTheSameInALargerCrowdAndWithAnyThreads) {
+  run();
+  const auto small = testing::crowd_files(folder_.out() / "meshes");
+  const ThreadLimit limit(1);
+  run({"crowd.count=9"}, Replace::kForce);
+  const auto large = testing::crowd_files(folder_.out() / "meshes");
+  for (const auto& [name, bytes] : small) EXPECT_EQ(large.at(name), bytes) << name;
+}
+
+TEST_F(AttachmentsOfACrowd, AreRefusedWhereTheyAreNoHeads) {
+  folder_.folder().write("wear/rod.obj", "v 0 0 900\nv 1 0 900\nv 0 1 900\nf 1 2 3\n");
+  testing::expect_error(ExitCode::kBadData, {"rod.obj", "beside the head"}, [&] { run(); });
+  fs::remove(folder_ / "wear/rod.obj");
+  testing::expect_error(ExitCode::kMissingInput, {"rod.obj", "is missing"}, [&] { run(); });
+}
+
+}  // namespace
+}  // namespace crowdface
