@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the pages: node build.mjs FOLDER writes the gallery (index.html, gallery.js, gallery.css) and
-// the editor (editor.html, editor.js, editor.css) there.
+// Bundles the pages: node build.mjs FOLDER writes the gallery (index.html, gallery.js, gallery.css),
+// the editor (editor.html, editor.js, editor.css) and the page to pick landmarks (pick.html, …) there.
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -14,6 +14,7 @@ await build({
   entryPoints: {
     gallery: join(here, 'src/main.js'),
     editor: join(here, 'src/editor/main.js'),
+    pick: join(here, 'src/pick/main.js'),
   },
   outdir: folder,
   bundle: true,
@@ -27,10 +28,11 @@ await build({
   entryPoints: {
     gallery: join(here, 'src/gallery.css'),
     editor: join(here, 'src/editor/editor.css'),
+    pick: join(here, 'src/pick/pick.css'),
   },
   outdir: folder,
   bundle: true,
   logLevel: 'warning',
 });
-for (const page of ['index.html', 'editor.html']) copyFileSync(join(here, page), join(folder, page));
+for (const page of ['index.html', 'editor.html', 'pick.html']) copyFileSync(join(here, page), join(folder, page));
 copyFileSync(join(here, 'node_modules/three/LICENSE'), join(folder, 'three.LICENSE.txt'));

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Fetches the packages of gallery/package.json, among them those that tests need, and bundles the pages of
-# gallery and editor (gallery/, with three.js) for the program of a preset. Silent when nothing has changed
+# gallery and of commands (gallery/, with three.js) for the program of a preset. Silent when nothing has changed
 # since the last time; needs node and npm.
 #
 #   scripts/build_gallery.sh PRESET      into build/PRESET/share/crowdface/gallery
@@ -14,8 +14,8 @@ place=build/$preset/share/crowdface/gallery
 fetched() {
   cmp -s gallery/package-lock.json "$work/package-lock.json" && [ -d "$work/node_modules/three" ]
 }
-state=$(cat gallery/package*.json gallery/build.mjs gallery/*.html gallery/src/*.* gallery/src/editor/* | cksum)
-fetched && [ -f "$place/editor.js" ] && [ "$(cat "$place/.state" 2>/dev/null)" = "$state" ] && exit 0
+state=$(cat gallery/package*.json gallery/build.mjs gallery/*.html gallery/src/*.* gallery/src/*/* | cksum)
+fetched && [ -f "$place/editor.js" ] && [ -f "$place/pick.js" ] && [ "$(cat "$place/.state" 2>/dev/null)" = "$state" ] && exit 0
 command -v node >/dev/null && command -v npm >/dev/null || {
   echo "node and npm are needed for the gallery: apt-get install nodejs npm" >&2
   exit 69

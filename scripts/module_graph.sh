@@ -32,6 +32,7 @@ region 3
 render 3
 synth 3
 morph 3
+page 3
 parts 3
 lod 4
 paint 4
@@ -43,6 +44,7 @@ cast 5
 texture 5
 config 6
 crowd 6
+pick 7
 heads 7
 pictures 8
 run 9

@@ -167,6 +167,38 @@ export class Stage {
     return (Math.atan2(position.x - target.x, position.z - target.z) * 180) / Math.PI;
   }
 
+  nearer(factor) {
+    const { camera, controls } = this;
+    const away = camera.position.clone().sub(controls.target);
+    away.setLength(Math.min(Math.max(away.length() * factor, controls.minDistance), controls.maxDistance));
+    camera.position.copy(controls.target).add(away);
+    controls.update();
+    this.draw();
+  }
+
+  /// Keys in place of the mouse: turns, or moves across.
+  arrow(key, across) {
+    const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key];
+    const { camera, controls } = this;
+    if (across) {
+      const right = new Vector3().setFromMatrixColumn(camera.matrix, 0).multiplyScalar(-0.06 * x);
+      const move = right.add(new Vector3().setFromMatrixColumn(camera.matrix, 1).multiplyScalar(-0.06 * y));
+      camera.position.add(move);
+      controls.target.add(move);
+      controls.update();
+    } else if (x !== 0) {
+      this.turn(-10 * x);
+    } else {
+      const away = camera.position.clone().sub(controls.target);
+      const axis = new Vector3(0, 1, 0).cross(away).normalize();
+      const steep = (Math.asin(away.y / away.length()) * 180) / Math.PI;
+      if (Math.abs(steep + 8 * y) < 85) away.applyAxisAngle(axis, (-8 * y * Math.PI) / 180);
+      camera.position.copy(controls.target).add(away);
+      controls.update();
+    }
+    this.draw();
+  }
+
   fit() {
     const box = this.node.parentElement?.getBoundingClientRect();
     if (!box || box.width === 0) return;

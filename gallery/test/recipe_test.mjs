@@ -3,10 +3,10 @@
 //   node --test recipe_test.mjs
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { unpack } from './src/editor/api.js';
+import { unpack } from './src/api.js';
 import { cornersAround, normalsOf } from './src/editor/corners.js';
-import { hitTriangle } from './src/editor/hit.js';
-import { History } from './src/editor/history.js';
+import { hitTriangle } from './src/hit.js';
+import { History } from './src/history.js';
 import { ProcessorBlend } from './src/editor/processor_blend.js';
 import {
   amountAt, bandOf, between, coefficients, headAlone, levelOf, takeOver, targetShares, weightsAt, weightsOf, wire,

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edit.h"
 
-#include <cstdlib>
-#include <iostream>
-
-#include <spawn.h>
-#include <unistd.h>
-
-#include "crowdface/core/text.h"
-
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/open_browser.h"
 
 namespace crowdface::cli {
 namespace {
@@ -32,16 +25,6 @@ void declare(CLI::App& command, Options& options) {
   command.add_flag("--no-browser", options.no_browser, "Open no browser, print the address only");
 }
 
-/// Opens the browser where there is a screen to show it on; whether that worked the user sees.
-void open_browser(const std::string& address) {
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  std::string program = "xdg-open", argument = address;
-  char* const arguments[] = {program.data(), argument.data(), nullptr};
-  pid_t process = 0;
-  ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ);
-}
-
 void edit(const Options& options) {
   constexpr std::uint64_t kLargestPort = 65535, kMostVertices = 10'000'000;
   EditOptions edited;
@@ -55,9 +38,7 @@ void edit(const Options& options) {
   }
   crowdface::edit(options.config.config, options.config.overrides, edited,
                   [&](const std::string& address) {
-                    print(concat(address, '\n'));
-                    std::cout.flush();
-                    if (!options.no_browser) open_browser(address);
+                    show_page(address, options.no_browser ? Browser::kNone : Browser::kOpen);
                   });
 }
 

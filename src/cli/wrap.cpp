@@ -17,6 +17,7 @@
 #include "crowdface/wrap/scan_file.h"
 
 #include "cli/commands.h"
+#include "cli/pick.h"
 #include "cli/wrap_inputs.h"
 
 namespace crowdface::cli {
@@ -178,6 +179,10 @@ void wrap_all(const WrapOptions& options) {
 
 /// With the template where --batch has it, too.
 WrapOptions sorted(WrapOptions options) {
+  if (options.pick && (!options.batch.empty() || !options.out.empty())) {
+    throw UsageError("--pick takes TEMPLATE.obj, one SCAN and --landmarks FILE.yaml");
+  }
+  if (!options.pick && options.out.empty()) throw UsageError("-o, --output is required");
   if (options.batch.empty()) {
     if (options.first.empty() || options.scan.empty() || !options.shape.empty()) {
       throw UsageError("expected TEMPLATE.obj and SCAN, or --batch with --template");
@@ -195,8 +200,7 @@ void declare(CLI::App& command, WrapOptions& options) {
   add_option(command, "scan", options.scan, "SCAN.{obj,ply,stl,glb}",
              "The scan, in any unit and pose");
   add_option(command, "-o,--output", options.out, "OUT",
-             "The head to write, or with --batch the folder")
-      ->required();
+             "The head to write, or with --batch the folder");
   add_option(command, "--batch", options.batch, "DIR",
              "A folder of scans, each with its own landmarks beside it (NAME.yaml)");
   add_option(command, "--template", options.shape, "TEMPLATE.obj", "The template, with --batch");
@@ -215,6 +219,12 @@ void declare(CLI::App& command, WrapOptions& options) {
   add_option(command, "--scan-up", options.scan_up, "AXIS", "The same of scans without landmarks");
   add_option(command, "--scan-front", options.scan_front, "AXIS",
              "The same of scans without landmarks");
+  command.add_flag("--pick", options.pick,
+                   "Wrap nothing: open a page on which landmarks are picked and saved");
+  add_option(command, "--port", options.port, "N",
+             "With --pick: the port on 127.0.0.1 to serve at; 0: any that is free");
+  command.add_flag("--no-browser", options.no_browser,
+                   "With --pick: open no browser, print the address only");
   command.add_flag("--no-pictures", options.no_pictures, "Write no picture beside the report");
   command.add_flag("--force", options.force, "Wrap again what is there already");
   command.add_flag("--dry-run", options.dry_run, "Read and check everything, write nothing");
@@ -225,7 +235,10 @@ void declare(CLI::App& command, WrapOptions& options) {
 Run add_wrap(CLI::App& program) {
   return add_command<WrapOptions>(
       program, "wrap", "Bend a template head onto raw scans, so that they share one topology",
-      declare, [](const WrapOptions& options) { wrap_all(sorted(options)); });
+      declare, [](const WrapOptions& options) {
+        const WrapOptions known = sorted(options);
+        known.pick ? pick(known) : wrap_all(known);
+      });
 }
 
 }  // namespace crowdface::cli

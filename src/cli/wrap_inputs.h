@@ -9,18 +9,19 @@
 #include "crowdface/core/hash.h"
 #include "crowdface/core/units.h"
 #include "crowdface/io/obj_file.h"
+#include "crowdface/pick/landmark_file.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/wrap.h"
 
 #include "cli/common_options.h"
-#include "cli/landmark_file.h"
 
 namespace crowdface::cli {
 
 struct WrapOptions : CommonOptions {
   std::string first, scan, shape, landmarks, model, ignore, out, batch;
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
-  bool no_pictures = false, force = false, dry_run = false;
+  std::string port = "0";  ///< of the page of --pick
+  bool no_pictures = false, force = false, dry_run = false, pick = false, no_browser = false;
 };
 
 /// What all scans of a run share.

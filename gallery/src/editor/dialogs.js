@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys, what goes back into the crowd, and the run of the whole crowd.
+// What goes back into the crowd, and the run of the whole crowd.
+import { getJson, post } from '../api.js';
+import { openDialog } from '../dialog.js';
 import { el } from '../dom.js';
-import { getJson, post } from './api.js';
-
-export function openDialog(title, ...children) {
-  const dialog = el('dialog', { 'aria-label': title, onclose: () => dialog.remove() },
-    el('header', {}, el('h2', {}, title), el('span', { class: 'grow' }),
-      el('button', { class: 'plain', onclick: () => dialog.close(), 'aria-label': 'Close' }, '✕')), children);
-  document.body.append(dialog);
-  dialog.showModal();
-  return dialog;
-}
-
-export function showKeys(keys) {
-  openDialog('Keys', el('dl', { class: 'keys' }, keys.map(([key, does]) =>
-    [el('dt', {}, el('kbd', {}, key)), el('dd', {}, does)])));
-}
 
 /// Puts the face back: into the config, or as what is said about a face of the crowd.
 export function showPutBack(editor) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's own face, asked for when the mouse rests.
-import { postForBinary } from './api.js';
+import { postForBinary } from '../api.js';
 
 const rest = 60; // ms
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of `crowdface edit`: one face, directed by hand.
+import { getBinary, getJson, post, postForBlob, put } from '../api.js';
+import { showKeys } from '../dialog.js';
 import { el, short } from '../dom.js';
-import { getBinary, getJson, post, postForBlob, put } from './api.js';
-import { showGenerate, showKeys, showPutBack } from './dialogs.js';
+import { History } from '../history.js';
+import { showGenerate, showPutBack } from './dialogs.js';
 import { Exact } from './exact.js';
 import { HeadView } from './head_view.js';
-import { History } from './history.js';
 import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
 import {

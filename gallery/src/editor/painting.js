@@ -3,9 +3,9 @@
 // stroke. The program measures along the surface; the page tells where the brush was.
 import { Mesh, MeshBasicMaterial, Ray, RingGeometry, Vector2, Vector3 } from 'three';
 import { el } from '../dom.js';
-import { post, postForBinary } from './api.js';
+import { post, postForBinary } from '../api.js';
 import { showAddRegion, showProposeRegions } from './dialogs.js';
-import { hitTriangle } from './hit.js';
+import { hitTriangle } from '../hit.js';
 
 const pause = 30; // ms between points of a stroke
 

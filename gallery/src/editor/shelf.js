@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // States that are kept to compare with, faces to pick from, and the way between two of them.
 import { el } from '../dom.js';
-import { post } from './api.js';
+import { post } from '../api.js';
 import { between, headAlone, takeOver } from './recipe.js';
 
 const mostKept = 12;

@@ -6,38 +6,18 @@
 
 #include "crowdface/config/config_draft.h"
 #include "crowdface/core/error.h"
-#include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/editor/binary_answer.h"
 #include "crowdface/editor/draw_faces.h"
-#include "crowdface/editor/page_files.h"
 #include "crowdface/editor/recipe_json.h"
-#include "crowdface/editor/request_values.h"
+#include "crowdface/page/answer_request.h"
+#include "crowdface/page/binary_answer.h"
+#include "crowdface/page/request_values.h"
+#include "crowdface/pictures/gallery.h"
 
 namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-HttpAnswer binary_answer(std::string bytes) {
-  return {200, "application/octet-stream", std::move(bytes)};
-}
-HttpAnswer refusal(int status, std::string_view sentence) {
-  return json_answer({{"error", sentence}}, status);
-}
-
-int status_of(const Error& error) {
-  switch (error.code()) {
-    case ExitCode::kUsage:
-    case ExitCode::kBadData:
-    case ExitCode::kUnsatisfiable:
-      return 400;
-    case ExitCode::kMissingInput:
-      return 404;
-    default:
-      return 500;
-  }
-}
 
 }  // namespace
 
@@ -48,6 +28,7 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       folder_(folder),
       run_(run),
       open_again_(std::move(open_again)),
+      page_(gallery_page_folder(), "editor"),
       pictures_(session.job()),
       painting_(session, folder.path() / "strokes.jsonl") {}
 
@@ -75,26 +56,15 @@ const std::vector<EditApi::Route>& EditApi::routes() {
 }
 
 HttpAnswer EditApi::answer(const HttpRequest& request) {
-  try {
+  return answer_or_refuse(request, [this](const HttpRequest& asked) {
     for (const Route& route : routes()) {
       const bool is_prefix = route.path.ends_with('/');
-      if (is_prefix ? !request.path.starts_with(route.path) : request.path != route.path) continue;
-      if (route.method != request.method) continue;
-      return (this->*route.answer)(request, request.path.substr(route.path.size()));
+      if (is_prefix ? !asked.path.starts_with(route.path) : asked.path != route.path) continue;
+      if (route.method != asked.method) continue;
+      return (this->*route.answer)(asked, asked.path.substr(route.path.size()));
     }
-    return page(request, request.path);
-  } catch (const Error& error) {
-    return refusal(status_of(error), error.what());
-  } catch (const std::exception& error) {
-    log_error(concat(request.path, ": internal error, please report it: ", error.what()));
-    return refusal(500, "internal error; the program's own window says more");
-  }
-}
-
-HttpAnswer EditApi::page(const HttpRequest& request, const std::string& rest) {
-  auto file = request.method == "GET" ? page_file(rest) : std::nullopt;
-  if (!file) return refusal(404, "there is nothing at this address");
-  return {200, std::move(file->type), std::move(file->bytes)};
+    return page_answer(page_, asked);
+  });
 }
 
 HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {

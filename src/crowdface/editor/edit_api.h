@@ -16,8 +16,9 @@
 #include "crowdface/editor/edit_session.h"
 #include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/generate_run.h"
-#include "crowdface/editor/local_server.h"
 #include "crowdface/editor/region_painting.h"
+#include "crowdface/page/local_server.h"
+#include "crowdface/page/page_files.h"
 
 namespace crowdface {
 
@@ -43,7 +44,6 @@ class EditApi {
   };
   static const std::vector<Route>& routes();
 
-  HttpAnswer page(const HttpRequest& request, const std::string& rest);
   HttpAnswer job(const HttpRequest& request, const std::string& rest);
   HttpAnswer mesh(const HttpRequest& request, const std::string& rest);
   HttpAnswer head(const HttpRequest& request, const std::string& rest);
@@ -83,6 +83,7 @@ class EditApi {
   EditedFolder& folder_;
   GenerateRun& run_;
   std::function<void()> open_again_;
+  PageFiles page_;
   EditPictures pictures_;
   RegionPainting painting_;               ///< under `building_`
   std::mutex building_;                   ///< one face at a time, by all cores

@@ -9,8 +9,8 @@
 #include "crowdface/editor/edit_api.h"
 #include "crowdface/editor/recipe_in_config.h"
 #include "crowdface/editor/recipe_json.h"
-#include "crowdface/editor/request_values.h"
 #include "crowdface/io/shallow_json.h"
+#include "crowdface/page/request_values.h"
 
 namespace crowdface {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "crowdface/core/error.h"
-#include "crowdface/editor/binary_answer.h"
 #include "crowdface/editor/edit_api.h"
 #include "crowdface/editor/regions_in_config.h"
-#include "crowdface/editor/request_values.h"
+#include "crowdface/page/binary_answer.h"
+#include "crowdface/page/request_values.h"
 
 namespace crowdface {
 

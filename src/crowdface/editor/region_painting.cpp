@@ -12,8 +12,8 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
-#include "crowdface/editor/request_values.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/page/request_values.h"
 #include "crowdface/paint/proposed_masks.h"
 #include "crowdface/region/mask_painting.h"
 

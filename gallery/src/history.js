@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every step of an editor: undo, redo, states that are kept to compare with.
+// Every step of a page: undo, redo, states that are kept to compare with.
 
 const most = 400; // steps; some hundred bytes each
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/binary_answer.h"
+#include "crowdface/page/binary_answer.h"
 
 namespace crowdface {
 namespace {

@@ -10,7 +10,7 @@
 #include "crowdface/wrap/scan.h"
 #include "crowdface/wrap/shape_fit.h"
 
-namespace crowdface::cli {
+namespace crowdface {
 
 /// Named places as a file of landmarks has them: numbers of vertices, from 0, or x y z.
 struct LandmarkFile {
@@ -28,10 +28,16 @@ struct LandmarkFile {
 /// \throws UsageError, MissingInput naming every place that is wrong.
 LandmarkFile read_landmarks(const std::filesystem::path& path);
 
+/// The row of the template that a place stands for: of a point the vertex nearest to it.
+/// \throws UsageError if a vertex has no such number.
+std::uint32_t template_vertex(const LandmarkFile::Place& place, const Positions& of_template);
+/// The same of a scan.
+Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan);
+
 /// The names that both have: rows of the template, places on the scan. A point given for the template
 /// stands for the vertex nearest to it.
 /// \throws UsageError if a vertex has no such number.
 std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file, const Positions& of_template,
                                           const Scan& scan);
 
-}  // namespace crowdface::cli
+}  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/local_server.h"
+#include "crowdface/page/local_server.h"
 
 #include <atomic>
 #include <string>

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crowdface/editor/local_server.h"
+#include "crowdface/page/local_server.h"
 
 namespace crowdface {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page asks the program, relative to its own address.
+// What a page asks the program, relative to its own address.
 
 const kinds = {
   f32: Float32Array, u32: Uint32Array, i32: Int32Array, i16: Int16Array, u16: Uint16Array, u8: Uint8Array,
@@ -27,7 +27,7 @@ async function answer(path, options) {
     response = await fetch(`api/${path}`, options);
   } catch (error) {
     if (error.name === 'AbortError') throw error;
-    throw new Error('the program does not answer: is crowdface edit still running?');
+    throw new Error('the program does not answer: is crowdface still running?');
   }
   if (response.ok) return response;
   const told = await response.json().catch(() => null);
@@ -66,5 +66,6 @@ export async function postForBlob(path, body) {
 /// \param leaving  true as the page goes away: the browser sends it all the same, up to 64 kB.
 export async function put(path, body, leaving = false) {
   const options = withBody('PUT', body);
-  await answer(path, { ...options, keepalive: leaving && options.body.length < 60000 });
+  const text = await (await answer(path, { ...options, keepalive: leaving && options.body.length < 60000 })).text();
+  return text ? JSON.parse(text) : {};
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/landmark_file.h"
+#include "crowdface/pick/landmark_file.h"
 
 #include "crowdface/config/config_values.h"
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
 
-namespace crowdface::cli {
+namespace crowdface {
 namespace {
 
 constexpr std::size_t kMost = 100;
@@ -84,24 +84,26 @@ LandmarkFile read_landmarks(const std::filesystem::path& path) {
   return file;
 }
 
+std::uint32_t template_vertex(const LandmarkFile::Place& place, const Positions& of_template) {
+  return place.is_vertex ? vertex_of(place, of_template.rows(), "template")
+                         : nearest_vertex(of_template, place.point);
+}
+
+Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan) {
+  if (!place.is_vertex) return place.point;
+  return scan.positions.row(vertex_of(place, scan.positions.rows(), "scan")).transpose();
+}
+
 std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file, const Positions& of_template,
                                           const Scan& scan) {
   std::vector<WrapLandmark> landmarks;
   for (const auto& [name, place] : file.of_template) {
     const auto on_scan = file.of_scan.find(name);
     if (on_scan == file.of_scan.end()) continue;
-    WrapLandmark landmark;
-    landmark.name = name;
-    landmark.vertex = place.is_vertex ? vertex_of(place, of_template.rows(), "template")
-                                      : nearest_vertex(of_template, place.point);
-    landmark.place =
-        on_scan->second.is_vertex
-            ? scan.positions.row(vertex_of(on_scan->second, scan.positions.rows(), "scan"))
-                  .transpose()
-            : on_scan->second.point;
-    landmarks.push_back(landmark);
+    landmarks.push_back(
+        {name, template_vertex(place, of_template), scan_point(on_scan->second, scan)});
   }
   return landmarks;
 }
 
-}  // namespace crowdface::cli
+}  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/request_values.h"
+#include "crowdface/page/request_values.h"
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"

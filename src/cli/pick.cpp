@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/pick.h"
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/output_file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/pick/pick.h"
+#include "crowdface/pictures/gallery.h"
+#include "crowdface/wrap/scan_file.h"
+
+#include "cli/open_browser.h"
+
+namespace crowdface::cli {
+namespace {
+
+/// The file to write, which need not be there yet.
+std::filesystem::path landmarks_file(const WrapOptions& options) {
+  if (options.landmarks.empty()) {
+    throw UsageError("--pick: expected --landmarks FILE.yaml, where they are saved");
+  }
+  if (lower_case(std::filesystem::path(options.landmarks).extension().string()) != ".yaml") {
+    throw UsageError(concat("--landmarks ", options.landmarks, ": expected a name.yaml"));
+  }
+  std::filesystem::path file = output_file(options.landmarks);
+  refuse_to_write_over({options.shape, options.scan}, file);
+  return file;
+}
+
+}  // namespace
+
+void pick(const WrapOptions& options) {
+  constexpr std::uint64_t kLargestPort = 65535;
+  PickOptions picked;
+  picked.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
+  picked.pages = gallery_page_folder();
+  WrapOptions without_landmarks = options;
+  without_landmarks.landmarks.clear();  // read with the scan
+  const std::filesystem::path file = landmarks_file(options);
+  const WrapInputs inputs = read_wrap_inputs(without_landmarks);
+  pick_landmarks({inputs.shape, inputs.file.positions * inputs.mm, inputs.file.positions,
+                  read_scan(options.scan), inputs.hint, options.shape, options.scan, file},
+                 picked, [&](const std::string& address) {
+                   show_page(address, options.no_browser ? Browser::kNone : Browser::kOpen);
+                 });
+}
+
+}  // namespace crowdface::cli

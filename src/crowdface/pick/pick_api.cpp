@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pick/pick_api.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/page/answer_request.h"
+#include "crowdface/page/request_values.h"
+#include "crowdface/pick/landmark_names.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kFarthest = 1e9;  // as read_landmarks allows
+constexpr std::size_t kMostLandmarks = 100, kLongestName = 64;
+
+Json list_of(const Eigen::Vector3d& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+Json place_json(const PickedPlace& place, bool with_vertex) {
+  Json json = {{"point", list_of(place.point)}, {"normal", list_of(place.normal)}};
+  if (with_vertex) json["vertex"] = place.vertex;
+  return json;
+}
+
+Json stands_json(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
+  return {{"up", list_of(up)}, {"front", list_of(front)}};
+}
+
+/// From the template's millimetres to the scan's unit.
+Json pose_json(const Similarity& pose) {
+  Json rows = Json::array();
+  for (int r = 0; r < 3; ++r) rows.push_back(list_of(pose.rotation.row(r).transpose()));
+  return {{"scale", pose.scale}, {"rotation", rows}, {"translation", list_of(pose.translation)}};
+}
+
+Eigen::Vector3d vector_of(const Json& json, const std::string& key) {
+  Eigen::Vector3d v;
+  bool good = json.is_array() && json.size() == 3;
+  for (std::size_t c = 0; good && c < 3; ++c) {
+    good = json[c].is_number();
+    if (good) v[static_cast<Index>(c)] = json[c].get<double>();
+  }
+  if (!good || !(v.cwiseAbs().maxCoeff() <= kFarthest)) {
+    throw UsageError(concat(key, ": expected three numbers"));
+  }
+  return v;
+}
+
+std::uint32_t vertex_of(const Json& json, Index count, const std::string& key) {
+  if (!json.is_number_unsigned() ||
+      json.get<std::uint64_t>() >= static_cast<std::uint64_t>(count)) {
+    throw UsageError(concat(key, ": expected a vertex from 0 to ", count - 1));
+  }
+  return json.get<std::uint32_t>();
+}
+
+/// A name that a file of landmarks can hold.
+std::string name_in(const Json& body) {
+  std::string name = text_in(body, "name");
+  if (name.empty() || name.size() > kLongestName || printable(name) != name ||
+      name.find('\n') != std::string::npos) {
+    throw UsageError(concat("name: expected 1 to ", kLongestName,
+                            " letters without control characters, found ",
+                            quoted(std::string_view(name))));
+  }
+  return name;
+}
+
+Json landmark_json(const PickedLandmark& landmark, const PickSession& session) {
+  Json json = {{"name", landmark.name}, {"template", nullptr}, {"scan", nullptr}};
+  if (landmark.vertex) {
+    json["template"] = place_json(session.of_template().at_vertex(*landmark.vertex), true);
+  }
+  if (landmark.point) {
+    json["scan"] = place_json(session.of_scan().at_point(*landmark.point), false);
+    if (landmark.scan_vertex) json["scan"]["vertex"] = *landmark.scan_vertex;
+  }
+  return json;
+}
+
+}  // namespace
+
+PickApi::PickApi(PickSession& session, std::optional<std::filesystem::path> pages,
+                 std::size_t most_triangles)
+    : session_(session), page_(std::move(pages), "pick"), most_triangles_(most_triangles) {}
+
+HttpAnswer PickApi::answer(const HttpRequest& request) {
+  return answer_or_refuse(request, [this](const HttpRequest& asked) {
+    const auto is = [&](const char* method, const char* path) {
+      return asked.method == method && asked.path == path;
+    };
+    if (is("GET", "api/job")) return job();
+    if (is("GET", "api/mesh/template")) {
+      return binary_answer(session_.of_template().preview(most_triangles_));
+    }
+    if (is("GET", "api/mesh/scan")) {
+      return binary_answer(session_.of_scan().preview(most_triangles_));
+    }
+    if (is("POST", "api/pick")) return pick(body_of(asked));
+    if (is("POST", "api/suggest")) return suggest(body_of(asked));
+    if (is("PUT", "api/landmarks")) return save(body_of(asked));
+    return page_answer(page_, asked);
+  });
+}
+
+HttpAnswer PickApi::job() const {
+  const PickInputs& inputs = session_.inputs();
+  const HeadAxes& axes = inputs.shape.axes;
+  Json names = Json::array(), landmarks = Json::array();
+  for (const LandmarkName& known : suggested_landmarks()) {
+    names.push_back({{"name", known.name}, {"where", known.where}});
+  }
+  for (const PickedLandmark& landmark : session_.landmarks()) {
+    landmarks.push_back(landmark_json(landmark, session_));
+  }
+  const auto file_name = [](const std::filesystem::path& path) { return path.filename().string(); };
+  return json_answer(
+      {{"template",
+        {{"name", file_name(inputs.template_file)}, {"stands", stands_json(axes.up, axes.front)}}},
+       {"scan",
+        {{"name", file_name(inputs.scan_file)},
+         {"stands", stands_json(session_.scan_stands().up, session_.scan_stands().front)}}},
+       {"file", inputs.landmarks.string()},
+       {"loses_comments", session_.loses_comments()},
+       {"names", names},
+       {"landmarks", landmarks}});
+}
+
+HttpAnswer PickApi::pick(const Json& body) const {
+  const std::string mesh = text_in(body, "mesh");
+  const bool on_template = mesh == "template";
+  if (!on_template && mesh != "scan") throw UsageError("mesh: expected template or scan");
+  const Eigen::Vector3d origin = vector_of(body.value("origin", Json()), "origin");
+  const Eigen::Vector3d direction = vector_of(body.value("direction", Json()), "direction");
+  if (direction.isZero()) throw UsageError("direction: expected one");
+  const auto place = on_template ? session_.pick_on_template(origin, direction)
+                                 : session_.pick_on_scan(origin, direction);
+  return json_answer({{"place", place ? place_json(*place, on_template) : Json()}});
+}
+
+std::vector<PickedLandmark> PickApi::landmarks_in(const Json& body) const {
+  const Json list = body.value("landmarks", Json());
+  if (!list.is_array() || list.size() > kMostLandmarks) {
+    throw UsageError(concat("landmarks: expected a list of at most ", kMostLandmarks));
+  }
+  std::vector<PickedLandmark> landmarks;
+  std::set<std::string> names;
+  for (const Json& item : list) {
+    if (!item.is_object()) throw UsageError("landmarks: expected mappings");
+    PickedLandmark landmark;
+    landmark.name = name_in(item);
+    if (!names.insert(landmark.name).second) {
+      throw UsageError(concat("landmarks: expected different names, found ",
+                              quoted(std::string_view(landmark.name)), " twice"));
+    }
+    const Json vertex = item.value("template", Json()), place = item.value("scan", Json());
+    if (!vertex.is_null()) {
+      landmark.vertex = vertex_of(vertex, session_.of_template().positions().rows(), landmark.name);
+    }
+    const Positions& scan = session_.of_scan().positions();
+    if (place.is_number()) {
+      landmark.scan_vertex = vertex_of(place, scan.rows(), landmark.name);
+      landmark.point = scan.row(*landmark.scan_vertex).transpose();
+    } else if (!place.is_null()) {
+      landmark.point = vector_of(place, landmark.name);
+    }
+    landmarks.push_back(landmark);
+  }
+  return landmarks;
+}
+
+HttpAnswer PickApi::suggest(const Json& body) const {
+  const SuggestedPlaces places = session_.suggest(landmarks_in(body));
+  Json of_template = Json::object(), of_scan = Json::object(), residuals = Json::object();
+  for (const auto& [name, place] : places.of_template) of_template[name] = place_json(place, true);
+  for (const auto& [name, place] : places.of_scan) of_scan[name] = place_json(place, false);
+  Json pose;
+  if (places.pose) {
+    for (const auto& [name, residual] : places.pose->residuals) {
+      residuals[name] = {{"mm", residual.mm}, {"outlier", residual.outlier}};
+    }
+    pose = pose_json(places.pose->pose);
+  }
+  return json_answer(
+      {{"template", of_template}, {"scan", of_scan}, {"residuals", residuals}, {"pose", pose}});
+}
+
+HttpAnswer PickApi::save(const Json& body) {
+  const std::vector<PickedLandmark> landmarks = landmarks_in(body);
+  session_.save(landmarks);
+  std::size_t pairs = 0;
+  for (const PickedLandmark& landmark : landmarks) {
+    if (landmark.vertex && landmark.point) ++pairs;
+  }
+  return json_answer({{"file", session_.inputs().landmarks.string()}, {"pairs", pairs}});
+}
+
+}  // namespace crowdface

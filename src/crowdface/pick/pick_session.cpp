@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pick/pick_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/paint/face_marks.h"
+#include "crowdface/pick/landmark_names.h"
+#include "crowdface/pick/proposed_landmarks.h"
+#include "crowdface/preview/reduced_mesh.h"
+
+namespace crowdface {
+namespace {
+
+/// What stands in front of the skin and is none: eyes, teeth.
+std::vector<Triangle> solid_parts(const WrapTemplate& shape) {
+  std::vector<Triangle> parts;
+  for (const Triangle& t : solid_triangles(shape)) {
+    if (shape.parts.classes[shape.components.of_vertex[t[0]]] != PartClass::kSkin) {
+      parts.push_back(t);
+    }
+  }
+  return parts;
+}
+
+std::vector<Triangle> skin_triangles(const WrapTemplate& shape) {
+  std::vector<Triangle> triangles = shape.skin.triangles;
+  for (Triangle& t : triangles) {
+    for (std::uint32_t& v : t) v = shape.skin.vertices[v];
+  }
+  return triangles;
+}
+
+/// Tries the axes; a scan that stands slanted is turned by hand, or by its first landmarks.
+PoseHint guess_bearing(const Scan& scan) {
+  constexpr std::size_t kEnough = 30000;
+  const std::vector<Triangle> reduced = reduce_triangles(scan.triangles, scan.positions, kEnough);
+  HeadShape head;
+  head.positions = scan.positions;
+  head.skin = used_vertices({scan.positions, reduced});
+  const auto bearing = find_bearing(topology_of(reduced, scan.positions.rows()), head);
+  if (!bearing) return {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  return {unit_vector(bearing->up), unit_vector(bearing->front)};
+}
+
+double rounded_to(double value, double step) {
+  return std::round(value / step) * step;
+}
+
+/// The power of ten that is at most a millionth of the mesh's size.
+double step_of(const PickableMesh& mesh) {
+  const double size = length3(mesh.high() - mesh.low());
+  return size > 0 ? std::pow(10.0, std::floor(std::log10(size)) - 6) : 1e-6;
+}
+
+std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInputs& inputs) {
+  std::map<std::string, PickedLandmark> by_name;
+  for (const auto& [name, place] : file.of_template) {
+    by_name[name].vertex = template_vertex(place, inputs.of_file);
+  }
+  for (const auto& [name, place] : file.of_scan) {
+    PickedLandmark& landmark = by_name[name];
+    landmark.point = scan_point(place, inputs.scan);
+    if (place.is_vertex) landmark.scan_vertex = static_cast<std::uint32_t>(place.vertex);
+  }
+  std::vector<PickedLandmark> landmarks;
+  const auto take = [&](const std::string& name) {
+    const auto found = by_name.extract(name);
+    if (found.empty()) return;
+    landmarks.push_back(found.mapped());
+    landmarks.back().name = name;
+  };
+  for (const LandmarkName& known : suggested_landmarks()) take(std::string(known.name));
+  while (!by_name.empty()) take(std::string(by_name.begin()->first));
+  return landmarks;
+}
+
+}  // namespace
+
+PickSession::PickSession(PickInputs inputs)
+    : inputs_(std::move(inputs)),
+      template_(inputs_.positions, skin_triangles(inputs_.shape), solid_parts(inputs_.shape)),
+      scan_(inputs_.scan.positions, inputs_.scan.triangles),
+      plane_(middle_plane(inputs_.shape, inputs_.positions)),
+      proposals_(propose_landmarks(inputs_.shape, template_)),
+      stands_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
+      known_(text_on_disk()) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(inputs_.landmarks, ignored)) return;
+  landmarks_ = landmarks_of(read_landmarks(inputs_.landmarks), inputs_);
+}
+
+std::vector<PickedLandmark> PickSession::landmarks() const {
+  const std::lock_guard lock(mutex_);
+  return landmarks_;
+}
+
+bool PickSession::loses_comments() const {
+  const std::lock_guard lock(mutex_);
+  return has_more_comments(known_);
+}
+
+std::string PickSession::text_on_disk() const {
+  std::error_code ignored;
+  return std::filesystem::exists(inputs_.landmarks, ignored) ? read_file(inputs_.landmarks)
+                                                             : std::string();
+}
+
+std::optional<PickedPlace> PickSession::pick_on_template(const Eigen::Vector3d& origin,
+                                                         const Eigen::Vector3d& direction) const {
+  constexpr double kBesideMm = 3;
+  const auto place = template_.cast(origin, direction, kBesideMm);
+  if (!place) return std::nullopt;
+  return template_.at_vertex(place->vertex);
+}
+
+std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& origin,
+                                                     const Eigen::Vector3d& direction) const {
+  auto place = scan_.cast(origin, direction, 0);
+  if (!place) return std::nullopt;
+  const double step = step_of(scan_);
+  for (double& x : place->point) {
+    // By way of a text, so that a decimal number stays the one that is shown.
+    const int decimals = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 15);
+    x = parse_double(format_fixed(rounded_to(x, step), decimals)).value_or(x);
+  }
+  return place;
+}
+
+SuggestedPlaces PickSession::suggest(const std::vector<PickedLandmark>& landmarks) const {
+  return suggest_places(landmarks, template_, scan_, plane_, proposals_);
+}
+
+void PickSession::save(const std::vector<PickedLandmark>& landmarks) {
+  const std::lock_guard lock(mutex_);
+  const std::string before = text_on_disk();
+  if (before != known_) {
+    known_ = before;
+    throw UsageError(concat(inputs_.landmarks.string(),
+                            " has been changed by another program since it was read; save again to "
+                            "write over it"));
+  }
+  std::string text = format_landmarks(landmarks, opening_comments(before));
+  write_file(inputs_.landmarks, text);
+  known_ = std::move(text);
+  landmarks_ = landmarks;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pick/pickable_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/page/binary_answer.h"
+#include "crowdface/preview/reduced_mesh.h"
+
+namespace crowdface {
+namespace {
+
+std::vector<Quad> quads_of(const std::vector<Triangle>& skin, const std::vector<Triangle>& others) {
+  std::vector<Quad> quads;
+  quads.reserve(skin.size() + others.size());
+  for (const std::vector<Triangle>* triangles : {&skin, &others}) {
+    for (const Triangle& t : *triangles) quads.push_back({t[0], t[1], t[2], t[2]});
+  }
+  return quads;
+}
+
+/// Boxes are of what triangles use: vertices that none has may lie anywhere.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> box_of(const Positions& positions,
+                                                   const std::vector<Triangle>& triangles) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = -low;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) {
+      low = low.cwiseMin(row3(positions, v));
+      high = high.cwiseMax(row3(positions, v));
+    }
+  }
+  if (triangles.empty()) low = high = Eigen::Vector3d::Zero();
+  return {low, high};
+}
+
+/// Counted from the middle, because rays are traced in single precision and scans may lie far from zero.
+std::vector<float> points_around(const Positions& positions, const Eigen::Vector3d& middle) {
+  std::vector<float> points;
+  points.reserve(static_cast<std::size_t>(positions.size()));
+  for (Index v = 0; v < positions.rows(); ++v) {
+    for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(positions(v, c) - middle[c]));
+  }
+  return points;
+}
+
+std::vector<Triangle> joined(std::vector<Triangle> triangles, const std::vector<Triangle>& more) {
+  triangles.insert(triangles.end(), more.begin(), more.end());
+  return triangles;
+}
+
+}  // namespace
+
+PickableMesh::PickableMesh(Positions positions, std::vector<Triangle> skin,
+                           const std::vector<Triangle>& others)
+    : positions_(std::move(positions)),
+      skin_(std::move(skin)),
+      quads_(quads_of(skin_, others)),
+      normals_(vertex_normals(joined(skin_, others), positions_)),
+      scene_([&]() -> RayScene {
+        std::tie(low_, high_) = box_of(positions_, skin_);
+        middle_ = (low_ + high_) / 2;
+        return RayScene(device_, points_around(positions_, middle_), quads_);
+      }()),
+      tree_(positions_, skin_) {}
+
+PickedPlace PickableMesh::place_of(const Triangle& corners,
+                                   const std::array<double, 3>& shares) const {
+  PickedPlace place;
+  for (std::size_t k = 0; k < 3; ++k) {
+    place.point += shares[k] * row3(positions_, corners[k]);
+    place.normal += shares[k] * row3(normals_, corners[k]);
+  }
+  place.normal = unit3(place.normal);
+  place.vertex =
+      *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return (row3(positions_, a) - place.point).squaredNorm() <
+               (row3(positions_, b) - place.point).squaredNorm();
+      });
+  return place;
+}
+
+std::optional<PickableMesh::Met> PickableMesh::meet(const Eigen::Vector3d& origin,
+                                                    const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d way = unit3(direction);
+  const Ray ray{(origin - middle_).cast<float>(), way.cast<float>()};
+  const auto hit = scene_.nearest_hits(std::span(&ray, 1)).front();
+  if (!hit) return std::nullopt;
+  const Quad& quad = quads_[hit->primitive];
+  const double u = hit->u, v = hit->v;
+  return Met{hit->primitive, hit->primitive < skin_.size(),
+             (1 - u - v) * row3(positions_, quad[0]) + u * row3(positions_, quad[1]) +
+                 v * row3(positions_, quad[2])};
+}
+
+std::optional<PickedPlace> PickableMesh::cast(const Eigen::Vector3d& origin,
+                                              const Eigen::Vector3d& direction,
+                                              double beside) const {
+  const auto met = meet(origin, direction);
+  if (!met) return std::nullopt;
+  if (met->is_skin) {
+    const Triangle& corners = skin_[met->triangle];
+    return place_of(corners, nearest_on_triangle(positions_, corners, met->point).shares);
+  }
+  const SurfaceHit hit = tree_.nearest_facing(met->point, -unit3(direction), 0, beside);
+  if (hit.triangle == kNoIndex) return std::nullopt;
+  return place_of(skin_[hit.triangle], hit.shares);
+}
+
+std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,
+                                                 const Eigen::Vector3d& facing, double least_cosine,
+                                                 double reach) const {
+  const SurfaceHit hit = tree_.nearest_facing(point, facing, least_cosine, reach);
+  if (hit.triangle == kNoIndex) return std::nullopt;
+  return place_of(skin_[hit.triangle], hit.shares);
+}
+
+PickedPlace PickableMesh::at_vertex(std::uint32_t vertex) const {
+  return {vertex, row3(positions_, vertex), row3(normals_, vertex)};
+}
+
+PickedPlace PickableMesh::at_point(const Eigen::Vector3d& point) const {
+  const SurfaceHit hit = tree_.nearest(point, std::numeric_limits<double>::infinity());
+  if (hit.triangle == kNoIndex) return {kNoIndex, point, Eigen::Vector3d::Zero()};
+  PickedPlace place = place_of(skin_[hit.triangle], hit.shares);
+  place.point = point;
+  return place;
+}
+
+std::string PickableMesh::preview(std::size_t most_triangles) const {
+  std::vector<Triangle> all;
+  all.reserve(quads_.size());
+  for (const Quad& quad : quads_) all.push_back({quad[0], quad[1], quad[2]});
+  all = reduce_triangles(all, positions_, most_triangles);
+
+  std::vector<bool> is_skin(static_cast<std::size_t>(positions_.rows()));
+  for (const Triangle& t : skin_) {
+    for (const std::uint32_t v : t) is_skin[v] = true;
+  }
+  constexpr double kSteps = 32767;
+  std::vector<std::uint32_t> row(is_skin.size(), kNoIndex), triangles;
+  std::vector<float> points;
+  std::vector<std::int16_t> normals;
+  std::vector<std::uint8_t> part;
+  for (const Triangle& t : all) {
+    for (const std::uint32_t v : t) {
+      if (row[v] == kNoIndex) {
+        row[v] = static_cast<std::uint32_t>(part.size());
+        for (int c = 0; c < 3; ++c) {
+          points.push_back(static_cast<float>(positions_(v, c) - middle_[c]));
+          normals.push_back(static_cast<std::int16_t>(std::lround(kSteps * normals_(v, c))));
+        }
+        part.push_back(is_skin[v] ? 0 : 1);
+      }
+      triangles.push_back(row[v]);
+    }
+  }
+  BinaryAnswer answer;
+  const auto list = [](const Eigen::Vector3d& v) {
+    return nlohmann::ordered_json::array({v.x(), v.y(), v.z()});
+  };
+  answer.head["origin"] = list(middle_);
+  answer.head["low"] = list(low_ - middle_);
+  answer.head["high"] = list(high_ - middle_);
+  answer.head["whole_triangles"] = quads_.size();
+  answer.add("positions", std::span<const float>(points));
+  answer.add("normals", std::span<const std::int16_t>(normals));
+  answer.add("triangles", std::span<const std::uint32_t>(triangles));
+  answer.add("part", std::span<const std::uint8_t>(part));
+  return answer.bytes();
+}
+
+}  // namespace crowdface

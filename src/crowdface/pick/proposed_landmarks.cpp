@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pick/proposed_landmarks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/paint/face_marks.h"
+
+namespace crowdface {
+namespace {
+
+HeadShape head_of(const WrapTemplate& shape, const Positions& positions) {
+  HeadShape head;
+  head.positions = positions;
+  for (const std::uint32_t c : shape.components.of_vertex) {
+    head.skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
+  }
+  for (const Part& part : shape.parts.parts) {
+    if (part.eyeball) head.eyeballs.push_back(shape.parts.shapes[part.ball].centre);
+  }
+  return head;
+}
+
+/// Looks at a head from the front, along its axes.
+class FrontView {
+ public:
+  FrontView(const PickableMesh& mesh, const HeadAxes& axes)
+      : mesh_(mesh), axes_(axes), side_(axes.side()) {
+    const Eigen::Vector3d middle = (mesh.low() + mesh.high()) / 2;
+    start_ = dot3(middle, axes.front) + length3(mesh.high() - mesh.low());
+  }
+  std::optional<PickableMesh::Met> look(double across, double height) const {
+    return mesh_.meet(across * side_ + height * axes_.up + start_ * axes_.front, -axes_.front);
+  }
+  std::optional<PickedPlace> place(double across, double height) const {
+    return mesh_.cast(across * side_ + height * axes_.up + start_ * axes_.front, -axes_.front,
+                      kBesideMm);
+  }
+  double across(const Eigen::Vector3d& point) const { return dot3(point, side_); }
+  double height(const Eigen::Vector3d& point) const { return dot3(point, axes_.up); }
+  double front(const Eigen::Vector3d& point) const { return dot3(point, axes_.front); }
+  const HeadAxes& axes() const { return axes_; }
+  const PickableMesh& mesh() const { return mesh_; }
+
+ private:
+  static constexpr double kBesideMm = 6;
+  const PickableMesh& mesh_;
+  const HeadAxes& axes_;
+  Eigen::Vector3d side_;
+  double start_ = 0;
+};
+
+using Proposals = std::map<std::string, std::uint32_t>;
+
+void add(const std::string& name, const std::optional<PickedPlace>& place, Proposals& proposals) {
+  if (place) proposals[name] = place->vertex;
+}
+
+/// Of the skin's outline in the middle, between two heights, the place where `measure` is most.
+template <class Measure>
+std::optional<Eigen::Vector3d> best_of_outline(const FrontView& view, double middle, double low,
+                                               double high, const Measure& measure) {
+  constexpr int kSteps = 200;
+  std::optional<Eigen::Vector3d> best;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kSteps; ++i) {
+    const auto met = view.look(middle, low + (high - low) * i / kSteps);
+    if (!met || !met->is_skin) continue;
+    const double value = measure(met->point);
+    if (value <= most) continue;
+    most = value;
+    best = met->point;
+  }
+  return best;
+}
+
+void propose_middle(const FrontView& view, const FaceMarks& marks, Proposals& proposals) {
+  // Of the way from mouth to eyes, some 65 mm.
+  constexpr double kAroundTip = 0.08, kLipBegins = 0.02, kLipEnds = 0.15;
+  constexpr double kChinEnds = 0.45;  // of the way from its lowest point to the mouth
+  const double face = marks.face(), mouth = marks.mouth;
+  const auto foremost = [&](double low, double high) {
+    return best_of_outline(view, marks.middle, low, high,
+                           [&](const Eigen::Vector3d& point) { return view.front(point); });
+  };
+  const auto keep = [&](const char* name, const std::optional<Eigen::Vector3d>& point) {
+    if (point) add(name, view.place(marks.middle, view.height(*point)), proposals);
+  };
+  const auto tip = foremost(marks.tip - kAroundTip * face, marks.tip + kAroundTip * face);
+  const auto lip = foremost(mouth + kLipBegins * face, mouth + kLipEnds * face);
+  keep("nose_tip", tip);
+  keep("lip_upper", lip);
+  keep("lip_lower", foremost(mouth - kLipEnds * face, mouth - kLipBegins * face));
+  keep("chin", foremost(marks.chin, marks.chin + kChinEnds * (mouth - marks.chin)));
+  add("nose_bridge", view.place(marks.middle, marks.bridge), proposals);
+  if (!tip || !lip) return;
+  // The base of the nose lies deepest behind the line from its tip to the lip.
+  const double run = view.height(*tip) - view.height(*lip);
+  const double slope = (view.front(*tip) - view.front(*lip)) / run;
+  keep("nose_base", best_of_outline(view, marks.middle, view.height(*lip), view.height(*tip),
+                                    [&](const Eigen::Vector3d& point) {
+                                      const double line =
+                                          view.front(*lip) +
+                                          slope * (view.height(point) - view.height(*lip));
+                                      return line - view.front(point);
+                                    }));
+}
+
+/// Where an eyeball shows between the lids, from the front.
+struct Opening {
+  std::vector<Eigen::Vector3d> seen;
+
+  /// The place that lies farthest along a direction.
+  Eigen::Vector3d farthest(const Eigen::Vector3d& direction) const {
+    return *std::max_element(seen.begin(), seen.end(),
+                             [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+                               return dot3(a, direction) < dot3(b, direction);
+                             });
+  }
+};
+
+Opening find_opening(const FrontView& view, const Eigen::Vector3d& centre, double radius) {
+  constexpr int kSteps = 48;  // to each side
+  constexpr double kFar = 1.2;
+  Opening opening;
+  for (int x = -kSteps; x <= kSteps; ++x) {
+    for (int y = -kSteps; y <= kSteps; ++y) {
+      const auto met = view.look(view.across(centre) + kFar * radius * x / kSteps,
+                                 view.height(centre) + kFar * radius * y / kSteps);
+      if (met && !met->is_skin && length3(met->point - centre) < kFar * radius) {
+        opening.seen.push_back(met->point);
+      }
+    }
+  }
+  return opening;
+}
+
+void propose_eye(const FrontView& view, double middle, const Eigen::Vector3d& centre, double radius,
+                 Proposals& proposals) {
+  constexpr double kReachMm = 6, kHalfSlit = 0.05;  // of the radius: about the middle of the lids
+  const Opening opening = find_opening(view, centre, radius);
+  if (opening.seen.empty()) return;
+  const HeadAxes& axes = view.axes();
+  const bool is_left = view.across(centre) > middle;
+  const std::string half = is_left ? "_left" : "_right";
+  const Eigen::Vector3d outwards = is_left ? axes.side() : Eigen::Vector3d(-axes.side());
+  const auto keep = [&](const char* name, const Eigen::Vector3d& seen) {
+    add(name + half, view.mesh().nearest(seen, axes.front, 0, kReachMm), proposals);
+  };
+  const Eigen::Vector3d outer = opening.farthest(outwards), inner = opening.farthest(-outwards);
+  keep("eye_outer", outer);
+  keep("eye_inner", inner);
+  const double between = (view.across(outer) + view.across(inner)) / 2;
+  Opening slit;
+  for (const Eigen::Vector3d& point : opening.seen) {
+    if (std::abs(view.across(point) - between) <= kHalfSlit * radius) slit.seen.push_back(point);
+  }
+  if (slit.seen.empty()) return;
+  keep("lid_upper", slit.farthest(axes.up));
+  keep("lid_lower", slit.farthest(-axes.up));
+}
+
+}  // namespace
+
+std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape,
+                                                       const PickableMesh& mesh) {
+  Proposals proposals;
+  const auto marks = find_face_marks(shape.topology, head_of(shape, mesh.positions()), shape.axes);
+  if (!marks) return proposals;
+  const FrontView view(mesh, shape.axes);
+  propose_middle(view, *marks, proposals);
+  for (const Part& part : shape.parts.parts) {
+    if (!part.eyeball) continue;
+    const ComponentShape& ball = shape.parts.shapes[part.ball];
+    propose_eye(view, marks->middle, ball.centre, ball.radius, proposals);
+  }
+  return proposals;
+}
+
+MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions) {
+  return {shape.axes.side(), middle_of(shape.topology, head_of(shape, positions), shape.axes)};
+}
+
+}  // namespace crowdface

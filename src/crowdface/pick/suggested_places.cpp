@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pick/suggested_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/SVD>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/pick/landmark_names.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kFewest = 3;
+
+struct Pair {
+  std::string name;
+  Eigen::Vector3d from, to;
+};
+
+std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
+                           const Positions& of_template) {
+  std::vector<Pair> pairs;
+  for (const PickedLandmark& landmark : landmarks) {
+    if (!landmark.vertex || !landmark.point) continue;
+    pairs.push_back({landmark.name, row3(of_template, *landmark.vertex), *landmark.point});
+  }
+  return pairs;
+}
+
+/// Places in a line leave open how a head is turned around it.
+bool spread_out(const Positions& places) {
+  constexpr double kLeast = 0.1;
+  const Positions centred = places.rowwise() - places.colwise().mean();
+  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues();
+  return values(1) > kLeast * values(0);
+}
+
+/// Of the pairs that `used` says, without the one numbered `without`.
+std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<bool>& used,
+                              std::size_t without) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (used[i] && i != without) rows.push_back(i);
+  }
+  if (rows.size() < kFewest) return std::nullopt;
+  const auto count = static_cast<Index>(rows.size());
+  Positions from(count, 3), to(count, 3);
+  for (Index r = 0; r < count; ++r) {
+    const Pair& pair = pairs[rows[static_cast<std::size_t>(r)]];
+    from.row(r) = pair.from.transpose();
+    to.row(r) = pair.to.transpose();
+  }
+  if (!spread_out(from) || !spread_out(to)) return std::nullopt;
+  return fit_similarity(from, to, ScaleFit::kUniform);
+}
+
+Eigen::Vector3d placed(const Similarity& pose, const Eigen::Vector3d& point) {
+  return pose.scale * (pose.rotation * point) + pose.translation;
+}
+
+std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vector<bool>& used,
+                                 const Similarity& whole) {
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Similarity pose = fit(pairs, used, i).value_or(whole);
+    residuals.push_back(length3(placed(pose, pairs[i].from) - pairs[i].to) / pose.scale);
+  }
+  return residuals;
+}
+
+/// The number of the pair that is far beyond the others, or how many there are.
+std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
+  // People differ: after a similarity places lie some 5 mm from each other's.
+  constexpr double kLeastMm = 15, kTimes = 3;
+  std::vector<double> sorted;
+  std::size_t farthest = residuals.size();
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (!used[i]) continue;
+    sorted.push_back(residuals[i]);
+    if (farthest == residuals.size() || residuals[i] > residuals[farthest]) farthest = i;
+  }
+  constexpr std::size_t kFewestToJudge = 5;
+  if (sorted.size() < kFewestToJudge) return residuals.size();
+  std::sort(sorted.begin(), sorted.end());
+  const double most = std::max(kLeastMm, kTimes * sorted[(sorted.size() - 1) / 2]);
+  return residuals[farthest] > most ? farthest : residuals.size();
+}
+
+/// What the similarity leaves at a place, as the pairs around it tell: faces differ from place to place.
+Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& pose,
+                           const Eigen::Vector3d& place) {
+  constexpr double kReachMm = 25, kHeld = 0.5;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weights = kHeld;
+  for (const Pair& pair : pairs) {
+    if (pose.residuals.at(pair.name).outlier) continue;
+    const double weight = std::exp(-(pair.from - place).squaredNorm() / (2 * kReachMm * kReachMm));
+    sum += weight * (pair.to - placed(pose.pose, pair.from));
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+/// In place of the lining of a nostril the skin outside it, if that is within `depth`.
+std::optional<PickedPlace> outermost(const PickableMesh& mesh,
+                                     const std::optional<PickedPlace>& place, double depth) {
+  if (!place) return place;
+  const auto outside = mesh.cast(place->point + depth * place->normal, -place->normal, 0);
+  return outside && dot3(outside->normal, place->normal) > 0 ? outside : place;
+}
+
+/// The places on the template that names have, picked or suggested.
+std::map<std::string, PickedPlace> suggest_on_template(
+    const std::vector<PickedLandmark>& landmarks, const PickableMesh& mesh,
+    const MirrorPlane& plane, const std::map<std::string, std::uint32_t>& proposals) {
+  constexpr double kLeastCosine = 0.5, kReachMm = 20;
+  std::map<std::string, PickedPlace> places;
+  for (const auto& [name, vertex] : proposals) places[name] = mesh.at_vertex(vertex);
+  for (const PickedLandmark& landmark : landmarks) {
+    const auto other = landmark.vertex ? mirrored_name(landmark.name) : std::nullopt;
+    if (!other) continue;
+    const PickedPlace here = mesh.at_vertex(*landmark.vertex);
+    const Eigen::Vector3d facing = here.normal - 2 * dot3(plane.normal, here.normal) * plane.normal;
+    const auto there = mesh.nearest(plane.image(here.point), facing, kLeastCosine, kReachMm);
+    if (there) places[*other] = mesh.at_vertex(there->vertex);
+  }
+  for (const PickedLandmark& landmark : landmarks) {
+    if (landmark.vertex) places.erase(landmark.name);
+  }
+  return places;
+}
+
+}  // namespace
+
+std::optional<LandmarkPose> pose_of_picked(const std::vector<PickedLandmark>& landmarks,
+                                           const Positions& of_template) {
+  const std::vector<Pair> pairs = pairs_of(landmarks, of_template);
+  std::vector<bool> used(pairs.size(), true);
+  LandmarkPose result;
+  std::vector<double> residuals;
+  while (true) {
+    const auto whole = fit(pairs, used, pairs.size());
+    if (!whole) return std::nullopt;
+    result.pose = *whole;
+    residuals = residuals_of(pairs, used, *whole);
+    const std::size_t outlier = farthest_outlier(residuals, used);
+    if (outlier == pairs.size()) break;
+    used[outlier] = false;
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    result.residuals[pairs[i].name] = {residuals[i], !used[i]};
+  }
+  return result;
+}
+
+SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
+                               const PickableMesh& of_template, const PickableMesh& of_scan,
+                               const MirrorPlane& plane,
+                               const std::map<std::string, std::uint32_t>& proposals) {
+  constexpr double kLeastCosine = 0.3, kReachMm = 25, kDepthMm = 5;
+  SuggestedPlaces suggested;
+  suggested.of_template = suggest_on_template(landmarks, of_template, plane, proposals);
+  suggested.pose = pose_of_picked(landmarks, of_template.positions());
+  if (!suggested.pose) return suggested;
+
+  std::map<std::string, PickedPlace> wanted = suggested.of_template;
+  for (const PickedLandmark& landmark : landmarks) {
+    if (landmark.vertex) wanted[landmark.name] = of_template.at_vertex(*landmark.vertex);
+    if (landmark.point) wanted.erase(landmark.name);
+  }
+  const std::vector<Pair> pairs = pairs_of(landmarks, of_template.positions());
+  const Similarity& pose = suggested.pose->pose;
+  for (const auto& [name, place] : wanted) {
+    const Eigen::Vector3d point =
+        placed(pose, place.point) + correction(pairs, *suggested.pose, place.point);
+    const auto near = outermost(
+        of_scan,
+        of_scan.nearest(point, pose.rotation * place.normal, kLeastCosine, kReachMm * pose.scale),
+        kDepthMm * pose.scale);
+    if (near) suggested.of_scan[name] = *near;
+  }
+  return suggested;
+}
+
+}  // namespace crowdface
