@@ -86,5 +86,30 @@ TEST_F(Wrap, RefusalsSayWhatToDo) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+TEST_F(Wrap, WhatCannotBePickedOnIsRefusedBeforeThePageOpens) {
+  const auto pick = [&](const fs::path& scan, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"wrap", "--pick", head(1).string(), scan.string(),
+                                          "--no-browser"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const std::string file = (folder_ / "new.yaml").string();
+  crowdface(64, pick(head(2), {}), {"--pick", "--landmarks FILE.yaml"});
+  crowdface(64, pick(head(2), {"--landmarks", file, "-o", "x.obj"}), {"--pick takes"});
+  crowdface(64, {"wrap", "--pick", "--batch", scans_.string(), "--landmarks", file},
+            {"--pick takes"});
+  crowdface(64, pick(head(2), {"--landmarks", head(2).string()}), {"name.yaml"});
+  crowdface(64, pick(head(2), {"--landmarks", file, "--port", "99999"}), {"--port", "99999"});
+  crowdface(66, pick(folder_ / "none.ply", {"--landmarks", file}), {"none.ply"});
+  crowdface(65, pick(folder_.write("broken.ply", "ply\n"), {"--landmarks", file}),
+            {"broken.ply", "header does not end"});
+  const fs::path beyond = folder_.write("beyond.yaml", "template: {a: 1}\nscan: {b: 99999999}\n");
+  crowdface(64, pick(head(2), {"--landmarks", beyond.string()}),
+            {"beyond.yaml:2", "vertex of the scan"});
+  crowdface(73, pick(head(2), {"--landmarks", (folder_ / "no/such.yaml").string()}), {"such.yaml"});
+  EXPECT_FALSE(fs::exists(file));
+  crowdface(64, {"wrap", head(1).string(), head(2).string()}, {"--output"});
+}
+
 }  // namespace
 }  // namespace crowdface::testing
