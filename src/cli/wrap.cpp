@@ -13,6 +13,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/pick/suggested_places.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/scan_file.h"
 
@@ -103,6 +104,22 @@ double output_scale(const WrapOptions& options, const Similarity& pose) {
   return scale;
 }
 
+/// What each landmark's distance is from where the others put it; nothing of fewer than five.
+std::map<std::string, double> left_out(const WrapInputs& shared,
+                                       const std::vector<WrapLandmark>& landmarks) {
+  constexpr std::size_t kFewest = 5;
+  std::map<std::string, double> result;
+  std::vector<PickedLandmark> picked;
+  for (const WrapLandmark& one : landmarks) {
+    picked.push_back({one.name, one.vertex, one.place, std::nullopt});
+  }
+  if (picked.size() < kFewest) return result;
+  const auto pose = pose_of_picked(picked, shared.shape.positions);
+  if (!pose) return result;
+  for (const auto& [name, residual] : pose->residuals) result[name] = residual.mm;
+  return result;
+}
+
 void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
               const Digest& inputs) {
   const Scan scan = read_scan(task.scan);
@@ -119,16 +136,17 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
     }
   }();
   const double scale = output_scale(options, result.pose);
-  const std::vector<std::string> warnings = wrap_warnings(shared.shape, result, shared.model_heads);
+  const std::vector<std::string> warnings =
+      wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);
   const Digest mesh = write_obj_like(shared.file, shared.file.topology,
                                      Positions(result.positions * (scale / shared.mm)), task.head);
   if (!options.no_pictures) {
     write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
                                           task.scan.filename().string()));
   }
-  write_file(task.report, format_wrap_report(
-                              {options.shape, task.scan.string(), inputs.hex(), mesh.hex(), scale},
-                              shared.shape, result, warnings));
+  write_file(task.report, format_wrap_report({options.shape, task.scan.string(), inputs.hex(),
+                                              mesh.hex(), scale, left_out(shared, landmarks)},
+                                             shared.shape, result, shared.regions, warnings));
   for (const std::string& warning : warnings) {
     log_warning(concat(task.scan.string(), ": ", warning));
   }

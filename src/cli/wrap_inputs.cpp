@@ -11,6 +11,7 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/pick/proposed_landmarks.h"
 #include "crowdface/region/region_weights.h"
 
 namespace crowdface::cli {
@@ -130,6 +131,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   inputs.shape =
       make_template(inputs.file.topology, positions,
                     {.front = unit_vector(inputs.frame.front), .up = unit_vector(inputs.frame.up)});
+  inputs.regions = face_regions(inputs.shape);
   if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.shape);
   if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.shape, digest);
   inputs.hint = pose_hint(options);

@@ -31,6 +31,7 @@ struct WrapInputs {
   HeadFrame frame;
   std::optional<PoseHint> hint;
   WrapTemplate shape;
+  SkinRegions regions;              ///< of its skin
   std::optional<ShapeModel> model;  ///< of the template's skin
   std::size_t model_heads = 0;
   LandmarkFile landmarks;

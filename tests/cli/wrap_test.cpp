@@ -39,6 +39,9 @@ TEST_F(Wrap, GivesTheTemplatesFileWithOtherPositionsAReportAndAPicture) {
   const std::string report = read_file(folder_ / "head.wrap.json");
   EXPECT_THAT(report, ::testing::HasSubstr("\"flipped_triangles\": 0"));
   EXPECT_THAT(report, ::testing::HasSubstr("\"name\": \"g\""));
+  EXPECT_THAT(report, ::testing::ContainsRegex(
+                          "\"regions_mm\": [{]\n *\"brow\": [{]\n *\"median\": [0-9]"));
+  EXPECT_THAT(report, ::testing::HasSubstr("\"left_out_mm\": "));
 }
 
 TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {

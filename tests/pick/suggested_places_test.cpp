@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/pick/suggested_places.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/mesh/vector3.h"
@@ -91,6 +93,21 @@ TEST_F(SuggestedPlacesTest, TheTemplatesShapeTellsItsMiddleAndItsEyes) {
     foremost = std::max(foremost, shape_.positions(v, 2));
   }
   EXPECT_NEAR(at("nose_tip").z(), foremost, 1);
+}
+
+TEST_F(SuggestedPlacesTest, TheTemplatesSkinFallsIntoRegions) {
+  const SkinRegions regions = face_regions(shape_);
+  ASSERT_EQ(regions.of_vertex.size(), shape_.skin.vertices.size());
+  const auto region_at = [&](std::uint32_t vertex) {
+    const auto& rows = shape_.skin.vertices;
+    const auto at = std::lower_bound(rows.begin(), rows.end(), vertex);
+    return regions.names[regions.of_vertex[static_cast<std::size_t>(at - rows.begin())]];
+  };
+  EXPECT_EQ(region_at(proposals_.at("nose_tip")), "nose");
+  EXPECT_EQ(region_at(proposals_.at("chin")), "mouth");
+  Index top = 0;
+  shape_.skin.of(shape_.positions).col(1).maxCoeff(&top);
+  EXPECT_EQ(region_at(shape_.skin.vertices[static_cast<std::size_t>(top)]), "brow");
 }
 
 TEST_F(SuggestedPlacesTest, TheOtherHalfIsSuggestedOnTheTemplate) {

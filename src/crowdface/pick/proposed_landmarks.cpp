@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "crowdface/core/error.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/paint/bands.h"
 #include "crowdface/paint/face_marks.h"
 
 namespace crowdface {
@@ -179,6 +181,34 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape
     propose_eye(view, marks->middle, ball.centre, ball.radius, proposals);
   }
   return proposals;
+}
+
+SkinRegions face_regions(const WrapTemplate& shape) {
+  const HeadShape head = head_of(shape, shape.positions);
+  const auto marks = find_face_marks(shape.topology, head, shape.axes);
+  if (!marks) return {};
+  std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth};
+  for (const Band more : {Band::kEars, Band::kNeck}) {
+    bands.push_back(more);
+    try {
+      propose_bands(shape.topology, head, shape.axes, *marks, bands);
+    } catch (const InvalidInput&) {
+      bands.pop_back();
+    }
+  }
+  const auto alpha = propose_bands(shape.topology, head, shape.axes, *marks, bands);
+  SkinRegions regions;
+  for (const Band band : bands) {
+    for (const auto& [name, known] : kBandNames) {
+      if (known == band) regions.names.emplace_back(name);
+    }
+  }
+  for (const std::uint32_t v : shape.skin.vertices) {
+    Index most = 0;
+    alpha.row(v).maxCoeff(&most);
+    regions.of_vertex.push_back(static_cast<std::size_t>(most));
+  }
+  return regions;
 }
 
 MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions) {

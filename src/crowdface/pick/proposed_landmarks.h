@@ -7,6 +7,7 @@
 
 #include "crowdface/mesh/mirror_map.h"
 #include "crowdface/pick/pickable_mesh.h"
+#include "crowdface/wrap/report.h"
 #include "crowdface/wrap/wrap_template.h"
 
 namespace crowdface {
@@ -17,6 +18,9 @@ namespace crowdface {
 /// \return rows of the template; nothing where no face is found.
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape,
                                                        const PickableMesh& mesh);
+
+/// Brow, nose and mouth, and ears and neck where they are found; nothing where no face is.
+SkinRegions face_regions(const WrapTemplate& shape);
 
 /// The plane between a template's halves.
 MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions);

@@ -30,14 +30,38 @@ bool seen(const WrapTemplate& shape, Index v) {
   return shape.skin.openness[static_cast<std::size_t>(v)] > kSeen;
 }
 
-std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& result) {
+/// \param regions, region  only of that one; null: of all the skin
+std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& result,
+                                   const SkinRegions* regions = nullptr, std::size_t region = 0) {
   std::vector<double> distances;
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
+    if (regions != nullptr && regions->of_vertex[static_cast<std::size_t>(v)] != region) continue;
     if (seen(shape, v) && !result.without_data[static_cast<std::size_t>(v)]) {
       distances.push_back(result.distance_mm(v));
     }
   }
   return distances;
+}
+
+double share_far(const std::vector<double>& distances) {
+  const auto far = std::count_if(distances.begin(), distances.end(),
+                                 [](double distance) { return distance > kFarMm; });
+  return distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
+}
+
+/// ", most of all of the brow (12.5 %)", or nothing.
+std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
+                            const SkinRegions& regions) {
+  double most = 0;
+  std::string text;
+  for (std::size_t r = 0; r < regions.names.size(); ++r) {
+    const double share = share_far(seen_distances(shape, result, &regions, r));
+    if (share <= most) continue;
+    most = share;
+    text = concat(", most of all of the ", regions.names[r], " (", format_fixed(100 * share, 1),
+                  " %)");
+  }
+  return text;
 }
 
 nlohmann::ordered_json rounded(double value) {
@@ -62,7 +86,7 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result) {
 }
 
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
-                                       std::size_t model_heads) {
+                                       const SkinRegions& regions, std::size_t model_heads) {
   std::vector<std::string> warnings;
   for (const LandmarkResidual& landmark : result.landmarks) {
     if (!landmark.outlier) continue;
@@ -71,14 +95,11 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
                               " mm from where it was picked, far more than the others: look at it "
                               "on template and scan"));
   }
-  const std::vector<double> distances = seen_distances(shape, result);
-  const auto far = std::count_if(distances.begin(), distances.end(),
-                                 [](double distance) { return distance > kFarMm; });
-  const double share =
-      distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
+  const double share = share_far(seen_distances(shape, result));
   if (share > kMostFar) {
     warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarMm,
-                              " mm off the scan: hair, closed eyes or an open mouth? Leave such "
+                              " mm off the scan", farthest_region(shape, result, regions),
+                              ": hair, closed eyes or an open mouth? Leave such "
                               "places out with --ignore, or pick landmarks there"));
   }
   if (const double lacking = share_without_data(shape, result); lacking > kMostWithoutData) {
@@ -115,7 +136,8 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result) {
 }
 
 std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,
-                               const WrapResult& result, const std::vector<std::string>& warnings) {
+                               const WrapResult& result, const SkinRegions& regions,
+                               const std::vector<std::string>& warnings) {
   nlohmann::ordered_json report;
   report["crowdface"] = kVersion;
   report["inputs"] = facts.inputs;
@@ -129,6 +151,11 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
   const WrapDistances distances = distances_of(shape, result);
   report["distance_mm"] = {{"median", rounded(distances.median)},
                            {"95 %", rounded(distances.percentile_95)}};
+  for (std::size_t r = 0; r < regions.names.size(); ++r) {
+    const std::vector<double> of_region = seen_distances(shape, result, &regions, r);
+    report["regions_mm"][regions.names[r]] = {{"median", rounded(percentile(of_region, 0.5))},
+                                              {"95 %", rounded(percentile(of_region, 0.95))}};
+  }
   report["without_data"] = rounded(share_without_data(shape, result));
   report["flipped_triangles"] = result.flipped;
   report["landmarks"] = nlohmann::ordered_json::array();
@@ -137,6 +164,10 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
                                    {"pose_mm", rounded(landmark.pose_mm)},
                                    {"final_mm", rounded(landmark.final_mm)},
                                    {"outlier", landmark.outlier}});
+    const auto left_out = facts.left_out_mm.find(landmark.name);
+    if (left_out != facts.left_out_mm.end()) {
+      report["landmarks"].back()["left_out_mm"] = rounded(left_out->second);
+    }
   }
   report["warnings"] = warnings;
   return report.dump(2) + "\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,17 @@ WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result);
 /// The share of the visible skin for which the scan has nothing.
 double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 
+/// Parts of the skin that a report speaks of one by one.
+struct SkinRegions {
+  std::vector<std::string> names;
+  std::vector<std::size_t> of_vertex;  ///< #skin, < #names; or empty: there are none
+};
+
 /// What the user should look at, a sentence each that says what to do.
+/// \param regions      that are named where much of one is far from the scan.
 /// \param model_heads  how many heads the model has; 0: there is none.
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
-                                       std::size_t model_heads);
+                                       const SkinRegions& regions, std::size_t model_heads);
 
 /// \throws InvalidInput, saying what to do, if the result is no wrap of this scan.
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result);
@@ -29,11 +37,14 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result);
 struct WrapFacts {
   std::string template_file, scan_file, inputs, mesh;  ///< the last two: digests
   double output_scale = 1;  ///< what the head was multiplied with, so that it has the scan's size
+  /// How far landmarks lie from where a similarity of all others puts them, mm; those without are not told.
+  std::map<std::string, double> left_out_mm;
 };
 
 /// The report as JSON.
 std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,
-                               const WrapResult& result, const std::vector<std::string>& warnings);
+                               const WrapResult& result, const SkinRegions& regions,
+                               const std::vector<std::string>& warnings);
 
 /// The scan above, the wrapped head in the middle, its distance to the scan below, each from three
 /// sides, as a PNG file.
