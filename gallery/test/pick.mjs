@@ -193,6 +193,28 @@ assert.ok(alike < 30, `the noses stand ${alike} pixels apart`);
 await take('linked');
 await page.keyboard.press('f');
 
+await page.keyboard.press('l');
+
+// A scan that does not stand upright is turned by hand; what is seen stays when it becomes the front.
+const seen = () => onScreen('scan', ofScan[tip]);
+const scanBox = await page.locator('section[data-side="scan"] canvas').boundingBox();
+const centre = [scanBox.x + scanBox.width / 2, scanBox.y + scanBox.height / 2];
+const [sx, sy] = (await seen()).map((x, i) => x - centre[i]);
+await page.getByRole('button', { name: 'Roll' }).click();
+assert.ok(far((await seen()).map((x, i) => x - centre[i]), [sy, -sx]) < 12, 'a quarter around the line of sight');
+for (let i = 0; i < 3; i += 1) await page.getByRole('button', { name: 'Roll' }).click();
+assert.ok(far((await seen()).map((x, i) => x - centre[i]), [sx, sy]) < 1, 'four quarters are a whole turn');
+await page.locator('section[data-side="scan"] canvas').focus();
+for (let i = 0; i < 3; i += 1) await page.keyboard.press('ArrowRight');
+assert.ok(Math.abs(await picker('picker.views.scan.angle()')) > 25);
+const turned = await seen();
+await page.getByRole('button', { name: 'Front is here' }).click();
+assert.ok(Math.abs(await picker('picker.views.scan.angle()')) < 0.1);
+assert.ok(far(await seen(), turned) < 1, 'the picture stays');
+await page.keyboard.press('Escape');
+await page.keyboard.press('f');
+assert.ok(far((await seen()).map((x, i) => x - centre[i]), [sx, sy]) < 30, 'with pairs the views stand as the template does');
+
 // All that takes the focus has a name.
 const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, [tabindex="0"]')]
   .filter((node) => !node.getAttribute('aria-label') && !node.textContent.trim() && !node.labels?.length).map((node) => node.outerHTML));
