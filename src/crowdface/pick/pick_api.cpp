@@ -97,17 +97,18 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
       return asked.method == method && asked.path == path;
     };
     if (is("GET", "api/job")) return job();
-    if (is("GET", "api/mesh/template")) {
-      return binary_answer(session_.of_template().preview(most_triangles_));
-    }
-    if (is("GET", "api/mesh/scan")) {
-      return binary_answer(session_.of_scan().preview(most_triangles_));
-    }
+    if (is("GET", "api/mesh/template")) return mesh(session_.of_template(), template_);
+    if (is("GET", "api/mesh/scan")) return mesh(session_.of_scan(), scan_);
     if (is("POST", "api/pick")) return pick(body_of(asked));
     if (is("POST", "api/suggest")) return suggest(body_of(asked));
     if (is("PUT", "api/landmarks")) return save(body_of(asked));
     return page_answer(page_, asked);
   });
+}
+
+HttpAnswer PickApi::mesh(const PickableMesh& whole, Shown& shown) const {
+  std::call_once(shown.once, [&] { shown.bytes = whole.preview(most_triangles_); });
+  return binary_answer(shown.bytes);
 }
 
 HttpAnswer PickApi::job() const {

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -34,9 +36,17 @@ class PickApi {
   HttpAnswer save(const Json& body);
   std::vector<PickedLandmark> landmarks_in(const Json& body) const;
 
+  /// A mesh as the page shows it, made when it is first asked for.
+  struct Shown {
+    std::once_flag once;
+    std::string bytes;
+  };
+  HttpAnswer mesh(const PickableMesh& whole, Shown& shown) const;
+
   PickSession& session_;
   PageFiles page_;
   std::size_t most_triangles_;
+  Shown template_, scan_;
 };
 
 }  // namespace crowdface
