@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The crowd as the page knows it: faces with what is derived from their recipes, filters and orders.
 
-/// \param data  data/crowd.js: name, seed, regions, bands (if there are any), heads, faces (the plan's lines), near, likeness.
+/// \param data  data/crowd.js: name, seed, regions, bands, shapes (if there are any), heads, faces (the plan's lines), near, likeness.
 export function readCrowd(data) {
   const heads = new Map(data.heads.map((head) => [head.name, head]));
   const faces = data.faces.map((recipe, order) => ({
@@ -27,6 +27,7 @@ export function readCrowd(data) {
     groups: present(faces.map((face) => face.group).filter((name) => name !== null)),
     targets: present(faces.map((face) => face.target)),
     bands: data.bands ?? [],
+    shapes: data.shapes ?? [],
     locks: [...(data.regions.length > 1 ? data.regions : []), ...(data.bands ?? [])],
     tags: present(faces.flatMap((face) => face.tags)),
   };

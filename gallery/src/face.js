@@ -45,7 +45,7 @@ export class FacePage {
     this.place.textContent = at >= 0 ? `${at + 1} of ${faces.length}` : '';
     this.rendersBox.replaceChildren(...(face.picture
       ? [el('img', { src: face.picture, alt: `Renders of ${face.id}` })] : []));
-    this.side.replaceChildren(...[this.marks(), this.about(), this.family(), this.recipe(),
+    this.side.replaceChildren(...[this.marks(), this.about(), this.expressions(), this.family(), this.recipe(),
       this.neighbours()].filter(Boolean));
     this.compare('face');
   }
@@ -153,6 +153,29 @@ export class FacePage {
   }
 
   // -- what is known of it --
+
+  /// A slider for each expression shape. What is set stays from face to face, so that they compare.
+  expressions() {
+    const { shapes } = this.crowd;
+    if (shapes.length === 0) return null;
+    this.values ??= shapes.map(() => 0);
+    const act = () => this.turntable?.act(this.values);
+    const sliders = shapes.map((name, s) => el('input', {
+      type: 'range', min: 0, max: 1, step: 0.01, value: this.values[s], 'aria-label': name,
+      oninput: (event) => {
+        this.values[s] = Number(event.target.value);
+        act();
+      },
+    }));
+    const rest = () => {
+      this.values.fill(0);
+      for (const slider of sliders) slider.value = 0;
+      act();
+    };
+    return el('section', { class: 'expressions' },
+      el('header', {}, el('h2', {}, 'Expressions'), el('span', { class: 'grow' }), el('button', { onclick: rest }, 'At rest')),
+      shapes.map((name, s) => el('label', {}, el('span', {}, name), sliders[s])));
+  }
 
   about() {
     const { face } = this;

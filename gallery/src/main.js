@@ -218,7 +218,8 @@ class Page {
 
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
-    const typing = event.target.matches('textarea, select, input:not([type=range])');
+    const typing = event.target.matches('textarea, select, input:not([type=range])') ||
+      (event.target.matches('input[type=range]') && event.key.startsWith('Arrow'));
     if (typing) {
       if (event.key === 'Escape') event.target.blur();
       return;

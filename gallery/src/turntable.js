@@ -36,6 +36,51 @@ export function unpackFace(base64, mesh) {
   return { points, normals, colours };
 }
 
+/// The face's expression shapes: for each the vertices that it moves (the same in all faces) and how far.
+export function unpackMoves(base64, mesh) {
+  const moves = new Int16Array(bytesOf(base64).buffer);
+  let at = 0;
+  return mesh.moved.map((text) => {
+    const vertices = new Uint32Array(bytesOf(text).buffer);
+    const begin = at;
+    at += 3 * vertices.length;
+    return { vertices, moves: moves.subarray(begin, at) };
+  });
+}
+
+/// Points with a share of each shape added.
+export function inShapes(points, shapes, values, step) {
+  const moved = points.slice();
+  shapes.forEach(({ vertices, moves }, s) => {
+    if (!values[s]) return;
+    for (let i = 0; i < vertices.length; i += 1) {
+      for (let c = 0; c < 3; c += 1) moved[3 * vertices[i] + c] += values[s] * step * moves[3 * i + c];
+    }
+  });
+  return moved;
+}
+
+function unit(v) {
+  for (let i = 0; i < v.length; i += 3) {
+    const length = Math.hypot(v[i], v[i + 1], v[i + 2]) || 1;
+    for (let c = 0; c < 3; c += 1) v[i + c] /= length;
+  }
+  return v;
+}
+
+/// Unit normals of vertices, from the triangles around them.
+function normalsOf(points, triangles) {
+  const normals = new Float32Array(points.length);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
+    const u = [0, 1, 2].map((i) => points[b + i] - points[a + i]);
+    const v = [0, 1, 2].map((i) => points[c + i] - points[a + i]);
+    const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    for (const corner of [a, b, c]) for (let i = 0; i < 3; i += 1) normals[corner + i] += n[i];
+  }
+  return unit(normals);
+}
+
 export class Turntable extends Stage {
   /// The triangles and colours that all faces share.
   async prepare() {
@@ -54,6 +99,10 @@ export class Turntable extends Stage {
     }
     this.object = new Mesh(geometry, material);
     this.group.add(this.object);
+    if (mesh.widest) {
+      const [atRest, open] = [bytesOf(mesh.widest.at_rest), bytesOf(mesh.widest.open)];
+      this.opened = Float32Array.from(open, (light, v) => light / Math.max(atRest[v], 1));
+    }
     this.mesh = mesh;
     this.stand(mesh);
     this.view('front');
@@ -64,13 +113,39 @@ export class Turntable extends Stage {
     await this.prepare();
     await loadScript(path);
     const { points, normals, colours } = unpackFace(window.crowdface.faces[name], this.mesh);
+    const moves = window.crowdface.moves[name];
+    this.face = { points, normals, shapes: moves ? unpackMoves(moves, this.mesh) : [] };
+    this.face.colours = colours ?? this.colours;
+    this.shown = name;
+    this.act(this.values);
+  }
+
+  /// \param values  a share of each expression shape; none: at rest.
+  act(values = []) {
+    this.values = values;
+    if (!this.face) return;
     const { geometry } = this.object;
+    const { shapes } = this.face;
+    let { points, normals } = this.face;
+    if (shapes.some((_, s) => values[s])) {
+      points = inShapes(points, shapes, values, this.mesh.step);
+      // The whole mesh's normals, turned as the reduced mesh's are.
+      const triangles = geometry.index.array;
+      this.face.rough ??= normalsOf(this.face.points, triangles);
+      const { rough } = this.face;
+      normals = unit(normalsOf(points, triangles).map((value, i) => value - rough[i] + this.face.normals[i]));
+    }
     geometry.setAttribute('position', new BufferAttribute(points, 3));
     geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-    geometry.setAttribute('color', new BufferAttribute(colours ?? this.colours, 3));
+    geometry.setAttribute('color', new BufferAttribute(this.lit(values[this.mesh.widest?.shape]), 3));
     geometry.computeBoundingSphere();
-    this.shown = name;
     this.draw();
+  }
+
+  /// Colours hold how much light arrives; the shape that opens most lets more of it in.
+  lit(share) {
+    const { colours } = this.face;
+    return share ? colours.map((value, i) => value * (1 + share * (this.opened[Math.floor(i / 3)] - 1))) : colours;
   }
 
   draw() {

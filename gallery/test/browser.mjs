@@ -115,6 +115,24 @@ const front = await shades();
 assert.ok(front.colours > 50, `the 3D view shows ${front.colours} colours`);
 assert.ok(!(await page.locator('main.face').innerText()).includes('[object'), 'raw objects on the page');
 await take('face');
+// An expression: its slider moves what the shape moves, with its shading, and nothing else.
+const geometry = () => page.evaluate(() => {
+  const { position, normal } = window.crowdface.page.face.turntable.object.geometry.attributes;
+  return { points: Array.from(position.array), normals: Array.from(normal.array) };
+});
+const atRest = await geometry();
+await page.getByLabel('browUp').fill('1');
+const acting = await geometry();
+const far = atRest.points.map((value, i) => Math.abs(value - acting.points[i]));
+assert.ok(Math.max(...far) > 0.3 && Math.max(...far) < 0.8, `moved by up to ${Math.max(...far)} cm`);
+assert.ok(far.filter((value) => value > 0).length < far.length / 3, 'most of the face stays');
+assert.notDeepEqual(acting.normals, atRest.normals);
+await page.getByLabel('browUp').press('ArrowLeft');
+assert.ok(Math.abs(Number(await page.getByLabel('browUp').inputValue()) - 0.99) < 1e-9, 'arrows move the slider, not the page');
+await take('expression');
+await page.getByRole('button', { name: 'At rest' }).click();
+assert.deepEqual(await geometry(), atRest);
+await page.locator('main.face h1').click();
 for (const width of [700, 900]) {
   await page.setViewportSize({ width, height: 700 });
   const picture = await page.locator('.box').boundingBox();

@@ -8,6 +8,9 @@ set -euo pipefail
 . "$(dirname "$0")/page.sh"
 
 "$program" synth -o "$folder/heads" --count 5 --vertices 20000 --seed 2 --quiet
+mkdir -p "$folder/template/shapes"
+cp "$folder/heads/synth_01.obj" "$folder/template/neutral.obj"
+awk '/^v / && $3 > 1 && $3 < 5 && $4 > 6 { $3 += 0.5 } { print }' "$folder/template/neutral.obj" >"$folder/template/shapes/browUp.obj"
 cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 7}
@@ -15,6 +18,7 @@ faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
 regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
 recipes: [{id: by_hand, target: synth_01, regions: {all: {weights: {synth_02: 1}}}}]
 families: [{name: smith, members: 2, target: synth_03, max_distance: 4 mm}]
+shapes: {neutral: template/neutral.obj, directory: template/shapes}
 output: {directory: out, meshes: [points], contact_sheet: {cell: 96, views: [front, profile]}}
 YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet

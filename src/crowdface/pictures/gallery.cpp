@@ -13,8 +13,10 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/face_json.h"
+#include "crowdface/heads/named_parts.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/openness.h"
@@ -31,7 +33,9 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostTriangles = 24'000;
 /// Of these what is behind closed lips gets few: teeth and the mouth's lining are finer than the face itself.
 constexpr std::size_t kMostHidden = 2'000;
-constexpr float kUnseen = 0.02F;  ///< what sees no more of the sky is not seen
+constexpr double kLeastMoveMm = 0.02;  ///< of an expression shape: less is not shown
+constexpr float kLeastLight = 0.004F;  ///< where shapes let more in
+constexpr float kUnseen = 0.02F;       ///< what sees no more of the sky is not seen
 
 /// The triangles none of whose corners is seen. \param open  #vertices of the mesh
 std::vector<bool> hidden_triangles(const ReducedMesh& mesh, const std::vector<float>& open) {
@@ -63,8 +67,8 @@ std::string call(const char* function, const Json& value) {
   return concat("crowdface.", function, "(", value.dump(), ");\n");
 }
 
-Json crowd_to_json(const Config& config, const std::vector<CastFace>& crowd, const Digest& settings,
-                   const CrowdLikeness& likeness) {
+Json crowd_to_json(const Config& config, const ShapeSet& shapes, const std::vector<CastFace>& crowd,
+                   const Digest& settings, const CrowdLikeness& likeness) {
   const PlanNames names = config.plan_names();
   Json json;
   json["name"] = config.crowd.name;
@@ -73,6 +77,7 @@ Json crowd_to_json(const Config& config, const std::vector<CastFace>& crowd, con
   json["regions"] = config.regions.names;
   if (!names.bands.empty()) json["bands"] = names.bands;
   json["pictures"] = config.output.contact_sheet.has_value();
+  for (const Shape& shape : shapes.shapes) json["shapes"].push_back(shape.name);
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < names.heads.size(); ++h) {
     json["heads"].push_back({{"name", names.heads[h]},
@@ -203,6 +208,54 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     low_ = low_.cwiseMin(head->colwise().minCoeff().transpose());
     high_ = high_.cwiseMax(head->colwise().maxCoeff().transpose());
   }
+  add_shapes(surfaces, mean);
+}
+
+void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) {
+  if (inputs_.shapes.shapes.empty()) return;
+  transfer_.emplace(inputs_.faces, inputs_.adjacency, inputs_.parts, head_axes(config_),
+                    inputs_.shapes);
+  const double least = kLeastMoveMm / mm_per(config_.faces.units);
+  std::vector<std::uint32_t> reduced(static_cast<std::size_t>(inputs_.faces.topology.vertex_count),
+                                     kNoIndex);
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) reduced[mesh_.vertices[v]] = v;
+  for (const Shape& shape : inputs_.shapes.shapes) {
+    ShownMoves& shown = shown_.emplace_back();
+    for (std::uint32_t i = 0; i < shape.moves.vertices.size(); ++i) {
+      const std::uint32_t vertex = reduced[shape.moves.vertices[i]];
+      if (vertex == kNoIndex || shape.moves.moves.row(i).norm() < least) continue;
+      shown.rows.push_back(i);
+      shown.vertices.push_back(vertex);
+    }
+  }
+  const auto& shapes = inputs_.shapes.shapes;
+  const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
+  widest_ = static_cast<std::size_t>(
+      std::max_element(shapes.begin(), shapes.end(),
+                       [&](const Shape& a, const Shape& b) { return way(a) < way(b); }) -
+      shapes.begin());
+  Positions acting = mean;
+  shapes[widest_].moves.add_to(acting);
+  open_in_widest_ = vertex_openness(inputs_.faces.topology, surfaces.kinds, acting, mesh_.vertices);
+  // What no light reaches at rest would stay black however wide a mouth opens.
+  for (float& open : open_) open = std::max(open, kLeastLight);
+}
+
+std::string GalleryMeshes::packed_shapes(Index target, const Positions& positions) const {
+  constexpr double kMost = 32767;
+  const std::vector<Displacements> carried = transfer_->carry(target, positions);
+  std::string bytes;
+  for (std::size_t s = 0; s < carried.size(); ++s) {
+    for (const std::uint32_t row : shown_[s].rows) {
+      for (int c = 0; c < 3; ++c) {
+        const double steps = std::clamp(carried[s].moves(row, c) / frame_.step, -kMost, kMost);
+        const auto value = static_cast<std::uint16_t>(std::lround(steps));
+        bytes += static_cast<char>(value & 0xffU);
+        bytes += static_cast<char>(value >> 8U);
+      }
+    }
+  }
+  return bytes;
 }
 
 std::vector<GalleryMeshes::Corner> GalleryMeshes::find_corners(const FaceSet& faces) const {
@@ -261,14 +314,30 @@ std::string GalleryMeshes::shared_script() const {
   json["triangles"] = base64(little_endian(mesh_.triangles));
   json["colours"] = base64(shades(colours_));
   add_eyes(config_, inputs_, mesh_, json);
+  const auto light = [](const std::vector<float>& open) {
+    std::string bytes;
+    for (const float share : open) {
+      bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share))));
+    }
+    return base64(bytes);
+  };
+  if (transfer_) {
+    json["widest"] = {
+        {"shape", widest_}, {"at_rest", light(open_)}, {"open", light(open_in_widest_)}};
+  }
+  for (const ShownMoves& shown : shown_) {
+    json["moved"].push_back(base64(little_endian(shown.vertices)));
+  }
   return call("setMesh", json);
 }
 
-std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions,
-                                       const TextureCoat* coat) const {
+std::string GalleryMeshes::face_script(const std::string& name, Index target,
+                                       const Positions& positions, const TextureCoat* coat) const {
   std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions);
   if (coat != nullptr) bytes += shades(textured(*coat));
-  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), "\");\n");
+  const std::string moves =
+      transfer_ ? concat(",\"", base64(packed_shapes(target, positions)), '"') : std::string();
+  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), '"', moves, ");\n");
 }
 
 void write_gallery(const CrowdDirectory& directory, const Config& config, const fs::path& page,
@@ -282,13 +351,13 @@ void write_gallery(const CrowdDirectory& directory, const Config& config, const 
     const Head& head = meshes.heads()[h];
     const std::optional<TextureCoat> coat = meshes.coat_of(static_cast<Index>(h));
     // A face may bear a head's name.
-    write_file(
-        directory.gallery_head(head.name),
-        meshes.face_script(concat("head ", head.name), head.positions, coat ? &*coat : nullptr));
+    write_file(directory.gallery_head(head.name),
+               meshes.face_script(concat("head ", head.name), static_cast<Index>(h), head.positions,
+                                  coat ? &*coat : nullptr));
   }
   write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
   write_file(directory.gallery() / "data/crowd.js",
-             call("setCrowd", crowd_to_json(config, crowd, settings, likeness)));
+             call("setCrowd", crowd_to_json(config, meshes.shapes(), crowd, settings, likeness)));
   for (const std::string_view file : kGalleryPageFiles) {
     write_file(directory.gallery() / file, read_file(page / file));
   }

@@ -13,6 +13,7 @@
 #include "crowdface/preview/packed_face.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
+#include "crowdface/shapes/shape_transfer.h"
 
 namespace crowdface {
 
@@ -45,11 +46,13 @@ class GalleryMeshes {
   /// data/mesh.js: triangles, colours, the frame of the positions.
   std::string shared_script() const;
   /// data/faces/NAME.js or data/heads/NAME.js.
-  /// \param coat  the face's textures, or null: it has the colours that all share.
-  std::string face_script(const std::string& name, const Positions& positions,
+  /// \param target  the head it was built on, or it is.
+  /// \param coat    the face's textures, or null: it has the colours that all share.
+  std::string face_script(const std::string& name, Index target, const Positions& positions,
                           const TextureCoat* coat) const;
 
   const std::vector<Head>& heads() const { return inputs_.faces.heads; }
+  const ShapeSet& shapes() const { return inputs_.shapes; }
   /// What a head wears in pictures.
   std::optional<TextureCoat> coat_of(Index head) const;
 
@@ -58,6 +61,8 @@ class GalleryMeshes {
   std::string shades(const VertexColours& colours) const;
   VertexColours textured(const TextureCoat& coat) const;
   std::vector<Corner> find_corners(const FaceSet& faces) const;
+  void add_shapes(const Surfaces& surfaces, const Positions& mean);
+  std::string packed_shapes(Index target, const Positions& positions) const;
 
   const Config& config_;
   const Inputs& inputs_;
@@ -68,6 +73,16 @@ class GalleryMeshes {
   std::vector<float> open_;     ///< how much light arrives there, on the mean head
   std::vector<Corner> corner_;  ///< where each lies in a texture
   Eigen::Vector3d low_, high_;  ///< of the heads' boxes
+
+  /// What the reduced mesh has of a shape's vertices.
+  struct ShownMoves {
+    std::vector<std::uint32_t> rows;      ///< of the shape's displacements
+    std::vector<std::uint32_t> vertices;  ///< of the reduced mesh
+  };
+  std::optional<ShapeTransfer> transfer_;  ///< if there are expression shapes
+  std::vector<ShownMoves> shown_;          ///< #shapes
+  std::size_t widest_ = 0;                 ///< the shape that moves most: a jaw that opens
+  std::vector<float> open_in_widest_;      ///< as `open_`, in that shape
 };
 
 /// Everything of the gallery but its faces' scripts: the page, the crowd's recipes, the heads.

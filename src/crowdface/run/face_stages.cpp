@@ -58,7 +58,8 @@ std::uint64_t input_bytes(const Inputs& inputs) {
 /// What all threads take while they make pictures.
 std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
   if (!config.output.contact_sheet) return 0;
-  return static_cast<std::uint64_t>(thread_count()) * kRenderBytesAVertex * vertex_count(inputs);
+  return static_cast<std::uint64_t>(thread_count()) *
+         (kRenderBytesAVertex * vertex_count(inputs) + displacement_bytes(inputs.shapes));
 }
 
 /// What fitted levels take that lie in memory of ours.

@@ -47,12 +47,6 @@ std::size_t normals_bytes(const Topology& topology) {
          sizeof(double);
 }
 
-std::size_t shape_bytes(const ShapeSet& shapes) {
-  std::size_t vertices = 0;
-  for (const Shape& shape : shapes.shapes) vertices += shape.moves.vertices.size();
-  return vertices * (3 * sizeof(double) + sizeof(std::uint32_t));
-}
-
 }  // namespace
 
 std::string part_of(const MeshName& name) {
@@ -216,7 +210,7 @@ std::size_t MeshWriters::memory_bytes() const {
   if (ply_) bytes += ply_->memory_bytes();
   if (glb_) bytes += glb_->memory_bytes();
   if (usd_) bytes += usd_->memory_bytes();
-  if (shapes_) bytes += shape_bytes(inputs_.shapes);
+  if (shapes_) bytes += displacement_bytes(inputs_.shapes);
   for (const LevelWriter& level : levels_) bytes += level.memory_bytes();
   return bytes;
 }
@@ -225,7 +219,7 @@ std::size_t MeshWriters::encode_bytes() const {
   std::size_t obj = 0;
   for (const auto& [target, form] : obj_) obj = std::max(obj, form.encode_bytes());
   if (shapes_ && has(MeshFormat::kObj)) obj *= 1 + inputs_.shapes.shapes.size();
-  std::size_t bytes = (shapes_ ? 2 * shape_bytes(inputs_.shapes) : 0) + obj +
+  std::size_t bytes = (shapes_ ? 2 * displacement_bytes(inputs_.shapes) : 0) + obj +
                       (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
   if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
   if (glb_) bytes += glb_->encode_bytes();

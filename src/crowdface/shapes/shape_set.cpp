@@ -24,4 +24,10 @@ Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh
   return shape;
 }
 
+std::size_t displacement_bytes(const ShapeSet& shapes) {
+  std::size_t vertices = 0;
+  for (const Shape& shape : shapes.shapes) vertices += shape.moves.vertices.size();
+  return vertices * (3 * sizeof(double) + sizeof(std::uint32_t));
+}
+
 }  // namespace crowdface

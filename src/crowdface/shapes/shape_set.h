@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct ShapeSet {
   Positions neutral;  ///< #V by 3; of no rows: there are no shapes
   std::vector<Shape> shapes;
 };
+
+/// What the displacements of all shapes of one face take.
+std::size_t displacement_bytes(const ShapeSet& shapes);
 
 /// A shape from its mesh. What moves by less than four thousandths of a millimetre on a head (a
 /// share of `extent`, the diagonal of the skin's box) stays.
