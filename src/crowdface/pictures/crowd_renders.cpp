@@ -60,7 +60,8 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
   WrittenPictures written{put(directory.render(id), render_png(single, nullptr, worn)),
                           std::nullopt};
   if (gallery_ != nullptr) {
-    written.preview = put(directory.gallery_face(id), gallery_->face_script(id, target, single, worn));
+    written.preview =
+        put(directory.gallery_face(id), gallery_->face_script(id, target, single, worn));
   }
   return written;
 }
