@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/morph/makehuman_heads.h"
 
+#include <numeric>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
@@ -31,33 +34,89 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
     : mesh_(read_makehuman_mesh(package / "public/data/models/human_full_size.json")),
       targets_(package / "public/data/targets/targets.bin",
                read_target_names(package / "src/json/targets/target-list.json"),
-               mesh_.file_vertices),
-      eyes_(vertices_of_material(mesh_.head.topology, mesh_.materials, {"eyeball"})) {
+               mesh_.file_positions.rows()),
+      materials_(mesh_.materials) {
   for (const std::string& name : makehuman_target_names()) {
     if (!targets_.has(name)) {
       throw InvalidInput(concat((package / "src/json/targets/target-list.json").string(),
                                 ": expected a target ", quoted(name), ", found none"));
     }
   }
-  neutral_ = {mesh_.head.topology, in_frame(mesh_.head.positions), mesh_.head.uvs};
-  const double origin = mean_of(mesh_.head.positions, eyes_).y();
+  for (const std::uint32_t row :
+       vertices_of_material(mesh_.head.topology, mesh_.materials, {"eyeball"})) {
+    eyes_.push_back(mesh_.rows[row]);
+  }
+  neutral_ = {mesh_.head.topology, in_frame(mesh_.head.positions, mesh_.file_positions),
+              mesh_.head.uvs};
+  const double origin = mean_of(mesh_.file_positions, eyes_).y();
   heights_ = {kCentimetresPerUnit * (mesh_.heights.eyes - origin),
               kCentimetresPerUnit * (mesh_.heights.mouth - origin)};
 }
 
 /// Bodies differ in height: heads are brought together at the eyes.
-Positions MakeHumanHeads::in_frame(const Positions& decimetres) const {
-  const Eigen::RowVector3d origin = mean_of(decimetres, eyes_);
+/// \param base  all vertices of the same body.
+Positions MakeHumanHeads::in_frame(const Positions& decimetres, const Positions& base) const {
+  const Eigen::RowVector3d origin = mean_of(base, eyes_);
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
 }
 
+void MakeHumanHeads::wear(std::vector<WornPart> parts) {
+  const Topology& naked = mesh_.head.topology;
+  Topology topology;
+  for (Index f = 0; f < mesh_.materials[1].first_face; ++f) {
+    topology.add_face(naked.face(f), naked.face_uvs(f));
+  }
+  skin_ = renumber(topology.corner_vertices, naked.vertex_count);
+  for (std::uint32_t& row : skin_) row = mesh_.rows[row];
+  const auto uv_rows = renumber(topology.corner_uvs, mesh_.head.uvs.rows());
+  TextureCoordinates uvs = mesh_.head.uvs(uv_rows, Eigen::all);
+  materials_ = {mesh_.materials[0]};
+  auto vertices = static_cast<std::uint32_t>(skin_.size());
+  for (const auto& [material, mesh] : parts) {
+    materials_.push_back({material, topology.face_count()});
+    const auto first_uv = static_cast<std::uint32_t>(uvs.rows());
+    for (Index f = 0; f < mesh.topology.face_count(); ++f) {
+      std::vector<std::uint32_t> corners(mesh.topology.face(f).begin(),
+                                         mesh.topology.face(f).end());
+      std::vector<std::uint32_t> of_uvs(mesh.topology.face_uvs(f).begin(),
+                                        mesh.topology.face_uvs(f).end());
+      for (std::uint32_t& corner : corners) corner += vertices;
+      for (std::uint32_t& uv : of_uvs) uv += first_uv;
+      topology.add_face(corners, of_uvs);
+    }
+    vertices += static_cast<std::uint32_t>(mesh.topology.vertex_count);
+    uvs.conservativeResize(uvs.rows() + mesh.uvs.rows(), Eigen::NoChange);
+    uvs.bottomRows(mesh.uvs.rows()) = mesh.uvs;
+  }
+  topology.vertex_count = vertices;
+  worn_ = std::move(parts);
+  neutral_ = {std::move(topology), dressed(mesh_.file_positions), std::move(uvs)};
+}
+
+Positions MakeHumanHeads::dressed(const Positions& base) const {
+  Positions head = base(skin_, Eigen::all);
+  for (const WornPart& part : worn_) {
+    const Positions more = part.mesh.on(base);
+    head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
+    head.bottomRows(more.rows()) = more;
+  }
+  return in_frame(head, base);
+}
+
+Positions MakeHumanHeads::on_neutral(const FittedMesh& mesh) const {
+  return in_frame(mesh.on(mesh_.file_positions), mesh_.file_positions);
+}
+
 Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) const {
-  Positions head = mesh_.head.positions;
+  std::vector<std::uint32_t> rows(static_cast<std::size_t>(mesh_.file_positions.rows()));
+  std::iota(rows.begin(), rows.end(), 0U);
+  Positions base = mesh_.file_positions;
   const MakeHumanPerson person = draw_makehuman_person(seed, index);
   for (const TargetWeight& target : makehuman_targets(person, seed, index)) {
-    targets_.add(target, mesh_.rows, head);
+    targets_.add(target, rows, base);
   }
-  return in_frame(head);
+  if (!worn_.empty()) return dressed(base);
+  return in_frame(base(mesh_.rows, Eigen::all), base);
 }
 
 std::optional<HeadPerson> MakeHumanHeads::person(std::uint64_t seed, std::uint64_t index) const {

