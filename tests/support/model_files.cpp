@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
 #include "crowdface/morph/makehuman_controls.h"
 
 namespace crowdface::testing {
@@ -107,6 +108,93 @@ MakeHumanStandIn write_makehuman(const fs::path& package) {
   }
   write(package / "public/data/targets/targets.bin", bytes);
   return out;
+}
+
+int skin_grey(const std::string& folder) {
+  const int dark = folder.find("african") != std::string::npos ? 60 : 200;
+  return dark + (folder.starts_with("old") ? 20 : 0) + (folder.ends_with("2") ? 5 : 0);
+}
+
+namespace {
+
+/// A picture of 4 by 4 texels, the last of its first row clear.
+std::string small_picture(std::uint8_t grey) {
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 16; ++i) {
+    pixels.insert(pixels.end(), {grey, grey, grey, static_cast<std::uint8_t>(i == 3 ? 0 : 255)});
+  }
+  return encode_png(4, 4, 4, pixels);
+}
+
+/// Squares around these x, the first of each pair at (0.1, 0.1) of the texture, the second where it is clear.
+void write_worn(const fs::path& folder, const std::string& name, const std::vector<double>& at_x,
+                const std::vector<std::string>& materials) {
+  ThreeMesh mesh;
+  json anchors = json::array(), weights = json::array(), offsets = json::array();
+  for (const std::string& material : materials) {
+    mesh.materials.push_back(
+        {{"DbgName", material}, {"mapDiffuse", concat("textures/", material, ".png")}});
+    write(folder / "textures" / concat(material, ".png"), small_picture(90));
+  }
+  for (std::size_t i = 0; i < at_x.size(); ++i) {
+    const std::size_t first = mesh.vertex_count();
+    for (const auto& [dx, dy] :
+         {std::pair(0.0, 0.0), {kWornSide, 0.0}, {kWornSide, kWornSide}, {0.0, kWornSide}}) {
+      mesh.add_vertex(0, 0, 0);
+      anchors.push_back({8, 9, 10});
+      weights.push_back({0.5, 0.25, 0.25});
+      offsets.push_back({at_x[i] + dx, dy, 0.01});
+    }
+    const double place = i % 2 == 0 ? 0.1 : 0.9;
+    mesh.add_quad(0, {first, first + 1, first + 2, first + 3}, place, place);
+  }
+  const json licence = {
+      {"license", "AGPL3 (see there)"}, {"author", "Some One"}, {"homepage", "http://here"}};
+  write(folder / concat(name, ".json"), json{{"vertices", mesh.vertices},
+                                             {"uvs", {mesh.uvs}},
+                                             {"faces", mesh.faces},
+                                             {"materials", mesh.materials},
+                                             {"ref_vIdxs", anchors},
+                                             {"weights", weights},
+                                             {"offsets", offsets},
+                                             {"metadata", {{"license", licence}}}}
+                                            .dump());
+}
+
+}  // namespace
+
+void write_makehuman_wardrobe(const fs::path& package) {
+  const fs::path proxies = package / "public/data/proxies";
+  write_worn(proxies / "eyes/HighPolyEyes", "HighPolyEyes", {-1.5, -1.5, 1.5, 1.5},
+             {"brown", "brownlight", "green", "bluegreen", "grey", "lightblue", "blue"});
+  const auto add = [&](const std::string& kind, const std::string& name) {
+    write_worn(proxies / kind / name, name, {0.2}, {lower_case(name)});
+  };
+  add("eyelashes", "Eyelashes01");
+  add("teeth", "Teeth_Base");
+  add("tongue", "tongue01");
+  for (int i = 1; i <= 12; ++i) {
+    add("eyebrows", concat("eyebrow0", i < 10 ? "0" : "", i));
+  }
+  for (const char* name : {"afro01", "bob01", "bob02", "Braid01", "long01", "ponytail01", "short01",
+                           "short02", "short03", "short04", "Full_beard", "Moustache"}) {
+    add("hair", name);
+  }
+  for (const std::string age : {"young", "middleage", "old"}) {
+    for (const std::string ancestry : {"african", "asian", "caucasian"}) {
+      for (const std::string sex : {"female", "male"}) {
+        const std::string name = concat(age, '_', ancestry, '_', sex);
+        const fs::path folder = package / "public/data/skins" / name;
+        for (const std::string variant : {"", "2"}) {
+          const std::string full = name + variant;
+          write(folder / concat(full, ".json"),
+                json{{"mapDiffuse", concat("textures/", full, ".png")}}.dump());
+          write(folder / "textures" / concat(full, ".png"),
+                small_picture(static_cast<std::uint8_t>(skin_grey(full))));
+        }
+      }
+    }
+  }
 }
 
 void write_ict(const fs::path& checkout, int modes) {

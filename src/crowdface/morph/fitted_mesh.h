@@ -38,6 +38,9 @@ struct FittedMesh {
 
   /// Where the vertices are on a body. \param base  all vertices of the base mesh.
   Positions on(const Positions& base) const;
+  /// Makes each vertex follow the three of these vertices of the base mesh that are nearest to it there.
+  /// \param rows  at least three.
+  void hold_to(const std::vector<std::uint32_t>& rows, const Positions& base);
   /// Leaves out faces, and vertices that no other uses.
   void keep(const std::vector<bool>& faces);
 };

@@ -60,6 +60,13 @@ Positions MakeHumanHeads::in_frame(const Positions& decimetres, const Positions&
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
 }
 
+std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
+  std::vector<std::uint32_t> rows =
+      vertices_of_material(mesh_.head.topology, mesh_.materials, {"skin"});
+  for (std::uint32_t& row : rows) row = mesh_.rows[row];
+  return rows;
+}
+
 void MakeHumanHeads::wear(std::vector<WornPart> parts) {
   const Topology& naked = mesh_.head.topology;
   Topology topology;

@@ -29,6 +29,8 @@ class MakeHumanHeads : public HeadModel {
 
   /// All vertices of the base mesh, helpers and joints too: decimetres, as in its file.
   const Positions& base() const { return mesh_.file_positions; }
+  /// The vertices of the head's skin among them, ascending.
+  std::vector<std::uint32_t> skin_rows() const;
   /// Where a mesh is on the average head, in the frame of heads.
   Positions on_neutral(const FittedMesh& mesh) const;
 

