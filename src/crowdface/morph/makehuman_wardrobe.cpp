@@ -55,11 +55,9 @@ struct EyeColour {
 };
 constexpr auto kEyeColours = std::to_array<EyeColour>({{"brown", {0.9, 0.85, 0.25}},
                                                        {"brownlight", {0.1, 0.15, 0.25}},
-                                                       {"green", {0, 0, 0.1}},
-                                                       {"bluegreen", {0, 0, 0.08}},
-                                                       {"grey", {0, 0, 0.1}},
-                                                       {"lightblue", {0, 0, 0.08}},
-                                                       {"blue", {0, 0, 0.14}}});
+                                                       {"green", {0, 0, 0.15}},
+                                                       {"grey", {0, 0, 0.17}},
+                                                       {"blue", {0, 0, 0.18}}});
 
 fs::path proxy(const fs::path& package, std::string_view kind, std::string_view name) {
   return package / "public/data/proxies" / kind / name / concat(name, ".json");
@@ -134,14 +132,14 @@ constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "mal
                                                      {"eyebrow011", "brow", ""},
                                                      {"eyebrow012", "brow", "male", 0.4},
                                                      {"afro01", "hair", "african", 3},
-                                                     {"bob01", "hair", "female"},
-                                                     {"bob02", "hair", "female caucasian"},
+                                                     {"bob01", "hair", "female", 0.5},
+                                                     {"bob02", "hair", "female caucasian", 0.5},
                                                      {"Braid01", "hair", "female"},
                                                      {"long01", "hair", "female"},
                                                      {"ponytail01", "hair", "female", 1, true},
                                                      {"short01", "hair", "male", 1, true},
                                                      {"short02", "hair", "male", 1, true},
-                                                     {"short03", "hair", "female", 1, true},
+                                                     {"short03", "hair", "female", 0.5, true},
                                                      {"short04", "hair", "male", 1, true},
                                                      {"Full_beard", "beard", "male", 1, true},
                                                      {"Moustache", "beard", "male", 1, true}});
