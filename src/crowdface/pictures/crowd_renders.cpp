@@ -37,7 +37,8 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
                 surfaces_of(config, inputs), &inputs.faces.heads.front().positions),
       textures_(inputs.textures),
       textured_(sheet.texture != SheetTexture::kNo),
-      most_texels_(shown_texels(sheet)) {}
+      most_texels_(shown_texels(sheet)),
+      worn_surfaces_(inputs, most_texels_, textured_) {}
 
 void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
   make_directories(directory.renders());
@@ -46,7 +47,8 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
 
 WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
                                     Index target, const Positions& positions,
-                                    const std::vector<BlendedPicture>* textures) const {
+                                    const std::vector<BlendedPicture>* textures,
+                                    const std::vector<WornAttachment>& worn) const {
   // As every mesh file holds them, so that pictures made from those are the same.
   const Positions single =
       positions.unaryExpr([](double value) -> double { return to_single(value); });
@@ -56,12 +58,12 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
   };
   const std::optional<TextureCoat> coat =
       textures != nullptr ? own_coat(*textures) : coat_of(target);
-  const TextureCoat* worn = coat ? &*coat : nullptr;
-  WrittenPictures written{put(directory.render(id), render_png(single, nullptr, worn)),
+  const TextureCoat* painted = coat ? &*coat : nullptr;
+  WrittenPictures written{put(directory.render(id), render_png(single, nullptr, painted, worn)),
                           std::nullopt};
   if (gallery_ != nullptr) {
     written.preview =
-        put(directory.gallery_face(id), gallery_->face_script(id, target, single, worn));
+        put(directory.gallery_face(id), gallery_->face_script(id, target, single, painted));
   }
   return written;
 }
@@ -82,10 +84,12 @@ std::optional<TextureCoat> CrowdRenders::coat_of(Index head) const {
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, const VertexColours* colours,
-                                     const TextureCoat* coat) const {
+                                     const TextureCoat* coat,
+                                     const std::vector<WornAttachment>& worn) const {
   std::vector<Rgb8Image> views;
+  const std::vector<WornMesh> meshes = worn_surfaces_.meshes(worn);
   for (const Camera& camera : cameras_) {
-    views.push_back(renderer_.render(positions, camera, colours, coat));
+    views.push_back(renderer_.render(positions, camera, colours, coat, meshes));
   }
   return to_png(side_by_side(views));
 }

@@ -8,8 +8,10 @@
 #include "crowdface/config/config.h"
 #include "crowdface/core/file.h"
 #include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/gallery.h"
+#include "crowdface/pictures/worn_surfaces.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/face_renderer.h"
 
@@ -34,9 +36,10 @@ class CrowdRenders {
   void make_folders(const CrowdDirectory& directory) const;
   /// Writes a face's picture, and what the gallery shows of it.
   /// \param textures  of its own, or null: it bears its target's, if there are any.
+  /// \param worn      its attachments.
   WrittenPictures write(const CrowdDirectory& directory, const std::string& id, Index target,
-                        const Positions& positions,
-                        const std::vector<BlendedPicture>* textures) const;
+                        const Positions& positions, const std::vector<BlendedPicture>* textures,
+                        const std::vector<WornAttachment>& worn = {}) const;
 
   /// All views of a face side by side, as a PNG file's bytes.
   /// \param textures  of its own.
@@ -51,7 +54,8 @@ class CrowdRenders {
 
  private:
   std::string render_png(const Positions& positions, const VertexColours* colours,
-                         const TextureCoat* coat) const;
+                         const TextureCoat* coat,
+                         const std::vector<WornAttachment>& worn = {}) const;
   /// What pictures show of a face's own textures, or of a head's, if they show any.
   std::optional<TextureCoat> own_coat(const std::vector<BlendedPicture>& textures) const;
   std::optional<TextureCoat> coat_of(Index head) const;
@@ -61,6 +65,7 @@ class CrowdRenders {
   const HeadTextures& textures_;
   bool textured_;
   int most_texels_;
+  WornSurfaces worn_surfaces_;
   const GalleryMeshes* gallery_ = nullptr;
 };
 

@@ -62,7 +62,8 @@ void CrowdPictures::write_founder(const std::string& family, const Positions& po
                                         : renders_.render_png(positions, recipe.target));
 }
 
-void CrowdPictures::write_faces(const std::vector<CastFace>& crowd) const {
+void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
+                                const FaceAttachments& attachments) const {
   renders_.make_folders(directory_);
   Progress progress("pictures", crowd.size());
   parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
@@ -70,10 +71,10 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd) const {
     const CastFace& face = crowd[static_cast<std::size_t>(i)];
     std::vector<BlendedPicture> textures;
     if (textures_ != nullptr) textures = textures_->blend(face.recipe);
-    renders_.write(
-        directory_, face.id, face.recipe.target,
-        read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count),
-        textures.empty() ? nullptr : &textures);
+    const Positions positions =
+        read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count);
+    renders_.write(directory_, face.id, face.recipe.target, positions,
+                   textures.empty() ? nullptr : &textures, attachments.worn_by(face, positions));
     progress.step();
   });
 }

@@ -162,7 +162,8 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
 FaceRenderer::~FaceRenderer() = default;
 
 Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
-                               const VertexColours* colours, const TextureCoat* coat) const {
+                               const VertexColours* colours, const TextureCoat* coat,
+                               std::span<const WornMesh> worn) const {
   const Topology& topology = prepared_->topology;
   check_size(topology, positions);
   require(colours == nullptr || colours->rows() == topology.vertex_count,
@@ -176,6 +177,8 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
   std::vector<Eigen::Vector3f> normals = camera_normals(topology, prepared_->fans, points, sign);
   std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
+  std::optional<WornStage> worn_stage;
+  if (!worn.empty()) worn_stage.emplace(prepared_->device, worn, camera);
   const Stage stage{*scene,
                     std::move(normals),
                     sign,
@@ -188,6 +191,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->eyeballs,
                     std::move(eyes),
                     gaze,
+                    worn_stage ? &*worn_stage : nullptr,
                     prepared_->options.occlusion,
                     Eigen::Vector3f(0, 0, static_cast<float>(1 / camera.half_tangent))};
   const int size = prepared_->options.size_px;

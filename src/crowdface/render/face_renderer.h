@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
@@ -10,6 +11,7 @@
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
+#include "crowdface/render/worn_mesh.h"
 
 namespace crowdface {
 
@@ -40,9 +42,11 @@ class FaceRenderer {
   ///                   mirrored one is), it is turned.
   /// \param colours    #V by 3 instead of the surfaces' own, or nullptr.
   /// \param coat       textures for the faces they cover, or nullptr.
+  /// \param worn       what is drawn beside the face.
   /// \throws BrokenPrecondition if a size does not fit, InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
-                   const VertexColours* colours = nullptr, const TextureCoat* coat = nullptr) const;
+                   const VertexColours* colours = nullptr, const TextureCoat* coat = nullptr,
+                   std::span<const WornMesh> worn = {}) const;
 
  private:
   struct Prepared;

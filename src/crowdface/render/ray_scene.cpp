@@ -38,8 +38,22 @@ void fill(std::span<const Ray> rays, RTCRay16& packet, std::array<int, kTogether
     packet.tfar[r] = ray.furthest;
     packet.time[r] = 0;
     packet.mask[r] = ~0U;
-    packet.id[r] = 0;
+    packet.id[r] = ray.lot;
     packet.flags[r] = 0;
+  }
+}
+
+/// Lets rays through where there is nothing: of all lots as many as a surface lacks. Surfaces behind
+/// each other let other lots through.
+void pass_holes(const RTCFilterFunctionNArguments* met) {
+  const Opacity& opacity = *static_cast<const Opacity*>(met->geometryUserPtr);
+  for (unsigned int i = 0; i < met->N; ++i) {
+    if (met->valid[i] != -1) continue;
+    const std::uint32_t primitive = RTCHitN_primID(met->hit, met->N, i);
+    const float there =
+        opacity(primitive, RTCHitN_u(met->hit, met->N, i), RTCHitN_v(met->hit, met->N, i));
+    const std::uint32_t lot = (RTCRayN_id(met->ray, met->N, i) + primitive * 40503U) & 0xffffU;
+    if ((static_cast<float>(lot) + 0.5F) / 65536.0F >= there) met->valid[i] = 0;
   }
 }
 
@@ -69,6 +83,7 @@ struct RayScene::State {
   std::vector<float> points;
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;  ///< none if there are no quads
+  Opacity opacity;                 ///< none: all is there
 
   State(RTCDevice embree, std::vector<float> first) : device(embree), points(std::move(first)) {}
   ~State() {
@@ -113,6 +128,18 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   }
   state.commit_points();
 }
+
+RayScene::RayScene(const RayDevice& device, std::vector<float> points,
+                   const std::vector<Quad>& quads, Opacity opacity)
+    : RayScene(device, std::move(points), quads, Tree::kForOnce) {
+  if (state_->geometry == nullptr) return;
+  state_->opacity = std::move(opacity);
+  rtcSetGeometryUserData(state_->geometry, &state_->opacity);
+  rtcSetGeometryIntersectFilterFunction(state_->geometry, pass_holes);
+  rtcSetGeometryOccludedFilterFunction(state_->geometry, pass_holes);
+  state_->commit_points();
+}
+
 RayScene::~RayScene() = default;
 
 void RayScene::move_points(std::vector<float> points) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,6 +32,9 @@ struct Ray {
   Eigen::Vector3f direction;
   float nearest = 0;
   float furthest = 1e30F;
+  /// Its place among the rays of a pixel, from 0 to 65535: what is there in part lets pass so many of
+  /// them, always the same.
+  std::uint32_t lot = 0;
 };
 
 struct RayHit {
@@ -43,6 +47,9 @@ struct RayHit {
 /// Four vertices a primitive; a triangle names its last vertex twice.
 using Quad = std::array<std::uint32_t, 4>;
 
+/// How much of a primitive there is at a point of it: 0 a hole, 1 all.
+using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
+
 /// Quads that rays can be shot at, from any thread.
 class RayScene {
  public:
@@ -53,6 +60,9 @@ class RayScene {
   /// \param quads   must outlive the scene; every entry < points.size() / 3.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
            Tree tree = Tree::kForOnce);
+  /// Quads with holes. \param opacity  asked by any thread, for as long as the scene lives.
+  RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
+           Opacity opacity);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

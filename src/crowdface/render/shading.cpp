@@ -27,6 +27,8 @@ Material material_of(SurfaceKind kind) {
       return {{0.68F, 0.62F, 0.52F}, {0.15F, 0.12F, 0.10F}, 0.25F, 0.04F};
     case SurfaceKind::kGums:
       return {{0.42F, 0.20F, 0.18F}, {0.20F, 0.10F, 0.08F}, 0.30F, 0.04F};
+    case SurfaceKind::kWorn:
+      return {{0.5F, 0.5F, 0.5F}, {0.12F, 0.12F, 0.12F}, 0.42F, 0.04F};
     case SurfaceKind::kSkin:
     case SurfaceKind::kHidden:
       break;
@@ -130,7 +132,8 @@ bool faces_key(const ShadePoint& point) {
 Light shade(const ShadePoint& point) {
   const Studio& lamps = studio();
   Material material = material_of(point.kind);
-  if (point.kind == SurfaceKind::kSkin) material.reflectance *= skin_gloss(point.albedo);
+  if (point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn)
+    material.reflectance *= skin_gloss(point.albedo);
   const Eigen::Vector3f& n = point.normal;
   const Light open = with_bounces(point.sky, point.albedo);
 

@@ -19,6 +19,7 @@ enum class SurfaceKind : std::uint8_t {
   kIris,
   kTeeth,
   kGums,    ///< and tongue
+  kWorn,    ///< beside a head: hair, glasses; it has colours of its own
   kHidden,  ///< not drawn: lashes, tear fluid and shells that need textures to be seen through
 };
 

@@ -25,12 +25,6 @@ constexpr float kSameAlbedo = 0.03F;
 // The pixels around a point count its own pixel in; this is for a point unlike all of them.
 constexpr float kOwnWeight = 0.01F;
 
-/// Shares of a primitive's four vertices in a point on it.
-Eigen::Vector4f shares(const Quad& quad, float u, float v) {
-  if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
-  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
-}
-
 /// The texture's colour, if there is one.
 std::optional<Light> texture_albedo(const Stage& stage, std::uint32_t primitive,
                                     const Eigen::Vector4f& weights) {
@@ -83,7 +77,7 @@ Vector towards(const Vector& viewer, const Vector& normal) {
 
 Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const Quad& quad = stage.quads[hit.primitive];
-  const Eigen::Vector4f weights = shares(quad, hit.u, hit.v);
+  const Eigen::Vector4f weights = quad_shares(quad, hit.u, hit.v);
   Meeting meeting;
   meeting.point = stage.viewer + hit.distance * direction;
   meeting.surface.kind = stage.kinds[hit.primitive];
@@ -114,6 +108,25 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
     lift -= weights[c] * std::min(0.0F, (meeting.point - stage.scene.point(vertex)).dot(n)) * n;
   }
   meeting.start = meeting.point + lift + kClearance * side * geometric.normalized();
+  return meeting;
+}
+
+/// The same of what the face wears, which looks alike from both sides.
+Meeting meet_worn(const WornStage& worn, const Vector& viewer, const RayHit& hit,
+                  const Vector& direction) {
+  const WornStage::Place place = worn.at(hit);
+  Meeting meeting;
+  meeting.point = viewer + hit.distance * direction;
+  meeting.surface.kind = SurfaceKind::kWorn;
+  meeting.surface.albedo = place.colour;
+  const Vector geometric = (hit.normal.dot(direction) > 0 ? -1.0F : 1.0F) * hit.normal.normalized();
+  const Vector normal = (place.normal.dot(geometric) < 0 ? -1.0F : 1.0F) * place.normal;
+  meeting.surface.inside = false;
+  meeting.surface.to_eye = -direction.normalized();
+  meeting.surface.normal =
+      towards(meeting.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
+  meeting.asks_key = faces_key(meeting.surface);
+  meeting.start = meeting.point + kClearance * geometric;
   return meeting;
 }
 
@@ -197,12 +210,16 @@ class Tile {
     std::vector<Ray> rays;
     for_each_pixel([&](int x, int y, const Pixel& pixel) {
       if (!asks(pixel)) return;
+      std::uint32_t number = 0;
       for (const Eigen::Vector2f& place : places) {
         const Eigen::Vector2f at = on_image(x, y, place);
         rays.push_back({stage_.viewer, Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer});
+        rays.back().lot = (2 * number++ + 1) * 32768U / static_cast<std::uint32_t>(places.size());
       }
     });
     const auto hits = stage_.scene.nearest_hits(rays);
+    std::vector<std::optional<RayHit>> worn(rays.size());
+    if (stage_.worn != nullptr) worn = stage_.worn->scene().nearest_hits(rays);
     std::size_t ray = 0;
     for_each_pixel([&](int x, int y, Pixel& pixel) {
       if (!asks(pixel)) return;
@@ -210,7 +227,10 @@ class Tile {
       pixel.missed = 0;
       pixel.backdrop = Light::Zero();
       for (const Eigen::Vector2f& place : places) {
-        if (hits[ray]) {
+        if (worn[ray] && !(hits[ray] && hits[ray]->distance < worn[ray]->distance)) {
+          meetings_.push_back(
+              meet_worn(*stage_.worn, stage_.viewer, *worn[ray], rays[ray].direction));
+        } else if (hits[ray]) {
           meetings_.push_back(meet(stage_, *hits[ray], rays[ray].direction));
         } else {
           pixel.backdrop += background(on_image(x, y, place).y());
@@ -244,17 +264,20 @@ class Tile {
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
-  /// Calls `body(meeting, disc)` for each direction in which a meeting asks for lights, in the order of
+  /// Calls `body(meeting, disc, lot)` for each direction in which a meeting asks for lights, in the order of
   /// directions: rays that run alike are sent one after the other. A pixel that shows one thing asks as often as
   /// there are light rays; where it changes, each of its meetings asks.
   template <class Body>
   void for_each_ask(const Body& body) {
+    constexpr std::uint32_t kGoldenLot = 40503;  // lots of rays in a row are evenly spread
     const auto rays = static_cast<std::size_t>(sampling_.light_rays);
+    std::uint32_t number = 0;
     for (int shift_y = 0; shift_y < kInterleave; ++shift_y) {
       for (int shift_x = 0; shift_x < kInterleave; ++shift_x) {
         for (std::size_t k = 0; k < rays; ++k) {
           const Eigen::Vector2f& disc = sampling_.lights.point(
               outer_left_ + shift_x, outer_top_ + shift_y, static_cast<int>(k));
+          const auto lot = static_cast<std::uint32_t>(number++ * kGoldenLot) & 0xffffU;
           for (int y = outer_top_ + shift_y; y < outer_bottom_; y += kInterleave) {
             for (int x = outer_left_ + shift_x; x < outer_right_; x += kInterleave) {
               const Pixel& at = pixel(x, y);
@@ -262,7 +285,7 @@ class Tile {
               if (meetings.empty()) continue;
               const std::size_t first = k % meetings.size();
               const std::size_t end = at.changes ? meetings.size() : first + 1;
-              for (std::size_t m = first; m < end; m += rays) body(meetings[m], disc);
+              for (std::size_t m = first; m < end; m += rays) body(meetings[m], disc, lot);
             }
           }
         }
@@ -274,10 +297,11 @@ class Tile {
     const Vector key = key_direction();
     std::vector<Ray> rays;
     std::vector<Openness*> asking;
-    for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc) {
+    for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
       if (!meeting.asks_key) return;
       const Vector start = meeting.start + kThickness * meeting.surface.normal;
       rays.push_back({start, key + kKeyRadius * around(key, disc)});
+      rays.back().lot = lot;
       asking.push_back(&meeting.key);
     });
     trace(rays, asking);
@@ -287,17 +311,22 @@ class Tile {
   void ask_sky() {
     std::vector<Ray> rays;
     std::vector<Openness*> asking;
-    for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc) {
+    for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
       const Vector& normal = meeting.surface.normal;
       const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
       rays.push_back({meeting.start, around(normal, disc) + height * normal, 0, kSkyReach});
+      rays.back().lot = lot;
       asking.push_back(&meeting.sky);
     });
     trace(rays, asking);
   }
 
   void trace(const std::vector<Ray>& rays, const std::vector<Openness*>& asking) {
-    const std::vector<bool> blocked = stage_.scene.occluded(rays);
+    std::vector<bool> blocked = stage_.scene.occluded(rays);
+    if (stage_.worn != nullptr) {
+      const std::vector<bool> more = stage_.worn->scene().occluded(rays);
+      for (std::size_t r = 0; r < rays.size(); ++r) blocked[r] = blocked[r] || more[r];
+    }
     for (std::size_t r = 0; r < rays.size(); ++r) {
       asking[r]->add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
     }

@@ -17,6 +17,7 @@
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
+#include "crowdface/render/worn_stage.h"
 
 namespace crowdface {
 
@@ -41,7 +42,8 @@ struct Stage {
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Eigen::Vector3f gaze;
-  bool occlusion;  ///< whether the sky's light is kept out of hollows
+  const WornStage* worn;  ///< or nullptr
+  bool occlusion;         ///< whether the sky's light is kept out of hollows
   Eigen::Vector3f viewer;
 };
 

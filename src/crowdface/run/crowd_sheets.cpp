@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/likeness_file.h"
+#include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/face_builder.h"
@@ -134,7 +135,8 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   pictures.write_faces(
-      faces_to_draw(FaceLedger(ledger, job, directory, face_extras(job), {}), crowd));
+      faces_to_draw(FaceLedger(ledger, job, directory, face_extras(job), {}), crowd),
+      FaceAttachments(job.config, job.inputs));
   const std::vector<FamilyFounder> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);

@@ -123,7 +123,7 @@ class FaceOutput {
       const Busy busy(render_);
       const WrittenPictures written =
           renders_->write(directory_, face.id, face.recipe.target, positions,
-                          textures_ != nullptr ? &pictures : nullptr);
+                          textures_ != nullptr ? &pictures : nullptr, worn);
       files.picture = written.picture;
       files.preview = written.preview;
     }

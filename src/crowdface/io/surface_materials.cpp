@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/surface_materials.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+std::vector<float> numbers_of(std::string_view text) {
+  std::vector<float> numbers;
+  for (const std::string& word : words_of(text)) {
+    const auto number = parse_double(word);
+    if (!number) break;
+    numbers.push_back(static_cast<float>(*number));
+  }
+  return numbers;
+}
+
+/// The texture whose name stands at the end of a statement: of several the one with the longest.
+std::filesystem::path texture_at_end(std::string rest, const std::filesystem::path& folder,
+                                     const MaterialFiles& files) {
+  std::replace(rest.begin(), rest.end(), '\\', '/');
+  std::filesystem::path found;
+  std::size_t longest = 0;
+  for (const MaterialFile& file : files.files) {
+    if (file.is_library) continue;
+    for (std::size_t begin = 0; begin < rest.size(); ++begin) {
+      const bool is_word = begin == 0 || rest[begin - 1] == ' ' || rest[begin - 1] == '\t';
+      if (!is_word || rest.size() - begin <= longest) continue;
+      if ((folder / rest.substr(begin)).lexically_normal() != file.relative) continue;
+      longest = rest.size() - begin;
+      found = file.from;
+    }
+  }
+  return found;
+}
+
+void take(const MaterialStatement& statement, const std::filesystem::path& folder,
+          const MaterialFiles& files, SurfaceMaterial& material) {
+  const std::vector<float> numbers = numbers_of(statement.rest);
+  if (statement.word == "Kd" && numbers.size() == 3) {
+    material.colour = {numbers[0], numbers[1], numbers[2]};
+  } else if (statement.word == "d" && numbers.size() == 1) {
+    material.opacity = std::clamp(numbers[0], 0.0F, 1.0F);
+  } else if (statement.word == "Tr" && numbers.size() == 1) {
+    material.opacity = std::clamp(1 - numbers[0], 0.0F, 1.0F);
+  } else if (statement.word == "map_Kd") {
+    material.colour_map = texture_at_end(std::string(statement.rest), folder, files);
+  } else if (statement.word == "map_d") {
+    material.opacity_map = texture_at_end(std::string(statement.rest), folder, files);
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) {
+  std::vector<SurfaceMaterial> materials;
+  for (const MaterialFile& file : files.files) {
+    if (!file.is_library) continue;
+    const std::string text = read_file(file.from);
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      const MaterialStatement statement =
+          material_statement(std::string_view(text).substr(begin, end - begin));
+      begin = end + 1;
+      if (statement.word == "newmtl") {
+        materials.push_back({std::string(statement.rest), std::nullopt, 1, {}, {}});
+      } else if (!materials.empty()) {
+        take(statement, file.relative.parent_path(), files, materials.back());
+      }
+    }
+  }
+  return materials;
+}
+
+}  // namespace crowdface

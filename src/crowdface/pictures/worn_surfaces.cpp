@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/worn_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/light_of_image.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/surface_materials.h"
+
+namespace crowdface {
+namespace {
+
+/// How much there is at a texel: the image's alpha, or its first channel.
+float opacity_at(const Image& image, int x, int y) {
+  const int channel = image.alpha_channel >= 0 ? image.alpha_channel : 0;
+  return std::clamp(image.at(x, y, channel), 0.0F, 1.0F);
+}
+
+std::shared_ptr<const Texture> opacity_of(const Image& image, int most_px) {
+  return std::make_shared<const Texture>(
+      shrunk_texture(image.width, image.height, most_px, [&](int y, std::span<Light> texels) {
+        for (int x = 0; x < image.width; ++x) {
+          texels[static_cast<std::size_t>(x)] = Light::Constant(opacity_at(image, x, y));
+        }
+      }));
+}
+
+/// Colours, of which those count that are to be seen: what holes are painted with shows at no edge.
+std::shared_ptr<const Texture> colour_of(const Image& image, int most_px) {
+  const LightRows light = light_of(image);
+  Texture plain = shrunk_texture(image.width, image.height, most_px, light.row);
+  if (image.alpha_channel < 0) return std::make_shared<const Texture>(std::move(plain));
+  const Texture weighted =
+      shrunk_texture(image.width, image.height, most_px, [&](int y, std::span<Light> texels) {
+        light.row(y, texels);
+        for (int x = 0; x < image.width; ++x) {
+          texels[static_cast<std::size_t>(x)] *= opacity_at(image, x, y);
+        }
+      });
+  const auto opacity = opacity_of(image, most_px);
+  for (std::size_t t = 0; t < plain.texels.size(); ++t) {
+    const float there = opacity->texels[t][0];
+    if (there > 0.01F) plain.texels[t] = weighted.texels[t] / there;
+  }
+  return std::make_shared<const Texture>(std::move(plain));
+}
+
+WornMaterial material_of(const SurfaceMaterial& made_of, int most_px, bool textured) {
+  WornMaterial material;
+  if (made_of.colour) {
+    material.colour = Light((*made_of.colour)[0], (*made_of.colour)[1], (*made_of.colour)[2]);
+  }
+  material.share = made_of.opacity;
+  if (!made_of.colour_map.empty()) {
+    const Image image = read_image(made_of.colour_map, {.jpeg = true});
+    const auto colours = colour_of(image, most_px);
+    if (textured) {
+      material.texture = colours;
+    } else if (!made_of.colour) {
+      material.colour = albedo_of(SurfaceKind::kSkin);
+    }
+    if (made_of.opacity_map.empty() && image.alpha_channel >= 0) {
+      material.opacity = opacity_of(image, most_px);
+    }
+  }
+  if (!made_of.opacity_map.empty()) {
+    material.opacity = opacity_of(read_image(made_of.opacity_map, {.jpeg = true}), most_px);
+  }
+  return material;
+}
+
+std::unique_ptr<const WornSurface> surface_of(const Attachment& item, int most_px, bool textured) {
+  const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+  const std::vector<SurfaceMaterial> known = read_surface_materials(item.materials);
+  std::vector<WornMaterial> materials;
+  for (const std::string& name : named.names) {
+    const auto found = std::find_if(known.begin(), known.end(),
+                                    [&](const SurfaceMaterial& m) { return m.name == name; });
+    materials.emplace_back();
+    if (found == known.end()) continue;
+    try {
+      materials.back() = material_of(*found, most_px, textured);
+    } catch (const InvalidInput& error) {
+      log_warning(concat(error.what(), "; pictures do without"));
+    }
+  }
+  if (materials.empty()) materials.emplace_back();
+  return std::make_unique<const WornSurface>(item.file.topology, item.file.uvs,
+                                             std::move(materials), named.of_face);
+}
+
+}  // namespace
+
+WornSurfaces::WornSurfaces(const Inputs& inputs, int most_px, bool textured) {
+  const std::vector<Attachment>& items = inputs.attachments.items;
+  std::vector<std::unique_ptr<const WornSurface>> surfaces(items.size());
+  parallel_for_each(items.size(),
+                    [&](std::size_t i) { surfaces[i] = surface_of(items[i], most_px, textured); });
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    surfaces_.emplace(&items[i], std::move(surfaces[i]));
+  }
+}
+
+std::vector<WornMesh> WornSurfaces::meshes(const std::vector<WornAttachment>& worn) const {
+  std::vector<WornMesh> meshes;
+  for (const WornAttachment& one : worn) {
+    meshes.push_back({surfaces_.at(one.item).get(), &one.positions});
+  }
+  return meshes;
+}
+
+}  // namespace crowdface

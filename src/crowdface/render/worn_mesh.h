@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/render/ray_scene.h"
+#include "crowdface/render/texture.h"
+
+namespace crowdface {
+
+/// What a mesh beside a face is made of.
+struct WornMaterial {
+  Light colour = Light::Constant(0.5F);    ///< linear, where there is no texture
+  std::shared_ptr<const Texture> texture;  ///< or null
+  std::shared_ptr<const Texture> opacity;  ///< how much of the surface there is, or null: all
+  float share = 1;                         ///< of that
+};
+
+/// A mesh that is drawn beside a face, from both sides alike: hair, glasses. What is there in part lets
+/// as many rays through.
+class WornSurface {
+ public:
+  /// \param uvs        #T by 2, may be empty.
+  /// \param materials  at least one.
+  /// \param of_face    #F rows of `materials`.
+  WornSurface(const Topology& topology, const TextureCoordinates& uvs,
+              std::vector<WornMaterial> materials, const std::vector<std::uint32_t>& of_face);
+
+  const Topology& topology() const { return topology_; }
+  const NormalFans& fans() const { return fans_; }
+  const std::vector<Quad>& quads() const { return quads_; }
+
+  /// The colour, and how much of the surface there is, at a place of a quad.
+  Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+  float opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+
+ private:
+  Eigen::Vector2f place(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+
+  Topology topology_;
+  NormalFans fans_;
+  std::vector<WornMaterial> materials_;
+  std::vector<Quad> quads_;
+  std::vector<std::uint32_t> materials_of_quads_;
+  std::vector<std::array<Eigen::Vector2f, 4>> uvs_;  ///< #quads
+};
+
+/// One on a face.
+struct WornMesh {
+  const WornSurface* surface;
+  const Positions* positions;
+};
+
+/// Shares of a primitive's four vertices in a point on it.
+inline Eigen::Vector4f quad_shares(const Quad& quad, float u, float v) {
+  if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
+  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+}
+
+}  // namespace crowdface

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "crowdface/render/camera.h"
+#include "crowdface/render/ray_scene.h"
+#include "crowdface/render/worn_mesh.h"
+
+namespace crowdface {
+
+/// All that a face wears, as the camera sees it.
+class WornStage {
+ public:
+  /// \param worn  at least one; surfaces must outlive this object.
+  WornStage(const RayDevice& device, std::span<const WornMesh> worn, const Camera& camera);
+  WornStage(const WornStage&) = delete;
+  WornStage& operator=(const WornStage&) = delete;
+
+  const RayScene& scene() const { return *scene_; }
+
+  /// What a ray has met.
+  struct Place {
+    Eigen::Vector3f normal;  ///< smooth, not of unit length, on either side
+    Light colour;
+  };
+  Place at(const RayHit& hit) const;
+
+ private:
+  struct Part {
+    const WornSurface* surface;
+    std::uint32_t first_quad;
+  };
+  const Part& part_of(std::uint32_t quad) const;
+
+  std::vector<Part> parts_;
+  std::vector<Quad> quads_;
+  std::vector<Eigen::Vector3f> normals_;
+  std::unique_ptr<const RayScene> scene_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/worn_mesh.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/render/camera.h"
+#include "crowdface/render/face_renderer.h"
+
+#include "support/meshes.h"
+
+namespace crowdface {
+namespace {
+
+/// A wall that looks at the camera, and a card before its middle.
+struct Scene {
+  Topology wall = testing::grid_topology(8, 8);
+  Positions wall_points{81, 3};
+  Topology card = testing::make_topology(4, {{0, 1, 2, 3}});
+  Positions card_points{4, 3};
+  TextureCoordinates uvs{4, 2};
+  Camera camera;
+
+  Scene() {
+    for (Index v = 0; v < 81; ++v) {
+      const auto row = static_cast<double>(v / 9), column = static_cast<double>(v % 9);
+      wall_points.row(v) << column - 4, row - 4, 0;
+    }
+    card_points << -1, -1, 0.2, 1, -1, 0.2, 1, 1, 0.2, -1, 1, 0.2;
+    uvs << 0, 0, 1, 0, 1, 1, 0, 1;
+    card.corner_uvs = {0, 1, 2, 3};
+    const Positions* walls[] = {&wall_points};
+    camera = fit_camera(walls, {}, View::kFront);
+  }
+  Rgb8Image wearing(const std::vector<WornMesh>& worn) const {
+    const FaceRenderer renderer(wall, {.size_px = 64}, {}, &wall_points);
+    return renderer.render(wall_points, camera, nullptr, nullptr, worn);
+  }
+  Rgb8Image render(const WornMaterial& material) const {
+    const WornSurface surface(card, uvs, {material}, {0});
+    return wearing({{&surface, &card_points}});
+  }
+};
+
+/// The mean of the red channel around the middle of the picture.
+double middle_red(const Rgb8Image& image) {
+  double sum = 0;
+  for (int y = 28; y < 36; ++y) {
+    for (int x = 28; x < 36; ++x) sum += image.at(x, y)[0];
+  }
+  return sum / 64;
+}
+
+WornMaterial black(float share) {
+  return {Light::Zero(), nullptr, nullptr, share};
+}
+
+TEST(WornMesh, CoversWhatIsBehindItAsFarAsItIsThere) {
+  const Scene scene;
+  const double bare = middle_red(scene.wearing({}));
+  const double covered = middle_red(scene.render(black(1)));
+  EXPECT_LT(covered, bare / 2);
+  EXPECT_EQ(scene.render(black(0)).pixels, scene.wearing({}).pixels);
+  double before = bare;
+  for (const float share : {0.25F, 0.5F, 0.75F, 1.0F}) {
+    const double now = middle_red(scene.render(black(share)));
+    EXPECT_LT(now, before - (bare - covered) / 8) << share;
+    before = now;
+  }
+}
+
+TEST(WornMesh, HasHolesWhereItsTextureSaysSo) {
+  const Scene scene;
+  Texture left{2, 1, {Light::Ones(), Light::Zero()}};
+  WornMaterial material = black(1);
+  material.opacity = std::make_shared<const Texture>(left);
+  const Rgb8Image bare = scene.wearing({}), half = scene.render(material);
+  EXPECT_LT(half.at(28, 32)[0], bare.at(28, 32)[0] / 2) << "the left half is there";
+  EXPECT_GT(half.at(37, 32)[0], bare.at(37, 32)[0] / 2) << "the right half is not";
+}
+
+TEST(WornMesh, BearsTheColoursOfItsTexture) {
+  const Scene scene;
+  WornMaterial material = black(1);
+  material.texture = std::make_shared<const Texture>(Texture{1, 1, {Light(0.8F, 0.05F, 0.05F)}});
+  const Rgb8Image image = scene.render(material);
+  EXPECT_GT(image.at(32, 32)[0], 2 * image.at(32, 32)[1]);
+}
+
+TEST(WornMesh, LooksAlikeFromBothSides) {
+  const Scene scene;
+  const WornSurface surface(scene.card, scene.uvs, {WornMaterial()}, {0});
+  Topology turned = scene.card;
+  std::reverse(turned.corner_vertices.begin(), turned.corner_vertices.end());
+  const WornSurface other(turned, scene.uvs, {WornMaterial()}, {0});
+  const double front = middle_red(scene.wearing({{&surface, &scene.card_points}}));
+  const double back = middle_red(scene.wearing({{&other, &scene.card_points}}));
+  EXPECT_NEAR(front, back, 3);
+}
+
+TEST(WornMesh, CastsShadowsButThroughItsHoles) {
+  Scene scene;
+  scene.card_points.col(2).setConstant(1.0);
+  const auto darkest = [&](const Rgb8Image& image, const Rgb8Image& bare) {
+    int most = 0;  // beside the card itself, down to the right, where the key light casts
+    for (int y = 36; y < 52; ++y) {
+      for (int x = 40; x < 52; ++x) most = std::max(most, bare.at(x, y)[0] - image.at(x, y)[0]);
+    }
+    return most;
+  };
+  const Rgb8Image bare = scene.wearing({});
+  EXPECT_GT(darkest(scene.render(black(1)), bare), 30);
+  EXPECT_LT(darkest(scene.render(black(0)), bare), 1);
+}
+
+TEST(WornMesh, IsTheSamePictureEachTime) {
+  const Scene scene;
+  EXPECT_EQ(scene.render(black(0.4F)).pixels, scene.render(black(0.4F)).pixels);
+}
+
+}  // namespace
+}  // namespace crowdface
