@@ -12,6 +12,7 @@
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
+#include "support/mesh_files.h"
 #include "support/small_crowd.h"
 
 namespace crowdface {
@@ -108,6 +109,21 @@ TEST_F(AttachmentsOfACrowd, FindTheirMaterialsInAFolderOfTheirOwn) {
   EXPECT_EQ(testing::read_text(mesh("attachments/cap/cap.mtl")),
             testing::read_text(folder_ / "wear/cap.mtl"));
   EXPECT_EQ(testing::read_text(mesh("attachments/cap/maps/hair.png")), "no picture");
+}
+
+TEST_F(AttachmentsOfACrowd, AreNodesBelowTheFaceInGlbFiles) {
+  run({"output.meshes=[glb]"});
+  EXPECT_FALSE(fs::exists(mesh("herself+cap.obj")));
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const std::string id = line.at("id");
+    const auto scene = testing::read_glb(mesh(id + ".glb")).scene;
+    std::vector<std::string> below;
+    for (const auto& child : scene.at("nodes").at(0).at("children")) {
+      below.push_back(scene.at("nodes").at(child.get<std::size_t>()).at("name"));
+    }
+    EXPECT_EQ(below, line.at("attachments").get<std::vector<std::string>>()) << id;
+    EXPECT_EQ(scene.at("materials").back().value("name", ""), below.back() == "cap" ? "hair" : "");
+  }
 }
 
 TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {

@@ -123,10 +123,13 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
     set.items.push_back(std::move(*item));
   }
   const auto& meshes = config.output.meshes;
-  if (!meshes.empty() &&
-      std::find(meshes.begin(), meshes.end(), MeshFormat::kObj) == meshes.end()) {
+  const bool have_files = std::any_of(meshes.begin(), meshes.end(), [](MeshFormat format) {
+    return format == MeshFormat::kObj || format == MeshFormat::kGlb;
+  });
+  if (!meshes.empty() && !have_files) {
     inputs.warnings.emplace_back(
-        "attachments are written beside OBJ files, and output.meshes has no obj: no file has them");
+        "attachments are written as OBJ files and in GLB files, and output.meshes has neither obj "
+        "nor glb: no file has them");
     log_warning(inputs.warnings.back());
   }
   set.digest = digest_of(set);

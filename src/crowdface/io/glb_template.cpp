@@ -291,8 +291,8 @@ std::size_t GlbTemplate::memory_bytes() const {
 
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
                                 const std::string& name, std::span<const Displacements> moves,
-                                std::span<const std::string_view> images,
-                                const Positions& points) const {
+                                std::span<const std::string_view> images, const Positions& points,
+                                std::span<const PlacedGlbPart> parts) const {
   require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
   require(images.size() == images_, "a GLB file with ", images.size(), " images for ", images_);
   require_finite(positions, vertices_, name);
@@ -314,8 +314,12 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   scene["nodes"][0]["name"] = name;
   scene["meshes"][0]["name"] = name;
   const std::size_t arrays_size = encode_bytes() + shared_.size();
-  const std::size_t binary_size =
+  const std::size_t own_size =
       images.empty() ? arrays_size : place_images(scene, arrays_size, images);
+  std::size_t binary_size = own_size;
+  for (const PlacedGlbPart& one : parts) {
+    binary_size = one.part->describe(scene, *one.positions, binary_size);
+  }
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');
 
@@ -352,7 +356,8 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
     file.refer_to(image);
     written += image.size();
   }
-  file.add(std::string(binary_size - written, '\0'));
+  file.add(std::string(own_size - written, '\0'));
+  for (const PlacedGlbPart& one : parts) one.part->append(file, *one.positions);
   return file;
 }
 

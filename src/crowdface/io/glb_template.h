@@ -9,6 +9,7 @@
 
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_options.h"
+#include "crowdface/io/glb_part.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
@@ -30,12 +31,13 @@ class GlbTemplate {
   /// \param name     of the mesh, in the file and in messages.
   /// \param points   #points by 3, in the positions' unit.
   /// \param images   files, as many as the options say; must outlive the result.
+  /// \param parts    what stands beside the face; must outlive the result.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   /// \param moves    #targets: of their vertices, from `positions`.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
-                     std::span<const std::string_view> images = {},
-                     const Positions& points = {}) const;
+                     std::span<const std::string_view> images = {}, const Positions& points = {},
+                     std::span<const PlacedGlbPart> parts = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;

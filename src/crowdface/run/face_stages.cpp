@@ -157,7 +157,7 @@ class FaceOutput {
         textures = own_->encode(pictures);
         of_mesh = own_->of_mesh(textures);
       }
-      meshes = writers_.encode(face, positions, of_mesh);
+      meshes = writers_.encode(face, positions, of_mesh, worn);
       if (attachments_have_files(formats_)) attachment_writers_.add_to(meshes, face.id, worn);
     }
     const Busy busy(write_);

@@ -102,6 +102,7 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
+    if (!inputs.attachments.empty()) glb_attachments_.emplace(inputs);
   }
   if (has(MeshFormat::kUsd)) {
     usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs), config.output.subdivision);
@@ -162,7 +163,8 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
 
 EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) const {
   if (mesh.level > 0) return encode_level(mesh, face);
-  const auto& [id, target, positions, normals, moves, textures, texture_names, points] = face;
+  const auto& [id, target, positions, normals, moves, textures, texture_names, points, parts] =
+      face;
   switch (mesh.format) {
     case MeshFormat::kObj: {
       if (mesh.shape.empty()) return obj_.at(target).encode(positions, id);
@@ -171,7 +173,7 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) con
     case MeshFormat::kPly:
       return ply_->encode(positions, had_normals(target) ? normals : Positions(), id);
     case MeshFormat::kGlb:
-      return glb_->encode(positions, normals, id, moves, textures, points);
+      return glb_->encode(positions, normals, id, moves, textures, points, parts);
     case MeshFormat::kUsd:
       return usd_->encode(positions, normals, id, moves, texture_names, points);
     case MeshFormat::kPoints:
@@ -182,7 +184,8 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) con
 }
 
 std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positions& positions,
-                                             std::span<const std::string_view> textures) const {
+                                             std::span<const std::string_view> textures,
+                                             std::span<const WornAttachment> worn) const {
   Positions normals;
   if (needs_normals(face.recipe.target)) {
     normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
@@ -192,8 +195,10 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   Positions points;
   if (points_) points = points_->carry(face.recipe.target, positions);
   const std::vector<std::string> texture_names = own_texture_names(config_, inputs_, face.id);
-  const WholeFace whole{face.id, face.recipe.target, positions,     normals,
-                        moves,   textures,           texture_names, points};
+  std::vector<PlacedGlbPart> parts;
+  if (glb_attachments_) parts = glb_attachments_->parts(worn);
+  const WholeFace whole{face.id,  face.recipe.target, positions, normals, moves,
+                        textures, texture_names,      points,    parts};
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
     meshes.push_back({name, encode(name, whole)});
@@ -209,6 +214,7 @@ std::size_t MeshWriters::memory_bytes() const {
   for (const auto& [target, form] : obj_) bytes += form.memory_bytes();
   if (ply_) bytes += ply_->memory_bytes();
   if (glb_) bytes += glb_->memory_bytes();
+  if (glb_attachments_) bytes += glb_attachments_->memory_bytes();
   if (usd_) bytes += usd_->memory_bytes();
   if (shapes_) bytes += displacement_bytes(inputs_.shapes);
   for (const LevelWriter& level : levels_) bytes += level.memory_bytes();

@@ -21,6 +21,7 @@
 #include "crowdface/io/usda_template.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/face_files.h"
+#include "crowdface/run/glb_attachments.h"
 #include "crowdface/run/level_writer.h"
 #include "crowdface/shapes/point_carrier.h"
 #include "crowdface/shapes/shape_transfer.h"
@@ -52,9 +53,11 @@ class MeshWriters {
   /// this object and to the textures.
   /// \param textures  files of the face's own pictures, as far as there are any, for GLB; OBJ files name
   ///                  the face's own material file instead.
+  /// \param worn      its attachments, for GLB.
   /// \throws InvalidInput if positions are not finite.
   std::vector<EncodedMesh> encode(const CastFace& face, const Positions& positions,
-                                  std::span<const std::string_view> textures = {}) const;
+                                  std::span<const std::string_view> textures = {},
+                                  std::span<const WornAttachment> worn = {}) const;
 
   /// What this object itself takes, and what the encoding of one face takes at most.
   std::size_t memory_bytes() const;
@@ -75,6 +78,7 @@ class MeshWriters {
   std::map<Index, ObjTemplate> obj_;  ///< of each head that is a target
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
+  std::optional<GlbAttachments> glb_attachments_;  ///< if there are any
   std::optional<UsdaTemplate> usd_;
   std::vector<MeshName> names_;
   std::optional<ShapeTransfer> shapes_;  ///< if there are any that a format holds

@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 /// What a face wears, beside its mesh, and the materials of that.
 void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
-                       const Positions& positions, const fs::path& file) {
-  if (face.attachments.empty() || !attachments_have_files(std::span(&format, 1))) return;
+                       std::span<const WornAttachment> worn, const fs::path& file) {
+  if (worn.empty() || !attachments_have_files(std::span(&format, 1))) return;
   std::vector<EncodedMesh> meshes;
   const AttachmentWriters writers(job.inputs);
-  writers.add_to(meshes, face.id, FaceAttachments(job.config, job.inputs).worn_by(face, positions));
+  writers.add_to(meshes, face.id, worn);
   for (const EncodedMesh& mesh : meshes) {
     write_mesh(mesh, file.parent_path() / (file.stem().string() + file_end(mesh.name)));
   }
@@ -41,15 +41,19 @@ void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
 void write_face(const Job& job, const TextureBlender* textures, const CastFace& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file) {
   const MeshWriters writers(job.config, job.inputs, {format}, {&face, 1});
-  write_attachments(job, face, format, positions, file);
+  std::vector<WornAttachment> worn;
+  if (!face.attachments.empty()) {
+    worn = FaceAttachments(job.config, job.inputs).worn_by(face, positions);
+  }
+  write_attachments(job, face, format, worn, file);
   if (textures == nullptr) {
-    write_mesh(writers.encode(face, positions).front(), file);
+    write_mesh(writers.encode(face, positions, {}, worn).front(), file);
     return;
   }
   const OwnTextures own(job.config, job.inputs, {&face, 1});
   std::vector<std::string> encoded = own.encode(textures->blend(face.recipe));
   const std::vector<std::string_view> of_mesh = own.of_mesh(encoded);
-  write_mesh(writers.encode(face, positions, of_mesh).front(), file);
+  write_mesh(writers.encode(face, positions, of_mesh, worn).front(), file);
   for (const OwnFile& beside : own.files(face, std::span(&format, 1), std::move(encoded))) {
     const std::filesystem::path path = file.parent_path() / beside.name;
     make_directories(path.parent_path());

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/glb_part.h"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/require.h"
+#include "crowdface/io/glb_scene.h"
+#include "crowdface/io/little_endian.h"
+#include "crowdface/io/single_precision.h"
+#include "crowdface/io/split_vertices.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace gltf;
+
+constexpr std::size_t kVectorSize = 3 * sizeof(float);
+
+Json bounds_json(const Eigen::RowVector3d& vector) {
+  Json json = Json::array();
+  for (const double part : vector) json.push_back(static_cast<double>(to_single(part)));
+  return json;
+}
+
+std::size_t add_view(Json& scene, std::size_t& size, std::size_t length, int target) {
+  Json view = {{"buffer", 0}, {"byteOffset", size}, {"byteLength", length}};
+  if (target != 0) view["target"] = target;
+  scene["bufferViews"].push_back(std::move(view));
+  size += length;
+  return scene["bufferViews"].size() - 1;
+}
+
+std::size_t add_accessor(Json& scene, std::size_t view, std::size_t offset, int component,
+                         const char* type, std::size_t count) {
+  Json accessor = {{"bufferView", view}};
+  if (offset > 0) accessor["byteOffset"] = offset;
+  accessor["componentType"] = component;
+  accessor["count"] = count;
+  accessor["type"] = type;
+  scene["accessors"].push_back(std::move(accessor));
+  return scene["accessors"].size() - 1;
+}
+
+Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture) {
+  GlbMaterial plain;
+  plain.name = material.name;
+  plain.colour = material.colour;
+  if (material.image) plain.image = first_texture + *material.image;
+  Json json = material_json(plain, 0);
+  json.erase("alphaMode");
+  if (material.alpha == GlbPartMaterial::Alpha::kMask) json["alphaMode"] = "MASK";
+  if (material.alpha == GlbPartMaterial::Alpha::kBlend) json["alphaMode"] = "BLEND";
+  return json;
+}
+
+}  // namespace
+
+GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
+                 const std::vector<GlbPartMaterial>& materials,
+                 const std::vector<std::uint32_t>& face_materials,
+                 const std::vector<GlbImage>& images)
+    : name_(std::move(name)), topology_(topology), fans_(topology), materials_(materials) {
+  require(!materials.empty() && static_cast<Index>(face_materials.size()) == topology.face_count(),
+          "GlbPart: a material of each face");
+  const SplitVertices split = split_vertices(topology);
+  split_ = split.vertices;
+  has_uvs_ = !split.uvs.empty() && uvs.rows() > 0;
+  if (has_uvs_) {
+    for (const std::uint32_t uv : split.uvs) {
+      const bool has_one = uv != kNoIndex;
+      append_number(shared_, has_one ? to_single(uvs(uv, 0)) : 0.0F);
+      append_number(shared_, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v goes down
+    }
+  }
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    std::size_t indices = 0;
+    for (std::size_t t = 0; t < split.triangles.size(); ++t) {
+      if (face_materials[split.triangle_faces[t]] != m) continue;
+      for (const std::uint32_t vertex : split.triangles[t]) append_number(shared_, vertex);
+      indices += 3;
+    }
+    if (indices > 0) primitives_.push_back({m, indices});
+  }
+  for (const GlbImage& image : images) {
+    shared_ += image.bytes;
+    image_sizes_.push_back(image.bytes.size());
+    image_types_.push_back(image.type);
+  }
+  shared_.append((4 - shared_.size() % 4) % 4, '\0');
+}
+
+std::size_t GlbPart::describe(Json& scene, const Positions& positions, std::size_t size) const {
+  const std::size_t vertices = split_.size(), begin = size;
+  Json attributes = Json::object();
+  const auto add_attribute = [&](const char* called, const char* type, std::size_t width) {
+    const std::size_t view = add_view(scene, size, vertices * width * sizeof(float), kArrayBuffer);
+    attributes[called] = add_accessor(scene, view, 0, kFloat, type, vertices);
+  };
+  add_attribute("POSITION", "VEC3", 3);
+  Json& bounded = scene["accessors"].back();
+  bounded["min"] = bounds_json(positions.colwise().minCoeff());
+  bounded["max"] = bounds_json(positions.colwise().maxCoeff());
+  add_attribute("NORMAL", "VEC3", 3);
+  if (has_uvs_) add_attribute("TEXCOORD_0", "VEC2", 2);
+  std::size_t all = 0;
+  for (const Primitive& primitive : primitives_) all += primitive.indices;
+  const std::size_t view = add_view(scene, size, all * sizeof(std::uint32_t), kElementArrayBuffer);
+  const std::size_t first_texture = scene.contains("textures") ? scene["textures"].size() : 0;
+  Json primitives = Json::array();
+  std::size_t offset = 0;
+  for (const Primitive& primitive : primitives_) {
+    const std::size_t material = scene.contains("materials") ? scene["materials"].size() : 0;
+    scene["materials"].push_back(material_json_of(materials_[primitive.material], first_texture));
+    primitives.push_back(
+        {{"attributes", attributes},
+         {"indices", add_accessor(scene, view, offset, kUnsignedInt, "SCALAR", primitive.indices)},
+         {"material", material}});
+    offset += primitive.indices * sizeof(std::uint32_t);
+  }
+  for (std::size_t i = 0; i < image_sizes_.size(); ++i) {
+    const std::size_t image = scene.contains("images") ? scene["images"].size() : 0;
+    scene["textures"].push_back(Json::object({{"source", image}}));
+    scene["images"].push_back(
+        {{"bufferView", add_view(scene, size, image_sizes_[i], 0)}, {"mimeType", image_types_[i]}});
+  }
+  scene["nodes"][0]["children"].push_back(scene["nodes"].size());
+  scene["nodes"].push_back({{"name", name_}, {"mesh", scene["meshes"].size()}});
+  scene["meshes"].push_back(Json::object({{"name", name_}, {"primitives", std::move(primitives)}}));
+  size = begin + 2 * vertices * kVectorSize + shared_.size();
+  scene["buffers"][0]["byteLength"] = size;
+  return size;
+}
+
+void GlbPart::append(EncodedFile& file, const Positions& positions) const {
+  require_finite(positions, topology_.vertex_count, name_);
+  const Positions normals = vertex_normals(fans_, topology_, positions);
+  const std::size_t length = 2 * split_.size() * kVectorSize;
+  char* const vectors = file.reserve(length);
+  char* at = vectors;
+  for (const Positions* rows : {&positions, &normals}) {
+    for (const std::uint32_t vertex : split_) at = put_row(at, *rows, vertex);
+  }
+  file.refer_to({vectors, length});
+  file.refer_to(shared_);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/glb_attachments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/surface_materials.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint8_t byte_at(const Image& image, int x, int y, int channel) {
+  const float value = std::clamp(image.at(x, y, channel), 0.0F, 1.0F);
+  return static_cast<std::uint8_t>(std::lround(255.0F * value));
+}
+
+/// A file's own bytes, if glTF takes them.
+std::optional<GlbImage> as_it_is(const fs::path& file) {
+  std::string bytes = read_file(file);
+  if (bytes.starts_with("\x89PNG")) return GlbImage{std::move(bytes), "image/png"};
+  if (bytes.starts_with("\xff\xd8\xff")) return GlbImage{std::move(bytes), "image/jpeg"};
+  return std::nullopt;
+}
+
+/// Colours with holes as alpha. \param holes  of another size is taken at the nearest texel.
+GlbImage with_alpha(const Image* colour, const Image* holes) {
+  const Image& size = colour != nullptr ? *colour : *holes;
+  std::vector<std::uint8_t> pixels;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        pixels.push_back(colour == nullptr ? 255
+                                           : byte_at(*colour, x, y, colour->channels < 3 ? 0 : c));
+      }
+      if (holes == nullptr) {
+        pixels.push_back(255);
+        continue;
+      }
+      const int channel = holes->alpha_channel >= 0 ? holes->alpha_channel : 0;
+      pixels.push_back(
+          byte_at(*holes, x * holes->width / size.width, y * holes->height / size.height, channel));
+    }
+  }
+  return {encode_png(size.width, size.height, 4, pixels, PngEffort::kFast), "image/png"};
+}
+
+GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage>& images) {
+  using Alpha = GlbPartMaterial::Alpha;
+  GlbPartMaterial material;
+  material.name = made_of.name;
+  const bool has_colours = !made_of.colour_map.empty();
+  if (made_of.colour && !has_colours) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      material.colour[c] = std::clamp((*made_of.colour)[c], 0.0F, 1.0F);
+    }
+  }
+  material.colour[3] = made_of.opacity;
+  material.alpha = made_of.opacity < 1 ? Alpha::kBlend : Alpha::kOpaque;
+  if (!has_colours && made_of.opacity_map.empty()) return material;
+  std::optional<Image> colour, holes;
+  if (has_colours) colour = read_image(made_of.colour_map, {.jpeg = true});
+  const bool own_holes = made_of.opacity_map.empty() || made_of.opacity_map == made_of.colour_map;
+  if (!own_holes) holes = read_image(made_of.opacity_map, {.jpeg = true});
+  const bool has_holes = holes || (colour && colour->alpha_channel >= 0);
+  std::optional<GlbImage> image;
+  if (!holes) image = as_it_is(made_of.colour_map);
+  if (!image) {
+    const Image* alpha = holes ? &*holes : has_holes ? &*colour : nullptr;
+    image = with_alpha(colour ? &*colour : nullptr, alpha);
+  }
+  if (has_holes) material.alpha = Alpha::kMask;
+  material.image = images.size();
+  images.push_back(std::move(*image));
+  return material;
+}
+
+GlbPart part_of(const Attachment& item) {
+  const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+  const std::vector<SurfaceMaterial> known = read_surface_materials(item.materials);
+  std::vector<GlbPartMaterial> materials;
+  std::vector<GlbImage> images;
+  for (const std::string& name : named.names) {
+    materials.emplace_back();
+    materials.back().name = name;
+    const auto found = std::find_if(known.begin(), known.end(),
+                                    [&](const SurfaceMaterial& m) { return m.name == name; });
+    if (found == known.end()) continue;
+    try {
+      materials.back() = material_of(*found, images);
+    } catch (const InvalidInput& error) {
+      log_warning(concat(error.what(), "; GLB files do without"));
+    }
+  }
+  return {item.name, item.file.topology, item.file.uvs, materials, named.of_face, images};
+}
+
+}  // namespace
+
+GlbAttachments::GlbAttachments(const Inputs& inputs) {
+  for (const Attachment& item : inputs.attachments.items) parts_.emplace(&item, part_of(item));
+}
+
+std::vector<PlacedGlbPart> GlbAttachments::parts(std::span<const WornAttachment> worn) const {
+  std::vector<PlacedGlbPart> parts;
+  for (const WornAttachment& one : worn) parts.push_back({&parts_.at(one.item), &one.positions});
+  return parts;
+}
+
+std::size_t GlbAttachments::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& [item, part] : parts_) bytes += part.memory_bytes();
+  return bytes;
+}
+
+}  // namespace crowdface
