@@ -420,6 +420,31 @@ TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
   EXPECT_THAT(testing::read_text(folder / "large/crowd.csv"), ::testing::HasSubstr(",rest,"));
 }
 
+TEST(Casting, DrawnParentsStandOnHeadsOfTheirSex) {
+  SmallCrowd crowd = six_bowls();
+  crowd.more =
+      "families:\n"
+      "  - {name: a, members: 1, parents: {mother: drawn, father: drawn}}\n"
+      "  - {name: b, members: 1, parents: {mother: drawn, father: drawn}}\n";
+  const SmallCrowdFolder folder(crowd);
+  const auto targets = [&](const std::string& tags, const std::string& out) {
+    ConfigOverrides overrides;
+    overrides.set = {concat("faces.tags=", tags)};
+    run(folder, overrides, out);
+    std::map<std::string, std::string> of_role;
+    for (const json& line : plan_lines(folder / out)) {
+      const std::string id = line.at("id");
+      if (id.ends_with("_mother")) of_role["mother"] += line.at("target").get<std::string>();
+      if (id.ends_with("_father")) of_role["father"] += line.at("target").get<std::string>();
+    }
+    return of_role;
+  };
+  auto both = targets("{ann: [female], bob: [old, male]}", "both");
+  EXPECT_EQ(both["mother"], "annann");
+  EXPECT_EQ(both["father"], "bobbob");
+  EXPECT_EQ(targets("{bob: [male]}", "one")["father"], "bobbob") << "and no head is a woman's";
+}
+
 TEST(Casting, AQuotaThatTheSourcesContradictIsWarnedOf) {
   SmallCrowd crowd = six_bowls();
   crowd.sampling = "{sources: [cyd, dan], smoothness: [0.2, 0.9]}";

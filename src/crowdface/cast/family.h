@@ -17,6 +17,9 @@ struct Parent {
   bool drawn = false;  ///< cast for this family, as a face of the crowd of that id
   std::optional<std::size_t> group =
       {};  ///< of one who is drawn: by whose numbers; none: the crowd's
+  /// Of one who is drawn by the crowd's numbers: the heads of a woman or a man, as far as it is known of
+  /// any; none: all that the crowd's faces stand on.
+  std::vector<Eigen::Index> targets = {};
 };
 
 /// Faces that resemble each other.

@@ -44,6 +44,18 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+/// What a parent is drawn from: where a crowd's faces stand on no head of the parent's sex, all others.
+FaceKind kind_of(const Parent& parent, const Casting& casting) {
+  FaceKind kind = kind_of_group(casting, parent.group);
+  std::vector<WeightedHead> own;
+  for (const WeightedHead& target : kind.targets) {
+    const auto& heads = parent.targets;
+    if (std::find(heads.begin(), heads.end(), target.head) != heads.end()) own.push_back(target);
+  }
+  if (!own.empty()) kind.targets = std::move(own);
+  return kind;
+}
+
 }  // namespace
 
 FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
@@ -108,10 +120,10 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
     const Parent& parent = family_.parents[p];
     HandRecipe open;
     open.id = parent_id(casting_.name, parent);
+    const FaceKind kind = kind_of(parent, casting_);
     FaceSearch search(
         [&](std::uint32_t draw) {
-          return draw_recipe(casting_, open, {0, draw, concat("parent/", parent.id)},
-                             kind_of_group(casting_, parent.group));
+          return draw_recipe(casting_, open, {0, draw, concat("parent/", parent.id)}, kind);
         },
         judge_, casting_.diversity, 1,
         attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts));

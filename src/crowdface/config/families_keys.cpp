@@ -53,6 +53,19 @@ Codec<std::size_t> group() {
           }};
 }
 
+/// Mothers stand on heads that are tagged as a woman's, fathers on a man's, if there are such heads.
+std::vector<Eigen::Index> targets_of(std::string_view role, const Config& config) {
+  const std::string sex = role == word_of(0) ? "female" : "male";
+  std::vector<Eigen::Index> targets;
+  for (std::size_t h = 0; h < config.faces.tags.size(); ++h) {
+    const std::vector<std::string>& tags = config.faces.tags[h];
+    if (std::find(tags.begin(), tags.end(), sex) != tags.end()) {
+      targets.push_back(static_cast<Eigen::Index>(h));
+    }
+  }
+  return targets;
+}
+
 /// \param role  "mother" or "father", after which one who is drawn is called.
 std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
                                   const FamilyOptions& family, ConfigDraft& draft) {
@@ -64,7 +77,10 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   }
   const auto name = read_name(node, draft.complaints);
   if (!name) return std::nullopt;
-  if (*name == "drawn") return drawn;
+  if (*name == "drawn") {
+    drawn.targets = targets_of(role, draft.config);
+    return drawn;
+  }
   const auto& heads = draft.config.faces.names;
   const auto head = std::find(heads.begin(), heads.end(), *name);
   if (head != heads.end()) return Parent{head - heads.begin(), *name};
