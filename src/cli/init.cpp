@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <sstream>
 #include <system_error>
 
 #include "crowdface/config/input_files.h"
@@ -121,6 +122,26 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   return seen;
 }
 
+/// The section that lies beside heads which came with hair and the like, its files named from the
+/// config's folder on; empty: there is none.
+std::string attachments_beside(const fs::path& heads, const fs::path& from_config) {
+  const fs::path file = heads / "attachments/attachments.yaml";
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return {};
+  std::istringstream lines(read_file(file));
+  const std::string folder = (from_config / "").generic_string();
+  std::string section = "\n";
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    for (const std::string_view key : {"fitted_to: ", "file: "}) {
+      const std::size_t at = line.find(concat(key, "attachments/"));
+      if (at != std::string::npos) line.insert(at + key.size(), folder);
+    }
+    section += line + '\n';
+  }
+  return section;
+}
+
 void refuse_existing(const fs::path& file, bool force) {
   std::error_code ignored;
   if (!force && fs::exists(file, ignored)) {
@@ -169,12 +190,18 @@ void init(const Options& options) {
     facts.regions = {"brow", "nose", "mouth"};
   }
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
-  write_file(file, starter_config(facts));
+  const std::string attachments = attachments_beside(heads, facts.heads);
+  write_file(file, starter_config(facts) + attachments);
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
                   name_of(facts.units), " because the first head is ",
                   format_fixed(facts.head_height, 2), " units tall; they look along ",
                   name_of(facts.front), " with ", name_of(facts.up),
                   " up. Check that, then: crowdface check ", out.string()));
+  if (!attachments.empty()) {
+    log_info(
+        "faces wear what lies in the heads' folder attachments; hair goes by the tags of a face's "
+        "target, so keep women and men in groups of their own");
+  }
   if (!facts.mask.empty()) {
     log_info(concat("regions ", join(facts.regions), ": ",
                     mask.empty() ? concat(proposed.masks[0].string(), ", from the heads' shape")

@@ -176,10 +176,10 @@ std::string licence_line(std::string_view asset, const AssetLicence& licence) {
                 licence.homepage.empty() ? "" : ", ", licence.homepage, '\n');
 }
 
-std::string item_line(const fs::path& folder, const MakeHumanAttachment& item) {
-  return concat("    - {name: ", item.name, ", kind: ", item.kind,
-                ", file: ", (folder / concat(item.name, ".obj")).generic_string(),
-                item.tags.empty() ? "" : ", tags: [", join(item.tags), item.tags.empty() ? "" : "]",
+std::string item_line(const MakeHumanAttachment& item) {
+  return concat("    - {name: ", item.name, ", kind: ", item.kind, ", file: attachments/",
+                item.name, ".obj", item.tags.empty() ? "" : ", tags: [", join(item.tags),
+                item.tags.empty() ? "" : "]",
                 item.share == 1 ? "" : concat(", share: ", item.share), ", moves: bend}\n");
 }
 
@@ -234,11 +234,9 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
   licences +=
       licence_line("Eyes", parts_.eyes_licence) + licence_line("Eyelashes", parts_.lashes_licence) +
       licence_line("Teeth", parts_.teeth_licence) + licence_line("Tongue", parts_.tongue_licence);
-  std::string section = concat(
-      "# For a config beside the folder that import was run in; tags as in "
-      "tags.yaml.\nattachments:\n"
-      "  fitted_to: ",
-      (attachments / "base.obj").generic_string(), "\n  items:\n");
+  std::string section =
+      "# For a config beside the heads; crowdface init takes it over. Tags as in "
+      "tags.yaml.\nattachments:\n  fitted_to: attachments/base.obj\n  items:\n";
   base.path = attachments / "base.obj";
   files.push_back(std::move(base));
   std::vector<std::string> without;
@@ -255,7 +253,7 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
       continue;
     }
     add_attachment(attachments, item, mesh, files);
-    section += item_line(attachments, item);
+    section += item_line(item);
     if (item.kind != "brow") without.push_back(item.kind == "hair" ? "hair: 0.04" : "beard: 0.75");
     if (!item.grey) licences += licence_line(item.name, mesh.licence);
   }

@@ -76,9 +76,8 @@ TEST(Import, MakeHumanHeadsAreDressed) {
   const std::string items = read(folder / "heads/attachments/attachments.yaml");
   EXPECT_THAT(items, ::testing::HasSubstr("{name: short02_grey, kind: hair, file: "));
   // The average head and what was fitted to it make sense to the rest of the program.
-  const fs::path config = folder.write(
-      "crowd.yaml",
-      concat(config_of(read(folder / "heads/tags.yaml"), "makehuman_bands.png"), items));
+  const fs::path config = folder / "crowd.yaml";
+  crowdface(0, {"init", (folder / "heads").string(), "-o", config.string()}, {"attachments"});
   crowdface(0, {"check", config.string()}, {"is fine", "attachments eyebrow001"});
   // A second run finds all as it should be and writes what is missing; what was changed is not lost.
   fs::remove(folder / "heads/attachments/base.obj");
