@@ -56,7 +56,7 @@ TEST(Import, MakeHumanHeadsAreDressed) {
   write_makehuman(folder / "package");
   write_makehuman_wardrobe(folder / "package");
   const auto import = [&](int code, const std::string& out, std::vector<std::string> more,
-                          std::vector<std::string> says = {}) {
+                          const std::vector<std::string>& says = {}) {
     std::vector<std::string> arguments = {"import",  "makehuman",
                                           "--data",  (folder / "package").string(),
                                           "-o",      (folder / out).string(),

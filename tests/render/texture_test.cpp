@@ -33,6 +33,25 @@ TEST(ColourAt, TheFirstRowIsOnTop) {
   EXPECT_GT(colour_at(texture, {0.5F, 0.8F})[0], colour_at(texture, {0.5F, 0.2F})[0]);
 }
 
+TEST(SpreadColours, FillsFromTheBorderOutwardsAndLeavesWhatIsPainted) {
+  const Light red(1, 0, 0), blue(0, 0, 1), black = Light::Zero();
+  Texture row{6, 1, {red, black, black, black, black, blue}};
+  const std::vector<bool> painted = {true, false, false, false, false, true};
+  spread_colours(row, painted, 1);
+  EXPECT_TRUE(row.texels[1].isApprox(red));
+  EXPECT_TRUE(row.texels[2].isZero());
+  EXPECT_TRUE(row.texels[4].isApprox(blue));
+  EXPECT_TRUE(row.texels[0].isApprox(red) && row.texels[5].isApprox(blue));
+  spread_colours(row, painted, 4);
+  EXPECT_TRUE(row.texels[2].isApprox(red) && row.texels[3].isApprox(blue));
+
+  Texture hole{3, 3, std::vector<Light>(9, red)};
+  hole.texels[4] = black;
+  hole.texels[0] = blue;
+  spread_colours(hole, {true, true, true, true, false, true, true, true, true}, 1);
+  EXPECT_TRUE(hole.texels[4].isApprox((7 * red + blue) / 8));
+}
+
 TEST(ShrunkTexture, KeepsTheMeanAndWhatIsSmallAlready) {
   Texture texture{8, 4, {}};
   for (int i = 0; i < 32; ++i) texture.texels.push_back(Light::Constant(static_cast<float>(i)));

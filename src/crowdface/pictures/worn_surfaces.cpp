@@ -43,11 +43,16 @@ std::shared_ptr<const Texture> colour_of(const Image& image, int most_px) {
           texels[static_cast<std::size_t>(x)] *= opacity_at(image, x, y);
         }
       });
+  constexpr float kLeast = 0.01F;
+  constexpr int kSpread = 4;
   const auto opacity = opacity_of(image, most_px);
+  std::vector<bool> painted;
   for (std::size_t t = 0; t < plain.texels.size(); ++t) {
     const float there = opacity->texels[t][0];
-    if (there > 0.01F) plain.texels[t] = weighted.texels[t] / there;
+    painted.push_back(there > kLeast);
+    if (there > kLeast) plain.texels[t] = weighted.texels[t] / there;
   }
+  spread_colours(plain, std::move(painted), kSpread);
   return std::make_shared<const Texture>(std::move(plain));
 }
 

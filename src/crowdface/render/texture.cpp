@@ -37,6 +37,34 @@ Texture shrunk_texture(int width, int height, int most_px,
   return small;
 }
 
+void spread_colours(Texture& texture, std::vector<bool> painted, int steps) {
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
+           static_cast<std::size_t>(x);
+  };
+  for (int step = 0; step < steps; ++step) {
+    std::vector<std::size_t> next;
+    for (int y = 0; y < texture.height; ++y) {
+      for (int x = 0; x < texture.width; ++x) {
+        if (painted[at(x, y)]) continue;
+        Light sum = Light::Zero();
+        float count = 0;
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, texture.height - 1); ++v) {
+          for (int u = std::max(x - 1, 0); u <= std::min(x + 1, texture.width - 1); ++u) {
+            if (!painted[at(u, v)]) continue;
+            sum += texture.texels[at(u, v)];
+            ++count;
+          }
+        }
+        if (count == 0) continue;
+        texture.texels[at(x, y)] = sum / count;
+        next.push_back(at(x, y));
+      }
+    }
+    for (const std::size_t texel : next) painted[texel] = true;
+  }
+}
+
 Light colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
   const Eigen::Vector2f tile(std::floor(uv.x()), std::floor(uv.y()));
   const auto between = [](float place, int count) {

@@ -25,6 +25,12 @@ struct Texture {
 Texture shrunk_texture(int width, int height, int most_px,
                        const std::function<void(int y, std::span<Light> texels)>& row);
 
+/// Gives texels that have no colour the mean of those beside them that have one, from the border of
+/// these outwards, so that between texels nothing is mixed with what was never painted.
+/// \param painted  #texels
+/// \param steps    how far, in texels
+void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
+
 /// The colour at texture coordinates: bilinear between the centres of texels, clamped at the edge.
 /// Only what lies behind the point of a coordinate counts, so that each tile holds one picture.
 Light colour_at(const Texture& texture, const Eigen::Vector2f& uv);
