@@ -3,6 +3,7 @@
 // normals; where it stood before, the camera stays, so that two faces compare.
 import { BufferAttribute, BufferGeometry, Mesh } from 'three';
 import { loadScript } from './dom.js';
+import { normalsOf } from './normals.js';
 import { linearColours, paintEyes, skinMaterial, Stage } from './stage.js';
 
 function bytesOf(base64) {
@@ -68,19 +69,6 @@ function unit(v) {
   return v;
 }
 
-/// Unit normals of vertices, from the triangles around them.
-function normalsOf(points, triangles) {
-  const normals = new Float32Array(points.length);
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
-    const u = [0, 1, 2].map((i) => points[b + i] - points[a + i]);
-    const v = [0, 1, 2].map((i) => points[c + i] - points[a + i]);
-    const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    for (const corner of [a, b, c]) for (let i = 0; i < 3; i += 1) normals[corner + i] += n[i];
-  }
-  return unit(normals);
-}
-
 export class Turntable extends Stage {
   /// The triangles and colours that all faces share.
   async prepare() {
@@ -131,9 +119,14 @@ export class Turntable extends Stage {
       points = inShapes(points, shapes, values, this.mesh.step);
       // The whole mesh's normals, turned as the reduced mesh's are.
       const triangles = geometry.index.array;
-      this.face.rough ??= normalsOf(this.face.points, triangles);
+      const ofReduced = (at) => {
+        const rough = new Float32Array(at.length);
+        normalsOf(at, triangles, null, rough, 3);
+        return rough;
+      };
+      this.face.rough ??= ofReduced(this.face.points);
       const { rough } = this.face;
-      normals = unit(normalsOf(points, triangles).map((value, i) => value - rough[i] + this.face.normals[i]));
+      normals = unit(ofReduced(points).map((value, i) => value - rough[i] + this.face.normals[i]));
     }
     geometry.setAttribute('position', new BufferAttribute(points, 3));
     geometry.setAttribute('normal', new BufferAttribute(normals, 3));

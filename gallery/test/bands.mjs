@@ -7,20 +7,12 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { openPage } from './open_page.mjs';
 
 const [gallery, address, resultFile] = process.argv.slice(2);
 if (!resultFile) throw new Error('usage: node bands.mjs GALLERY_FOLDER ADDRESS RESULT_JSON');
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-page.setDefaultTimeout(120000);
-const problems = [];
-page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
-page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
+const { browser, page, problems } = await openPage();
 
 // The gallery: each region's numbers stand there band by band, and a mirrored face says so.
 await page.goto(pathToFileURL(join(resolve(gallery), 'index.html')).href);

@@ -3,33 +3,17 @@
 //   node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES_FOLDER]
 // Writes the exported review to REVIEW_FILE; the last line says "all right".
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { openPage } from './open_page.mjs';
 
 const [folder, reviewFile, pictures] = process.argv.slice(2);
 if (!reviewFile) throw new Error('usage: node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES]');
 const address = pathToFileURL(join(resolve(folder), 'index.html')).href;
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true });
-const page = await context.newPage();
-const problems = [];
-page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
-page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
-page.on('request', (request) => {
-  if (!/^(file|blob|data):/.test(request.url())) problems.push(`network: ${request.url()}`);
-});
+const { browser, page, problems, take } = await openPage({ width: 1440, height: 900, pictures, own: 'file:' });
 
-async function take(name) {
-  if (!pictures) return;
-  mkdirSync(pictures, { recursive: true });
-  await page.screenshot({ path: join(pictures, `${name}.png`) });
-}
 const count = (selector) => page.locator(selector).count();
 const ids = () => page.$$eval('.cell', (cells) => cells.map((cell) => cell.dataset.id));
 const marks = () => page.evaluate(() => Object.fromEntries(window.crowdface.page.review.marks));

@@ -4,36 +4,18 @@
 // Writes the saved recipe, its file and the points on the screen to RESULT_JSON; the last line says
 // "all right".
 import assert from 'node:assert/strict';
-import { mkdirSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { chromium } from 'playwright-core';
+import { writeFileSync } from 'node:fs';
+import { openPage } from './open_page.mjs';
 
 const [address, resultFile, pictures] = process.argv.slice(2);
 if (!resultFile) throw new Error('usage: node editor.mjs ADDRESS RESULT_JSON [PICTURES]');
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true });
-const page = await context.newPage();
-page.setDefaultTimeout(120000); // a busy machine is no fault
-const problems = [];
-page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
-page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
-page.on('request', (request) => {
-  if (!request.url().startsWith(address) && !/^(blob|data):/.test(request.url())) problems.push(`network: ${request.url()}`);
-});
+const { browser, page, problems, take } = await openPage({ pictures, own: address });
 page.on('requestfailed', (request) => {
   const why = request.failure().errorText;
   if (why !== 'net::ERR_ABORTED') problems.push(`${request.url()}: ${why}`); // overtaken ones are
 });
 
-async function take(name) {
-  if (!pictures) return;
-  mkdirSync(pictures, { recursive: true });
-  await page.screenshot({ path: join(pictures, `${name}.png`) });
-}
 const editor = (ask, argument) => page.evaluate(
   ([text, value]) => new Function('editor', 'value', `return ${text}`)(window.crowdface.editor, value), [ask, argument]);
 const recipe = () => editor('editor.document.recipe');

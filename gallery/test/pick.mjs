@@ -4,9 +4,8 @@
 // Vertices of template and scan correspond by number, so that it is known where each place belongs. The last line says
 // "all right".
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { chromium } from 'playwright-core';
+import { readFileSync } from 'node:fs';
+import { openPage } from './open_page.mjs';
 
 const [address, templateFile, scanFile, pictures] = process.argv.slice(2);
 if (!scanFile) throw new Error('usage: node pick.mjs ADDRESS TEMPLATE.obj SCAN.obj [PICTURES]');
@@ -15,26 +14,9 @@ const vertices = (file) => readFileSync(file, 'utf8').split('\n').filter((line) 
 const ofTemplate = vertices(templateFile);
 const ofScan = vertices(scanFile);
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });
-const page = await context.newPage();
-page.setDefaultTimeout(process.env.FAST ? 8000 : 120000); // a busy machine is no fault
-const problems = [];
-page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
-page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
-page.on('request', (request) => {
-  if (!request.url().startsWith(address) && !/^(blob|data):/.test(request.url())) problems.push(`network: ${request.url()}`);
-});
+const { browser, page, problems, take } = await openPage({ pictures, own: address });
 page.on('dialog', (dialog) => { problems.push(`dialog: ${dialog.message()}`); dialog.accept(); });
 
-async function take(name) {
-  if (!pictures) return;
-  mkdirSync(pictures, { recursive: true });
-  await page.screenshot({ path: join(pictures, `${name}.png`) });
-}
 const picker = (ask, argument) => page.evaluate(
   ([text, value]) => new Function('picker', 'value', `return ${text}`)(window.crowdface.picker, value), [ask, argument]);
 const settled = () => page.waitForFunction(() => window.crowdface.picker.answered === window.crowdface.picker.asked);

@@ -4,7 +4,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { unpack } from './src/api.js';
-import { cornersAround, normalsOf } from './src/editor/corners.js';
+import { cornersAround } from './src/editor/corners.js';
+import { normalsOf } from './src/normals.js';
 import { hitTriangle } from './src/hit.js';
 import { History } from './src/history.js';
 import { ProcessorBlend } from './src/editor/processor_blend.js';

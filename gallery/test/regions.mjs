@@ -4,22 +4,12 @@
 // `use` leaves a stroke that no mask holds; `again`, in the next editor, finds it. The last line says
 // "all right".
 import assert from 'node:assert/strict';
-import { mkdirSync } from 'node:fs';
-import { join } from 'node:path';
-import { chromium } from 'playwright-core';
+import { openPage } from './open_page.mjs';
 
 const [address, part, pictures] = process.argv.slice(2);
 if (!part) throw new Error('usage: node regions.mjs ADDRESS use|again [PICTURES]');
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-page.setDefaultTimeout(120000);
-const problems = [];
-page.on('pageerror', (error) => problems.push(`error: ${error.message}`));
-page.on('console', (message) => message.type() === 'error' && problems.push(`console: ${message.text()}`));
+const { browser, page, problems, take } = await openPage({ pictures, own: address });
 
 const editor = (ask) => page.evaluate((text) => new Function('editor', `return ${text}`)(window.crowdface.editor), ask);
 const settled = () => page.waitForFunction(() => {
@@ -52,11 +42,6 @@ async function paint() {
     const { painting } = window.crowdface.editor;
     return painting.waiting.length === 0 && !painting.sending;
   });
-}
-async function take(name) {
-  if (!pictures) return;
-  mkdirSync(pictures, { recursive: true });
-  await page.screenshot({ path: join(pictures, `${name}.png`) });
 }
 const button = (name) => page.getByRole('button', { name, exact: true });
 

@@ -45,7 +45,10 @@ serve() {
 
 # browse SCRIPT.mjs ARGUMENTS…: one of gallery/test, in the browser.
 browse() {
-  cp "$root/gallery/test/$1" "$root/build/gallery/"  # where its modules are
+  for script in open_page.mjs "$1"; do  # to where their modules are, whole at any moment
+    cp "$root/gallery/test/$script" "$root/build/gallery/$$.$script"
+    mv "$root/build/gallery/$$.$script" "$root/build/gallery/$script"
+  done
   CHROMIUM=$chromium node "$root/build/gallery/$1" "${@:2}" || {
     [ ! -f "$folder/server.log" ] || tail -n 20 "$folder/server.log"
     exit 1

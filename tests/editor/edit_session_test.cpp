@@ -390,6 +390,10 @@ TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
     EXPECT_EQ(painting.masks(), painted);
     EXPECT_TRUE(painting.painted());
   }
+  {
+    std::ofstream(editor.strokes(), std::ios::app) << "{\"region\": \"chin\"}\n";
+    EXPECT_EQ(RegionPainting(session, editor.strokes()).masks(), painted) << "edited by hand";
+  }
   EditSession other(load_job(editor.folder / "config.yaml", {}), editor.folder / "cache", 3000);
   EXPECT_FALSE(RegionPainting(other, editor.strokes()).painted()) << "on another preview";
   EXPECT_FALSE(RegionPainting(session, editor.strokes()).painted());

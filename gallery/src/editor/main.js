@@ -9,6 +9,7 @@ import { Exact } from './exact.js';
 import { HeadView } from './head_view.js';
 import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
+import { ProgramPage } from '../program_page.js';
 import {
   bandNames, bandOf, coefficients, headAlone, headIndex, targetShares, weightsOf, wholeFace, wire, withBand,
 } from './recipe.js';
@@ -19,8 +20,9 @@ import { toolbar, viewBar } from './toolbar.js';
 const mostKept = 3e6; // letters of steps that the program keeps for us
 const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
 
-class Editor {
+class Editor extends ProgramPage {
   constructor(job, mesh, state) {
+    super();
     this.job = job;
     const { history, kept } = this.restored(state);
     this.history = new History(this.fromWire(job.start), history);
@@ -387,24 +389,6 @@ class Editor {
   }
 
   // -- the program --
-
-  /// Does something that may fail, and says why it did.
-  async attempt(act) {
-    try {
-      return await act();
-    } catch (error) {
-      this.say(error.message, true);
-      return null;
-    }
-  }
-
-  say(text, bad = false) {
-    clearTimeout(this.timer);
-    this.message.hidden = !text;
-    this.message.classList.toggle('bad', bad);
-    this.message.textContent = text ?? '';
-    if (text) this.timer = setTimeout(() => { this.message.hidden = true; }, bad ? 9000 : 5000);
-  }
 
   async saveMesh(format) {
     this.say('Saving …');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Eq. 7 on the processor, in typed arrays: where shaders run on the processor anyway, this is
 // faster, because only what a region's change touches is computed again.
-import { normalsOf } from './corners.js';
+import { normalsOf } from '../normals.js';
 import { floatTexture, layoutOf, padded, targetPositions } from './surface.js';
 
 const block = 512; // vertices whose sums stay in the nearest cache while the fields pass over them

@@ -4,6 +4,7 @@ import { getBinary, getJson, post, put } from '../api.js';
 import { showKeys } from '../dialog.js';
 import { el } from '../dom.js';
 import { History } from '../history.js';
+import { ProgramPage } from '../program_page.js';
 import { MeshView } from './mesh_view.js';
 import { NameList } from './name_list.js';
 
@@ -12,8 +13,9 @@ const fewest = 4;
 const nothing = { template: {}, scan: {}, residuals: {}, pose: null };
 const standardViews = [['front', 'Front'], ['three_quarter', 'Three-quarter'], ['other_three_quarter', 'Other side'], ['profile', 'Profile']];
 
-class Picker {
+class Picker extends ProgramPage {
   constructor(job, meshes) {
+    super();
     this.job = job;
     this.where = new Map(job.names.map(({ name, where }) => [name, where]));
     const held = new Map(job.landmarks.map((landmark) => [landmark.name, landmark]));
@@ -344,23 +346,6 @@ class Picker {
     else if (!scan) act = 'Click it on the scan.';
     this.hint.classList.toggle('bad', Boolean(outlier));
     this.hint.replaceChildren(el('b', {}, name), this.where.has(name) ? `: ${this.where.get(name)}. ` : '. ', act);
-  }
-
-  async attempt(act) {
-    try {
-      return await act();
-    } catch (error) {
-      this.say(error.message, true);
-      return null;
-    }
-  }
-
-  say(text, bad = false) {
-    clearTimeout(this.timer);
-    this.message.hidden = !text;
-    this.message.classList.toggle('bad', bad);
-    this.message.textContent = text ?? '';
-    if (text) this.timer = setTimeout(() => { this.message.hidden = true; }, bad ? 9000 : 5000);
   }
 
   // -- keys --

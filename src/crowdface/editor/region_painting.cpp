@@ -10,6 +10,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
@@ -41,11 +42,13 @@ bool is_true(const Json& body, const std::string& key) {
   return body.contains(key) && body[key] == true;
 }
 
-/// What strokes are painted on: places of the preview, and the masks.
+/// What strokes are painted on: places of the preview, the regions and their masks.
 Digest ground_of(const EditSession& session) {
   const RegionWeights::Alpha& alpha = session.job().inputs.regions.alpha;
   const std::span values(alpha.data(), static_cast<std::size_t>(alpha.size()));
-  return Hasher().add_array(values).add_array(std::span(session.preview().triangles)).digest();
+  Hasher hasher;
+  for (const std::string& name : session.casting().region_names) hasher.add(name);
+  return hasher.add_array(values).add_array(std::span(session.preview().triangles)).digest();
 }
 
 }  // namespace
@@ -54,12 +57,16 @@ RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path
     : session_(session),
       mean_(shape_of_mean(session.job().inputs.faces)),
       strokes_(strokes, ground_of(session)) {
-  for (const Json& stroke : strokes_.strokes()) {
-    if (!stroke.contains(kUndo)) {
-      paint(stroke);
-    } else if (painted()) {
-      painter().undo();
+  try {
+    for (const Json& stroke : strokes_.strokes()) {
+      if (!stroke.contains(kUndo)) {
+        paint(stroke);
+      } else if (painted()) {
+        painter().undo();
+      }
     }
+  } catch (const UsageError& error) {  // somebody edited the file
+    log_warning(concat(strokes.string(), ": ", error.what(), "; what follows is left out"));
   }
 }
 
