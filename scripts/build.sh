@@ -10,7 +10,7 @@ shift
 
 options=()
 command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-# ccache may keep what is compiled behind a precompiled header (tests/CMakeLists.txt).
+# ccache may keep what is compiled behind a precompiled header (cmake/CrowdfaceModule.cmake).
 export CCACHE_SLOPPINESS=pch_defines,time_macros
 targets=()
 [ $# -gt 0 ] && targets=(--target "$@")
