@@ -5,13 +5,13 @@
 # build/fuzz/found; once mended it belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
 #   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of obj mask yaml
-#                                           review plan cache ledger. 0 s: coverage of what is there
+#                                           review plan cache ledger scan landmarks. 0 s: coverage of what is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-1200}
 shift || true
 parsers=("$@")
-[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask yaml review plan cache ledger)
+[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask yaml review plan cache ledger scan landmarks)
 
 # The files that make a parser, in src/crowdface: what they share is counted with each.
 declare -A sources=(
@@ -22,11 +22,15 @@ declare -A sources=(
   [plan]='crowd/plan_file.cpp'
   [cache]='heads/head_cache.cpp'
   [ledger]='crowd/ledger.cpp'
+  [scan]='wrap/scan_*.cpp'
+  [landmarks]='pick/landmark_file.cpp config/yaml.cpp'
 )
+
+tested=(io config crowd heads wrap pick)  # modules
 
 scripts/install_dependencies.sh --fuzz
 scripts/build.sh fuzz $(printf 'crowdface_%s_fuzz ' "${parsers[@]}") \
-  crowdface_io_test crowdface_config_test crowdface_crowd_test crowdface_heads_test
+  $(printf 'crowdface_%s_test ' "${tested[@]}")
 out=$PWD/build/fuzz
 mkdir -p "$out/found"
 TMPDIR=$(mktemp -d /dev/shm/crowdface_fuzz.XXXXXX) # what a target writes stays in memory
@@ -74,9 +78,10 @@ coverage() {
     "tests/fuzz/corpus/$parser" $(more_seeds "$parser") -runs=0 >"$out/$parser.replay.log" 2>&1
   llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw" \
     "$(test_profile io)" "$(test_profile config)" "$(test_profile crowd)" \
-    "$(test_profile heads '*Cache*:*MadeAnew*')"
-  local seen=("$program" -object "$out/bin/crowdface_io_test" -object "$out/bin/crowdface_config_test" -object "$out/bin/crowdface_heads_test"
-    -object "$out/bin/crowdface_crowd_test" -instr-profile="$out/$parser.profdata")
+    "$(test_profile heads '*Cache*:*MadeAnew*')" "$(test_profile wrap 'ScanFile*')" \
+    "$(test_profile pick '*Landmark*')"
+  local seen=("$program" -instr-profile="$out/$parser.profdata") module
+  for module in "${tested[@]}"; do seen+=(-object "$out/bin/crowdface_${module}_test"); done
   llvm-cov-14 show "${seen[@]}" >"$out/$parser.lines.txt"
   llvm-cov-14 report "${seen[@]}" >"$out/$parser.files.txt"
   # Columns 8 and 9: lines of a file, and those that were missed.

@@ -158,7 +158,13 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   refuse("cut.stl", stl.substr(0, stl.size() - 1), "claims 12 triangles");
   refuse("word.stl", "solid x\nvertex 1 2 three\n", "three");
   refuse("cut.glb", whole.substr(0, whole.size() - 4), "ends too soon");
-  refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "without end");
+  refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "node 0 stands in two places");
+  refuse("twice.glb", glb(cube(), R"({"children":[1,1]})"), "node 1 stands in two places");
+  refuse("other_end.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n", "middle");
+  refuse("nan.ply",
+         "ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_index\n"
+         "end_header\nnan\n",
+         "entries");
   refuse("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "face");
   refuse("scan.xyz", "1 2 3\n", ".glb");
   for (std::size_t cut = 0; cut < whole.size(); cut += 13) {
@@ -167,6 +173,15 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   for (std::size_t cut = 0; cut < ply.size(); cut += 7) {
     EXPECT_THROW(parse_ply(ply.substr(0, cut), "cut.ply"), InvalidInput) << cut;
   }
+}
+
+// Many elements of many members each that hold nothing would be counted through for hours.
+TEST(ScanFile, PlyElementsThatHoldNothingTakeNoTime) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  for (int i = 0; i < 100'000; ++i) ply += "element nothing 1000000\n";
+  EXPECT_TRUE(parse_ply(ply + "end_header\n", "empty.ply").triangles.empty());
 }
 
 TEST(ScanFile, SmallPiecesAreLeftOut) {

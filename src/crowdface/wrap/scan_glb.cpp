@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
+#include <set>
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,8 @@ using Json = nlohmann::json;
 
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kTriangles = 4;
-constexpr int kDeepest = 64;  ///< nodes below nodes
+constexpr int kDeepest = 64;                      ///< nodes below nodes, values within values
+constexpr std::size_t kMostPoints = 100'000'000;  ///< of all nodes: a mesh may stand in many
 
 /// Walks through the scene of a GLB file (glTF 2.0, sections 3 and 4) and collects its triangles.
 class GlbReader {
@@ -89,8 +91,9 @@ class GlbReader {
   }
 
   void visit(std::size_t index, const Eigen::Matrix4d& above, int depth) {
-    if (depth > kDeepest) fail("its nodes stand below each other without end");
+    if (depth > kDeepest) fail(concat("its nodes stand more than ", kDeepest, " deep"));
     const Json& node = json_.at("nodes").at(index);
+    if (!visited_.insert(index).second) fail(concat("node ", index, " stands in two places"));
     const Eigen::Matrix4d matrix = above * matrix_of(node);
     if (node.contains("mesh")) {
       for (const Json& primitive :
@@ -140,6 +143,9 @@ class GlbReader {
     const auto first = static_cast<std::uint32_t>(points_.size());
     const Values places = values(primitive.at("attributes").at("POSITION").get<std::size_t>(), 3);
     if (places.type != 5126) fail("positions are no floats");
+    if (places.count > kMostPoints - points_.size()) {
+      fail(concat("its nodes have more than ", kMostPoints, " vertices"));
+    }
     for (std::size_t i = 0; i < places.count; ++i) {
       std::array<float, 3> p{};
       std::memcpy(p.data(), places.first + i * places.stride, sizeof p);
@@ -149,6 +155,9 @@ class GlbReader {
     std::vector<std::uint32_t> corners;
     if (primitive.contains("indices")) {
       const Values indices = values(primitive["indices"].get<std::size_t>(), 1);
+      if (indices.count / 3 > 2 * kMostPoints - triangles_.size()) {
+        fail(concat("its nodes have more than ", 2 * kMostPoints, " triangles"));
+      }
       for (std::size_t i = 0; i < indices.count; ++i) {
         const char* at = indices.first + i * indices.stride;
         std::uint32_t corner = 0;
@@ -171,6 +180,7 @@ class GlbReader {
   std::string_view binary_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Triangle> triangles_;
+  std::set<std::size_t> visited_;  ///< nodes
 };
 
 }  // namespace

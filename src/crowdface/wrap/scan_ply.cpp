@@ -85,6 +85,13 @@ class PlyReader {
     fail(concat("a property is of type ", quoted(word)));
   }
 
+  Coding coding_of(const std::string& word) const {
+    if (word == "ascii") return Coding::kText;
+    if (word == "binary_little_endian") return Coding::kLittleEndian;
+    if (word == "binary_big_endian") return Coding::kBigEndian;
+    fail(concat("its format is ", quoted(word)));
+  }
+
   void read_header() {
     if (words_of(line()) != std::vector<std::string>{"ply"}) fail("it does not begin with ply");
     for (;;) {
@@ -92,9 +99,7 @@ class PlyReader {
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") break;
       if (words[0] == "format" && words.size() == 3) {
-        coding_ = words[1] == "ascii"                  ? Coding::kText
-                  : words[1] == "binary_little_endian" ? Coding::kLittleEndian
-                                                       : Coding::kBigEndian;
+        coding_ = coding_of(words[1]);
       } else if (words[0] == "element" && words.size() == 3 && parse_unsigned(words[2])) {
         elements_.push_back({words[1], *parse_unsigned(words[2]), {}});
       } else if (words[0] == "property" && words.size() == 3 && !elements_.empty()) {
@@ -168,7 +173,7 @@ class PlyReader {
 
   std::uint64_t list_count(const Property& property) {
     const double count = value(*property.count);
-    if (count < 0 || count > 1e6) fail(concat("a list has ", count, " entries"));
+    if (!(count >= 0 && count <= 1e6)) fail(concat("a list has ", count, " entries"));
     return static_cast<std::uint64_t>(count);
   }
 
@@ -177,6 +182,7 @@ class PlyReader {
   }
 
   void read_faces(const Element& element, Scan& scan) {
+    if (element.properties.empty()) return;  // however many there are
     for (std::uint64_t f = 0; f < element.count; ++f) {
       for (const Property& property : element.properties) {
         const bool corners = element.name == "face" && property.count &&

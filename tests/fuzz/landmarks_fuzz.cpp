@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+
+#include "crowdface/core/error.h"
+#include "crowdface/pick/landmark_file.h"
+
+#include "fuzz/input_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const crowdface::fuzz::InputFile file(data, size);
+  try {
+    const crowdface::LandmarkFile landmarks = crowdface::read_landmarks(file.path());
+    for (const auto* places : {&landmarks.of_template, &landmarks.of_scan}) {
+      for (const auto& [name, place] : *places) {
+        if (!place.point.allFinite()) std::abort();
+      }
+    }
+  } catch (const crowdface::Error&) {
+  }
+  return 0;
+}
