@@ -161,10 +161,12 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "node 0 stands in two places");
   refuse("twice.glb", glb(cube(), R"({"children":[1,1]})"), "node 1 stands in two places");
   refuse("other_end.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n", "middle");
+  const std::string nan("\0\0\xc0\x7f", 4);
   refuse("nan.ply",
-         "ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_index\n"
-         "end_header\nnan\n",
-         "entries");
+         "ply\nformat binary_little_endian 1.0\nelement face 1\n"
+         "property list float int vertex_index\nend_header\n" +
+             nan,
+         "a list has nan entries");
   refuse("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "face");
   refuse("scan.xyz", "1 2 3\n", ".glb");
   for (std::size_t cut = 0; cut < whole.size(); cut += 13) {
