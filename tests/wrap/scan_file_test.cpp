@@ -160,6 +160,7 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   refuse("cut.glb", whole.substr(0, whole.size() - 4), "ends too soon");
   refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "node 0 stands in two places");
   refuse("twice.glb", glb(cube(), R"({"children":[1,1]})"), "node 1 stands in two places");
+  refuse("short.glb", glb(cube(), R"({"children":[1],"rotation":[0,0,1]})"), "incomplete");
   refuse("other_end.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n", "middle");
   const std::string nan("\0\0\xc0\x7f", 4);
   refuse("nan.ply",

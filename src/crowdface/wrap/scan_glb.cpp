@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cstring>
 #include <set>
 
@@ -78,15 +79,16 @@ class GlbReader {
       }
       return matrix;
     }
-    const auto vector = [&](const char* key, const std::vector<double>& otherwise) {
-      return node.contains(key) ? node[key].get<std::vector<double>>() : otherwise;
+    const auto numbers = [&]<std::size_t N>(const char* key, std::array<double, N> otherwise) {
+      return node.contains(key) ? node[key].get<std::array<double, N>>() : otherwise;
     };
-    const auto t = vector("translation", {0, 0, 0}), r = vector("rotation", {0, 0, 0, 1}),
-               s = vector("scale", {1, 1, 1});
+    const auto t = numbers("translation", std::array<double, 3>{0, 0, 0}),
+               s = numbers("scale", std::array<double, 3>{1, 1, 1});
+    const auto r = numbers("rotation", std::array<double, 4>{0, 0, 0, 1});
     matrix.topLeftCorner<3, 3>() =
-        Eigen::Quaterniond(r.at(3), r.at(0), r.at(1), r.at(2)).normalized().toRotationMatrix() *
-        Eigen::Vector3d(s.at(0), s.at(1), s.at(2)).asDiagonal();
-    matrix.topRightCorner<3, 1>() = Eigen::Vector3d(t.at(0), t.at(1), t.at(2));
+        Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized().toRotationMatrix() *
+        Eigen::Vector3d(s[0], s[1], s[2]).asDiagonal();
+    matrix.topRightCorner<3, 1>() = Eigen::Vector3d(t[0], t[1], t[2]);
     return matrix;
   }
 

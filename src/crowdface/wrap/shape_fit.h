@@ -30,7 +30,7 @@ struct ShapeFitOptions {
   int steps = 6;                                        ///< in each round
   /// How many independent measurements of 1 mm error a whole scan amounts to: the more, the less the
   /// coefficients are held near 0.
-  double measurements = 40;
+  double measurements = 7;
   double tangential = 0.1;       ///< weight along the surface, against 1 across it
   double landmark_weight = 0.2;  ///< share of the landmarks against the surface
 };

@@ -129,18 +129,6 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
   return guess_pose(bent, shape.reduced ? bent.of(rest) : rest, shape.axes, surface, *hint);
 }
 
-/// Fits, bends and mends what is in the template's frame from here on.
-Positions bend(const SkinMesh& skin, const ShapeModel& model, const ShapeFit& fit,
-               const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
-               const WrapOptions& options) {
-  BendOptions bend = options.bend;
-  if (!model.modes.empty()) {
-    std::erase_if(bend.stiffness_mm,
-                  [&](double length) { return length > options.first_stiffness_with_model_mm; });
-  }
-  return bend_skin(skin, model.shape(fit.coefficients), model, surface, landmarks, bend);
-}
-
 }  // namespace
 
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
@@ -171,8 +159,9 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   const ScanSurface surface(moved(scan, back));
   move(landmarks, back);
   if (small) move(small->landmarks, back);
-  Positions wrapped =
-      bend(bent, *used, fit, surface, small ? small->landmarks : landmarks, options);
+  Positions wrapped = bend_skin(bent, used->shape(fit.coefficients), *used, surface,
+                                small ? small->landmarks : landmarks,
+                                used->modes.empty() ? options.bend : options.bend_with_model);
   if (small) wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
   DetailOptions detail = options.detail;
   if (small) detail.normal_smoothings = shape.reduced->smoothings;

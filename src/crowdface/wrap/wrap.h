@@ -17,8 +17,12 @@ struct WrapOptions {
   ShapeFitOptions pose;
   ShapeFitOptions person = {.reach_mm = {20, 16, 12, 8, 6, 4}, .landmark_weight = 0.1};
   BendOptions bend;
-  /// Of bend.stiffness_mm, the rounds that are left once a model has found the person.
-  double first_stiffness_with_model_mm = 20;
+  /// Once a model has found the person: what is left is smaller, and places lie so near to theirs that
+  /// what holds them along the surface would rather keep them off.
+  BendOptions bend_with_model = {.stiffness_mm = {16, 10, 7, 5, 3.5, 2.5},
+                                 .tangential_first = 0.05,
+                                 .tangential_last = 0.3,
+                                 .landmarks_last = 0.6};
   DetailOptions detail;
 };
 
