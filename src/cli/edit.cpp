@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edit.h"
 
+#include "crowdface/heads/seen_files.h"
+
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/open_browser.h"
@@ -11,7 +13,7 @@ namespace {
 struct Options : CommonOptions {
   ConfigOptions config;
   std::string port = "0", preview_vertices = "50000";
-  bool no_browser = false, benchmark = false;
+  bool no_browser = false, benchmark = false, hash_all = false;
 };
 
 void declare(CLI::App& command, Options& options) {
@@ -22,6 +24,8 @@ void declare(CLI::App& command, Options& options) {
              "About how many vertices the page shows at most");
   command.add_flag("--benchmark", options.benchmark,
                    "Serve nothing: print how long full faces take after a change");
+  command.add_flag("--hash-all", options.hash_all,
+                   "Read heads and cache whole, also where nobody has written to them since");
   command.add_flag("--no-browser", options.no_browser, "Open no browser, print the address only");
 }
 
@@ -32,6 +36,7 @@ void edit(const Options& options) {
   edited.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   edited.preview_vertices =
       whole_number("--preview-vertices", options.preview_vertices, 100, kMostVertices);
+  trust_seen_files(!options.hash_all);
   if (options.benchmark) {
     print(benchmark_edit(options.config.config, options.config.overrides, edited));
     return;

@@ -53,5 +53,42 @@ TEST(EdgeDistances, EndAtTheLimitAndForgetTheSearchBefore) {
   EXPECT_DOUBLE_EQ(distances.distance(6), 2);
 }
 
+TEST(EdgeDistances, ForSomeVerticesAreThoseOfAWholeSearch) {
+  constexpr std::uint32_t kSide = 24;
+  Topology topology;
+  topology.vertex_count = kSide * kSide;
+  Positions positions(kSide * kSide, 3);
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x) {  // a sheet that is folded over at half its height
+      const double height = std::abs(static_cast<double>(y) - 11.5);
+      positions.row(y * kSide + x) << x + 0.3 * std::sin(y), height, 0.2 * std::cos(x * y);
+      if (x + 1 == kSide || y + 1 == kSide) continue;
+      const std::uint32_t v = y * kSide + x;
+      topology.corner_vertices.insert(topology.corner_vertices.end(),
+                                      {v, v + 1, v + kSide + 1, v + kSide});
+      topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
+    }
+  }
+  const Adjacency adjacency = build_adjacency(topology);
+  EdgeDistances whole(adjacency, positions), some(adjacency, positions);
+  std::size_t reached = 0, all = 0;
+  for (const std::uint32_t source : {0U, 100U, 299U, 575U}) {
+    for (const double limit : {2.0, 7.0, 20.0}) {
+      const std::vector<std::uint32_t> goals = {300, 276, 12, 301, source};
+      whole.search(std::span(&source, 1), limit);
+      some.search_for(source, goals, limit);
+      for (const std::uint32_t goal : goals) {
+        EXPECT_EQ(some.distance(goal), whole.distance(goal))
+            << source << ' ' << limit << ' ' << goal;
+      }
+      reached += some.reached().size();
+      all += whole.reached().size();
+    }
+  }
+  EXPECT_LT(reached, all);
+  some.search_for(0, {}, 10);
+  EXPECT_TRUE(some.reached().empty());
+}
+
 }  // namespace
 }  // namespace crowdface

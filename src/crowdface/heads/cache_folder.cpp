@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kEndings = {kPreparedEnding, kReadEnding, kMeshEnding};
+constexpr std::array kEndings = {kPreparedEnding, kReadEnding, kMeshEnding, kSeenEnding};
 
 /// Magnitudes are ordered as their bits are, and NaN and infinity beyond all others. So they are
 /// compared as integers, vectors of them at once: any too large makes its difference negative.
@@ -84,18 +84,18 @@ std::size_t clear_cache(const fs::path& cache) {
   return removed;
 }
 
-std::optional<MappedEntry> map_entry(const fs::path& path) {
+std::optional<MappedEntry> map_entry(const fs::path& path, const std::optional<Digest>& known) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return std::nullopt;
   const auto file = std::make_shared<const MappedFile>(path, WhenCut::kFill);
   if (file->bytes().size() < sizeof(Digest)) throw bad_entry(path, "of the wrong size");
   const std::size_t size = file->bytes().size() - sizeof(Digest);
   const std::string_view content = file->bytes().substr(0, size);
-  const Digest sum = hash_bytes(content);
+  const Digest sum = known ? *known : hash_bytes(content);
   if (file->bytes().substr(size) != bytes_of(&sum, sizeof sum)) {
     throw bad_entry(path, "damaged (its checksum is wrong)");
   }
-  return MappedEntry{file, content};
+  return MappedEntry{file, content, sum};
 }
 
 void write_entry(const fs::path& path, std::vector<std::string_view> pieces) {

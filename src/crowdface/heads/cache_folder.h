@@ -21,6 +21,7 @@ std::filesystem::path cache_directory();
 /// The endings of the cache's files; docs/cache-format.md specifies their bytes.
 inline constexpr std::string_view kPreparedEnding = ".cfhead", kReadEnding = ".cfread",
                                   kMeshEnding = ".cfmesh";
+inline constexpr std::string_view kSeenEnding = ".cfseen";  ///< when a file was read whole
 
 /// The file of an entry: its key in hexadecimal, and an ending.
 std::filesystem::path cache_entry(const std::filesystem::path& cache, const Digest& key,
@@ -42,10 +43,13 @@ std::size_t clear_cache(const std::filesystem::path& cache);
 struct MappedEntry {
   std::shared_ptr<const MappedFile> file;
   std::string_view content;  ///< all but the checksum that ends it
+  Digest sum;                ///< that checksum
 };
 
+/// \param known  the checksum, if its bytes are known to have it; otherwise they are hashed.
 /// \return nothing if there is none. \throws InvalidInput if its checksum does not hold.
-std::optional<MappedEntry> map_entry(const std::filesystem::path& path);
+std::optional<MappedEntry> map_entry(const std::filesystem::path& path,
+                                     const std::optional<Digest>& known = {});
 
 /// Writes the pieces one after the other, and their checksum. \throws CannotCreate, IoError.
 void write_entry(const std::filesystem::path& path, std::vector<std::string_view> pieces);

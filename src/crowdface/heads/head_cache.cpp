@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/seen_files.h"
 #include "crowdface/smooth/cubic_fit.h"
 
 namespace crowdface {
@@ -76,7 +77,8 @@ Header header_of(const Digest& key, const HeadCacheShape& shape) {
 std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest& key,
                                              const HeadCacheShape& shape) {
   const fs::path path = cache_entry(cache, key, kPreparedEnding);
-  const auto entry = map_entry(path);
+  const SeenFile seen(cache, path);
+  const auto entry = map_entry(path, seen.digest());
   if (!entry) return std::nullopt;
   const std::string_view bytes = entry->content;
   Header header, expected = header_of(key, shape);
@@ -115,11 +117,12 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   // A checksum tells damage from what was written, not what was written from anything else.
   const std::span<const float> trajectory(head.trajectory.data(),
                                           static_cast<std::size_t>(head.trajectory.size()));
-  if (!levels.mixing.allFinite() || !are_coordinates(levels.fields) ||
+  if (!levels.mixing.allFinite() || !(seen.digest() || are_coordinates(levels.fields)) ||
       !are_coordinates(trajectory)) {
     throw bad_entry(path, "damaged (it holds numbers that no head has)");
   }
   if (entry->file->was_cut()) throw bad_entry(path, "being cut");
+  seen.remember(entry->sum);
   return head;
 }
 

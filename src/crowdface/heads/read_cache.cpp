@@ -10,6 +10,7 @@
 
 #include "crowdface/core/input_limits.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/seen_files.h"
 
 namespace crowdface {
 namespace {
@@ -91,6 +92,7 @@ class Content {
   void require_same(bool same) const {
     if (!same) throw bad_entry(path_, "of another version or for other data");
   }
+  const Digest& sum() const { return entry_.sum; }
   void end() const {
     if (!entry_.content.empty()) throw bad_entry(path_, "of the wrong size");
     if (entry_.file->was_cut()) throw bad_entry(path_, "being cut");
@@ -105,8 +107,8 @@ class Content {
   MappedEntry entry_;
 };
 
-std::optional<Content> find(const fs::path& path) {
-  auto entry = map_entry(path);
+std::optional<Content> find(const fs::path& path, const SeenFile& seen) {
+  auto entry = map_entry(path, seen.digest());
   if (!entry) return std::nullopt;
   return Content(path, std::move(*entry));
 }
@@ -178,7 +180,9 @@ fs::path mesh_entry(const fs::path& cache, const Digest& mesh) {
 }
 
 std::optional<Digest> find_head(const fs::path& cache, const Digest& text, ObjFile& head) {
-  auto content = find(head_entry(cache, text));
+  const fs::path path = head_entry(cache, text);
+  const SeenFile seen(cache, path);
+  auto content = find(path, seen);
   if (!content) return std::nullopt;
   const auto header = content->take<ReadHeader>();
   ReadHeader expected;
@@ -192,11 +196,14 @@ std::optional<Digest> find_head(const fs::path& cache, const Digest& text, ObjFi
   head.materials = content->take_ranges();
   head.groups = content->take_ranges();
   content->end();
+  seen.remember(content->sum());
   return header.mesh;
 }
 
 std::optional<HeadMesh> find_mesh(const fs::path& cache, const Digest& mesh) {
-  auto content = find(mesh_entry(cache, mesh));
+  const fs::path path = mesh_entry(cache, mesh);
+  const SeenFile seen(cache, path);
+  auto content = find(path, seen);
   if (!content) return std::nullopt;
   const auto header = content->take<MeshHeader>();
   MeshHeader expected;
@@ -217,6 +224,7 @@ std::optional<HeadMesh> find_mesh(const fs::path& cache, const Digest& mesh) {
   content->require(is_topology(topology) && are_rows(topology.corner_uvs, header.uvs));
   content->end();
   content->require_same(result.digest() == mesh);
+  seen.remember(content->sum());
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/seen_files.h"
 
 namespace crowdface {
 namespace {
@@ -83,11 +84,15 @@ bool read_from_cache(HeadFile& head, const fs::path& cache, MeshShelf& shelf) {
 HeadFile read_head(const fs::path& path, const fs::path& cache, MeshShelf& shelf) {
   HeadFile head;
   head.file.path = path;
+  const SeenFile seen(cache, path);
   head.file.file = MappedFile(path);
-  head.text = hash_bytes(head.file.file.bytes());
+  head.text = seen.digest() ? *seen.digest() : hash_bytes(head.file.file.bytes());
   head.is_kept =
       !cache.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
-  if (head.is_kept) return head;
+  if (head.is_kept) {
+    seen.remember(head.text);
+    return head;
+  }
   head.file = read_obj(path, std::move(head.file.file));
   HeadMesh mesh{std::exchange(head.file.topology, {}), std::move(head.file.uvs),
                 std::exchange(head.file.corner_normals, {})};

@@ -1,53 +1,105 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/mesh/edge_distances.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <queue>
-#include <tuple>
+
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
-using Open = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 EdgeDistances::EdgeDistances(const Adjacency& adjacency, const Positions& positions)
     : adjacency_(adjacency),
       positions_(positions),
-      distances_(static_cast<std::size_t>(positions.rows()),
-                 std::numeric_limits<double>::infinity()),
-      sources_(static_cast<std::size_t>(positions.rows()), kNoIndex) {}
+      distances_(static_cast<std::size_t>(positions.rows()), kInfinity),
+      sources_(static_cast<std::size_t>(positions.rows()), kNoIndex),
+      settled_(static_cast<std::size_t>(positions.rows()), false) {}
 
-void EdgeDistances::search(std::span<const std::uint32_t> sources, double limit) {
-  for (const std::uint32_t v : reached_) {
-    distances_[v] = std::numeric_limits<double>::infinity();
+void EdgeDistances::begin(std::span<const std::uint32_t> sources) {
+  for (const std::uint32_t v : touched_) {
+    distances_[v] = kInfinity;
     sources_[v] = kNoIndex;
+    settled_[v] = false;
   }
   reached_.clear();
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  touched_.clear();
+  open_.clear();
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    open.emplace(0.0, static_cast<std::uint32_t>(s), sources[s]);
+    const std::uint32_t v = sources[s];
+    if (distances_[v] == 0) continue;  // of the same vertex twice the first counts
+    distances_[v] = 0;
+    sources_[v] = static_cast<std::uint32_t>(s);
+    touched_.push_back(v);
+    open_.emplace_back(0.0, sources_[v], v);
   }
-  while (!open.empty()) {
-    const auto [distance, source, vertex] = open.top();
-    open.pop();
-    if (sources_[vertex] != kNoIndex) continue;
-    distances_[vertex] = distance;
-    sources_[vertex] = source;
+  std::make_heap(open_.begin(), open_.end(), std::greater<>());
+}
+
+template <class MayLead, class Settled>
+void EdgeDistances::spread(const MayLead& may_lead, const Settled& settled) {
+  while (!open_.empty()) {
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    const auto [distance, source, vertex] = open_.back();
+    open_.pop_back();
+    if (settled_[vertex]) continue;
+    settled_[vertex] = true;
     reached_.push_back(vertex);
+    if (settled(vertex)) return;
     for (const std::uint32_t next : adjacency_.of(vertex)) {
-      if (sources_[next] != kNoIndex) continue;
+      if (settled_[next]) continue;
       double squared = 0;
       for (int c = 0; c < 3; ++c) {
         const double d = positions_(next, c) - positions_(vertex, c);
         squared += d * d;
       }
       const double there = distance + std::sqrt(squared);
-      if (there <= limit) open.emplace(there, source, next);
+      if (std::tie(there, source) >= std::tie(distances_[next], sources_[next])) continue;
+      if (!may_lead(there, next)) continue;
+      if (distances_[next] == kInfinity) touched_.push_back(next);
+      distances_[next] = there;
+      sources_[next] = source;
+      open_.emplace_back(there, source, next);
+      std::push_heap(open_.begin(), open_.end(), std::greater<>());
     }
   }
+}
+
+void EdgeDistances::search(std::span<const std::uint32_t> sources, double limit) {
+  begin(sources);
+  spread([&](double distance, std::uint32_t) { return distance <= limit; },
+         [](std::uint32_t) { return false; });
+}
+
+void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32_t> goals,
+                               double limit) {
+  begin(std::span(&source, 1));
+  if (goals.empty()) return;
+  // A ball around the goals: whoever is farther from it than is left of the limit reaches none.
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const std::uint32_t goal : goals) middle += positions_.row(goal).transpose();
+  middle /= static_cast<double>(goals.size());
+  double radius = 0;
+  for (const std::uint32_t goal : goals) {
+    radius = std::max(radius, length3(positions_.row(goal).transpose() - middle));
+  }
+  constexpr double kRounding = 1e-9;
+  const double farthest = (limit + radius) * (1 + kRounding);
+  std::size_t left = goals.size();
+  spread(
+      [&](double distance, std::uint32_t vertex) {
+        return distance <= limit &&
+               distance + length3(positions_.row(vertex).transpose() - middle) <= farthest;
+      },
+      [&](std::uint32_t vertex) {
+        left -= std::ranges::count(goals, vertex);
+        return left == 0;
+      });
 }
 
 }  // namespace crowdface

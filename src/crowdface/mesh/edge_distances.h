@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "crowdface/mesh/adjacency.h"
@@ -22,18 +23,36 @@ class EdgeDistances {
   void search(std::span<const std::uint32_t> sources,
               double limit = std::numeric_limits<double>::infinity());
 
+  /// The same from one vertex, for the distances of some others alone: it leaves out what no way to them
+  /// that keeps the limit can pass, and ends when it has reached all of them.
+  void search_for(std::uint32_t source, std::span<const std::uint32_t> goals, double limit);
+
   /// Of a vertex from the nearest source; infinite if it was not reached.
-  double distance(std::uint32_t vertex) const { return distances_[vertex]; }
+  double distance(std::uint32_t vertex) const {
+    return settled_[vertex] ? distances_[vertex] : std::numeric_limits<double>::infinity();
+  }
   /// Which of the sources is nearest, of equally near ones the first; kNoIndex if none reached it.
-  std::uint32_t source(std::uint32_t vertex) const { return sources_[vertex]; }
+  std::uint32_t source(std::uint32_t vertex) const {
+    return settled_[vertex] ? sources_[vertex] : kNoIndex;
+  }
   /// Nearest first.
   const std::vector<std::uint32_t>& reached() const { return reached_; }
 
  private:
+  using Open = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
+
+  void begin(std::span<const std::uint32_t> sources);
+  /// Settles what is nearest until nothing is open or `settled` says that it is enough.
+  /// \param may_lead  of a distance and the vertex there: whether to go on from there.
+  template <class MayLead, class Settled>
+  void spread(const MayLead& may_lead, const Settled& settled);
+
   const Adjacency& adjacency_;
   const Positions& positions_;
-  std::vector<double> distances_;
-  std::vector<std::uint32_t> sources_, reached_;
+  std::vector<double> distances_;  ///< the least that is known; of those reached, the least
+  std::vector<std::uint32_t> sources_, reached_, touched_;
+  std::vector<bool> settled_;
+  std::vector<Open> open_;  ///< a heap, the nearest first
 };
 
 }  // namespace crowdface

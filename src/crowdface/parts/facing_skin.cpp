@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <unordered_set>
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -34,25 +36,28 @@ constexpr double kEdgesTogether = 2.5;  // edges between pairs of one group
 constexpr double kSideways = 0.75;      // of the gap
 constexpr Index kBlock = 1024, kSearches = 16;
 
-/// One of those vertices that share a cell of a grid, for all cells, ascending.
+/// One of those vertices that share a cell of a grid, the first, for all cells, ascending.
 std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const std::uint32_t> skin,
                                    double width) {
   using Cell = std::array<double, 3>;
-  std::vector<std::pair<Cell, std::uint32_t>> cells;
-  cells.reserve(skin.size());
+  const auto mixed = [](const Cell& cell) {
+    std::uint64_t bits = 0;
+    for (const double at : cell) {
+      // Adding zero makes −0, which equals 0, the same bits.
+      bits = (bits ^ std::bit_cast<std::uint64_t>(at + 0.0)) * 0x9e3779b97f4a7c15ULL;
+      bits ^= bits >> 32U;
+    }
+    return static_cast<std::size_t>(bits);
+  };
+  std::unordered_set<Cell, decltype(mixed)> taken(0, mixed);
+  std::vector<std::uint32_t> first;
   for (const std::uint32_t v : skin) {
     Cell cell;
     for (Index c = 0; c < 3; ++c) {
       cell[static_cast<std::size_t>(c)] = std::floor(positions(v, c) / width);
     }
-    cells.emplace_back(cell, v);
+    if (taken.insert(cell).second) first.push_back(v);
   }
-  std::sort(cells.begin(), cells.end());
-  std::vector<std::uint32_t> first;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i == 0 || cells[i].first != cells[i - 1].first) first.push_back(cells[i].second);
-  }
-  std::sort(first.begin(), first.end());
   return first;
 }
 
@@ -170,11 +175,14 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   // Each search of distances has room for the whole mesh.
   parallel_blocks(count, std::max(kBlock, count / kSearches), [&](Index begin, Index end) {
     EdgeDistances along(adjacency, positions);
+    std::vector<std::uint32_t> goals;
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       if (candidates[i].empty()) continue;
       throw_if_interrupted();
-      along.search(std::span(&some[i], 1),
-                   std::max(kTimesAway * candidates[i].back().distance, kLeastAway * extent));
+      goals.clear();
+      for (const Candidate& candidate : candidates[i]) goals.push_back(candidate.vertex);
+      along.search_for(some[i], goals,
+                       std::max(kTimesAway * candidates[i].back().distance, kLeastAway * extent));
       for (const Candidate& candidate : candidates[i]) {
         const double least = std::max(kTimesAway * candidate.distance, kLeastAway * extent);
         if (along.distance(candidate.vertex) <= least) continue;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/mesh/edge_distances.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
@@ -21,6 +22,7 @@ constexpr double kSide = 0.09;         // how far along the surface a side is to
 constexpr double kRounding = 0.006;    // size of what is smoothed out of a side's edges
 constexpr double kTolerance = 1e-5;    // by which a gap may miss its range
 constexpr double kLeastWeight = 1e-3;  // what moves less does not move
+constexpr Index kBlock = 8192;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
 /// Share of what is asked for at a place by which its gap may miss its range: evens out what neighbours ask for
@@ -52,8 +54,9 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
     high.push_back(pair.high);
   }
   EdgeDistances from_low(adjacency, mean), from_high(adjacency, mean);
-  from_low.search(low, reach);
-  from_high.search(high, reach);
+  parallel_for_each(2, [&](std::size_t i) {
+    i == 0 ? from_low.search(low, reach) : from_high.search(high, reach);
+  });
   Sides sides{from_low.reached(), std::vector<double>(static_cast<std::size_t>(mean.rows()), 0.0)};
   sides.vertices.insert(sides.vertices.end(), from_high.reached().begin(),
                         from_high.reached().end());
@@ -83,16 +86,32 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   const double edges = size * size * count / squares;
   constexpr double kMostSteps = 1e4;
   const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMostSteps));
-  std::vector<double> next = sides.side;
-  for (int step = 0; step < steps; ++step) {
-    for (const std::uint32_t v : sides.vertices) {
-      double sum = 0;
-      for (const std::uint32_t n : adjacency.of(v)) sum += sides.side[n];
-      const auto valence = static_cast<double>(std::max<std::size_t>(adjacency.of(v).size(), 1));
-      next[v] = (sides.side[v] + sum / valence) / 2;
-    }
-    std::swap(next, sides.side);
+
+  // What is around has no side: it stands behind the last row, and stays 0.
+  const auto rows = sides.vertices.size();
+  std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
+  for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
+  std::vector<double> side(rows + 1, 0.0);
+  std::vector<std::uint32_t> neighbours, ends;
+  for (std::size_t i = 0; i < rows; ++i) {
+    side[i] = sides.side[sides.vertices[i]];
+    for (const std::uint32_t n : adjacency.of(sides.vertices[i])) neighbours.push_back(row_of[n]);
+    ends.push_back(static_cast<std::uint32_t>(neighbours.size()));
   }
+  std::vector<double> next = side;
+  for (int step = 0; step < steps; ++step) {
+    parallel_blocks(static_cast<Index>(rows), kBlock, [&](Index begin, Index end) {
+      std::uint32_t n = begin == 0 ? 0 : ends[static_cast<std::size_t>(begin) - 1];
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+        const auto valence = static_cast<double>(std::max(ends[i] - n, 1U));
+        double sum = 0;
+        for (; n < ends[i]; ++n) sum += side[neighbours[n]];
+        next[i] = (side[i] + sum / valence) / 2;
+      }
+    });
+    std::swap(next, side);
+  }
+  for (std::size_t i = 0; i < rows; ++i) sides.side[sides.vertices[i]] = side[i];
 }
 
 void append(const std::vector<double>& more, std::vector<double>& values) {
@@ -111,9 +130,8 @@ SkinContacts::SkinContacts(const FaceSet& faces, const Adjacency& adjacency,
   for (const FacingGroup& group : find_facing_skin(faces.topology, adjacency, mean, skin)) {
     add(group, adjacency, mean, extent);
   }
-  for (std::size_t h = 0; h < faces.heads.size(); ++h) {
-    head_gaps_[h] = gaps(faces.heads[h].positions);
-  }
+  parallel_for_each(faces.heads.size(),
+                    [&](std::size_t h) { head_gaps_[h] = gaps(faces.heads[h].positions); });
 }
 
 void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
