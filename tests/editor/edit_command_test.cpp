@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -88,19 +89,25 @@ class EditCommandTest : public ::testing::Test {
 };
 
 TEST_F(EditCommandTest, WhatItSavesIsWhatBlendMakes) {
+  const std::vector<std::string> formats = {"obj", "ply", "glb", "npy", "usda"};
   const int code = edit([&] {
-    const Json saved =
-        Json::parse(post("api/save", {{"recipe", start()}, {"format", "ply"}})->body);
-    EXPECT_EQ(saved["file"], edited("eva.ply").string());
+    for (const std::string& format : formats) {
+      const auto saved = post("api/save", {{"recipe", start()}, {"format", format}});
+      ASSERT_EQ(saved->status, 200) << saved->body;
+      EXPECT_EQ(Json::parse(saved->body)["file"], edited("eva." + format).string());
+    }
     EXPECT_EQ(post("api/save", {{"recipe", start()}, {"format", "stl"}})->status, 400);
   });
   EXPECT_EQ(code, 0) << outcome_.err;
-  const std::string blended = folder_ / "blended.ply";
-  const Outcome blend = run_program(
-      CROWDFACE_PROGRAM, {"blend", folder_.config(), "--cache", folder_.cache(), "--recipe",
-                          edited("edited.jsonl").string() + "#eva", "-o", blended, "--quiet"});
-  ASSERT_EQ(blend.code, 0) << blend.err;
-  EXPECT_EQ(read_text(blended), read_text(edited("eva.ply")));
+  for (const std::string& format : formats) {
+    const std::string blended = (folder_ / "blended").string() + "/eva." + format;
+    std::filesystem::create_directories(folder_ / "blended");
+    const Outcome blend = run_program(
+        CROWDFACE_PROGRAM, {"blend", folder_.config(), "--cache", folder_.cache(), "--recipe",
+                            edited("edited.jsonl").string() + "#eva", "-o", blended, "--quiet"});
+    ASSERT_EQ(blend.code, 0) << blend.err;
+    EXPECT_EQ(read_text(blended), read_text(edited("eva." + format))) << format;
+  }
 }
 
 TEST_F(EditCommandTest, KilledAtAnyMomentItHasTheLastState) {

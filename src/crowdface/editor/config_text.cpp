@@ -9,6 +9,7 @@
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/utf8.h"
 
 namespace crowdface {
 namespace {
@@ -46,6 +47,22 @@ std::size_t line_of(const YamlPlace& place) {
 
 ConfigText::ConfigText(std::string_view text, const std::string& source)
     : lines_(lines_of(text)), root_(parsed(text, source)) {}
+
+std::optional<std::size_t> ConfigText::bracket_of(const YamlNode& list) const {
+  if (list.kind != YamlNode::Kind::kList) return std::nullopt;
+  const std::size_t row = line_of(list.place);
+  const std::string& line = lines_[row];
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::size_t at = row == 0 && line.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  for (int column = 1; column < list.place.column && at < line.size(); ++column) {
+    do {
+      ++at;
+    } while (at < line.size() && is_utf8_continuation(line[at]));
+  }
+  if (at >= line.size() || line[at] != '[') return std::nullopt;
+  for (std::size_t i = 0; i < row; ++i) at += lines_[i].size() + 1;
+  return at;
+}
 
 std::size_t ConfigText::end_of_block(std::size_t begin, std::size_t indent) const {
   std::size_t end = begin + 1;

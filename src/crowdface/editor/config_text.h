@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,8 @@ class ConfigText {
   std::size_t line_count() const { return lines_.size(); }
   /// Without its end.
   const std::string& line(std::size_t i) const { return lines_[i]; }
+  /// Where in the text the bracket of a list stands, in bytes; nothing if it has none.
+  std::optional<std::size_t> bracket_of(const YamlNode& list) const;
   /// One past the last line that belongs to what begins on line `begin`: what follows is indented by
   /// `indent` or less, or nothing. Comments after it belong to what comes next.
   std::size_t end_of_block(std::size_t begin, std::size_t indent) const;

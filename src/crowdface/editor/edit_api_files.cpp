@@ -63,7 +63,8 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   const std::string name = text_in(body, "format");
   const auto format = mesh_format_of("face." + name);
   if (!format) {
-    throw UsageError(concat("format: expected obj, ply, glb or npy, found ", quoted(name)));
+    throw UsageError(concat("format: expected one of ", join(EditedFolder::formats()), ", found ",
+                            quoted(name)));
   }
   const std::lock_guard lock(building_);
   require_masks_of_config();

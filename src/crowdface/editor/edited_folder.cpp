@@ -53,6 +53,14 @@ EditedFolder::EditedFolder(const Job& job, fs::path path, MarkLines marks)
   remove_leftovers(path_);
 }
 
+std::vector<std::string> EditedFolder::formats() {
+  std::vector<std::string> endings;
+  for (const MeshFormat format : all_mesh_formats()) {
+    endings.emplace_back(extension_of(format).substr(1));
+  }
+  return endings;
+}
+
 std::string EditedFolder::state() const {
   std::error_code ignored;
   const fs::path file = path_ / "state.json";

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "crowdface/cast/review.h"
 #include "crowdface/run/pipeline.h"
@@ -24,6 +25,9 @@ using MarkLines = std::map<std::string, std::string>;
 /// there, whenever the editor is killed. Any thread may ask.
 class EditedFolder {
  public:
+  /// The formats in which it saves meshes, by their files' endings: "obj".
+  static std::vector<std::string> formats();
+
   /// \param job    must outlive this object
   /// \param path   see make_edited_folder
   /// \param marks  what this editor has said about faces before it opened the job again

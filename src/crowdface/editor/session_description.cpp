@@ -9,6 +9,7 @@
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
 #include "crowdface/editor/edit_session.h"
+#include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/recipe_json.h"
 #include "crowdface/page/binary_answer.h"
 #include "crowdface/pictures/surfaces.h"
@@ -143,7 +144,7 @@ Json EditSession::description() const {
   json["sources"] = config.sampling.sources;
   json["max_sources"] =
       config.sampling.max_sources ? Json(*config.sampling.max_sources) : Json(nullptr);
-  json["formats"] = {"obj", "ply", "glb", "npy"};
+  json["formats"] = EditedFolder::formats();
   json["limits"] = {{"head_mm", config.diversity.min_distance_to_faces_mm},
                     {"face_mm", config.diversity.min_distance_mm}};
   for (int step = 0; step <= kLevels; ++step) {
