@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 get_property(modules GLOBAL PROPERTY CROWDFACE_MODULES)
 install(TARGETS crowdface)
-install(TARGETS ${modules} EXPORT crowdfaceTargets)
+install(TARGETS ${modules} crowdface_images EXPORT crowdfaceTargets)
 install(DIRECTORY src/crowdface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/crowdface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

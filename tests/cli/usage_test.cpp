@@ -40,6 +40,27 @@ TEST(Usage, VersionAndHelpAreNoErrors) {
   }
 }
 
+TEST(Usage, LibrariesOfImagesAreLoadedWithTheFirstImage) {
+  const Outcome needed =
+      run_program("/usr/bin/env", {"LD_TRACE_LOADED_OBJECTS=1", CROWDFACE_PROGRAM});
+  EXPECT_THAT(needed.out, ::testing::HasSubstr("libtbb"));
+  EXPECT_THAT(needed.out, ::testing::Not(::testing::HasSubstr("libOpenImageIO")));
+
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "elsewhere");
+  const fs::path alone = folder / "elsewhere/crowdface";
+  fs::copy_file(CROWDFACE_PROGRAM, alone);
+  EXPECT_EQ(run_program(alone.string(), {"--version"}).code, 0);
+  const Outcome without = run_program(
+      alone.string(),
+      {"synth", "-q", "-o", (folder / "heads").string(), "--count", "2", "--vertices", "5000"});
+  EXPECT_EQ(without.code, 74) << without.err;
+  EXPECT_THAT(without.err,
+              ::testing::AllOf(::testing::HasSubstr("images can be neither read nor written"),
+                               ::testing::HasSubstr("libcrowdface_images.so"),
+                               ::testing::HasSubstr("is the installation whole?")));
+}
+
 TEST(Usage, WrongCommandLinesAre64) {
   crowdface(64, {});
   crowdface(64, {"generte", "x.yaml"}, {"generte", "did you mean generate?"});

@@ -17,6 +17,10 @@ for file in bin/crowdface include/crowdface/crowdface.h include/crowdface/core/v
   [ -e "$place/prefix/$file" ] || { echo "not installed: $file"; exit 1; }
 done
 "$place/prefix/bin/crowdface" --version
+# What it loads for images lies where it looks.
+"$place/prefix/bin/crowdface" synth -q -o "$place/heads" --count 2 --vertices 5000
+"$place/prefix/bin/crowdface" init -q "$place/heads" -o "$place/crowd.yaml"
+"$place/prefix/bin/crowdface" check -q "$place/crowd.yaml" --cache "$place/cache" >/dev/null
 
 cmake -G Ninja -S "$source/tests/structure/consumer" -B "$place/build" \
   -DCMAKE_PREFIX_PATH="$place/prefix" -DCMAKE_CXX_FLAGS="$flags" >"$place/configure.log" 2>&1 || {

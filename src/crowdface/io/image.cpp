@@ -6,14 +6,12 @@
 #include <memory>
 #include <system_error>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/image_codec.h"
 #include "crowdface/io/image_container.h"
 
 namespace crowdface {
@@ -41,28 +39,25 @@ std::string checked_format(const path& file, std::string_view bytes, const Image
   return format;
 }
 
-/// \param bytes  of the file, as it is mapped: decoders that read files themselves take a disk that fails
-///               for a file that is damaged.
-std::unique_ptr<OIIO::ImageInput> open(const path& file, const std::string& format,
-                                       OIIO::Filesystem::IOMemReader& bytes,
-                                       OIIO::ImageSpec& spec) {
-  auto input = OIIO::ImageInput::create(format);
-  if (!input) refuse(file, concat("this build reads no ", format, ": ", OIIO::geterror()));
-  OIIO::ImageSpec wish;
-  wish.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
-  input->threads(1);
-  if (!input->set_ioproxy(&bytes))
-    refuse(file, concat("this build reads no ", format, " from memory"));
-  if (!input->open(file.string(), spec, wish)) {
-    refuse(file, concat("cannot be read as ", format, ": ", input->geterror()));
-  }
-  return input;
+/// A picture that is open, and what its header says.
+struct OpenPicture {
+  PictureFacts facts;
+  std::unique_ptr<ImageCodec::Picture, void (*)(ImageCodec::Picture*)> picture;
+};
+
+OpenPicture open(const path& file, const std::string& format, std::string_view bytes) {
+  const ImageCodec& codec = image_codec();
+  OpenPicture opened{{}, {nullptr, codec.close}};
+  std::string error;
+  opened.picture.reset(codec.open(format, file.string(), bytes, opened.facts, error));
+  if (!opened.picture) refuse(file, error);
+  return opened;
 }
 
-void check_size(const path& file, const OIIO::ImageSpec& spec, const ImageLimits& limits) {
+void check_size(const path& file, const PictureFacts& spec, const ImageLimits& limits) {
   const auto size =
-      concat(spec.width, " x ", spec.height, " pixels of ", spec.nchannels, " channels");
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
+      concat(spec.width, " x ", spec.height, " pixels of ", spec.channels, " channels");
+  if (spec.width < 1 || spec.height < 1 || spec.channels < 1) {
     refuse(file, concat("expected at least one pixel and channel, found ", size));
   }
   if (spec.width > limits.max_side || spec.height > limits.max_side) {
@@ -72,14 +67,14 @@ void check_size(const path& file, const OIIO::ImageSpec& spec, const ImageLimits
   if (!limits.ours && std::int64_t{spec.width} * spec.height > most) {
     refuse(file, concat("expected at most ", most, " pixels (--limit), found ", size));
   }
-  if (spec.nchannels > limits.max_channels) {
+  if (spec.channels > limits.max_channels) {
     refuse(file, concat("expected at most ", limits.max_channels, " channels, found ", size));
   }
   if (spec.tile_width > limits.max_side || spec.tile_height > limits.max_side) {
     refuse(file, concat("expected tiles of at most ", limits.max_side, " pixels a side, found ",
                         spec.tile_width, " x ", spec.tile_height));
   }
-  if (std::int64_t{spec.width} * spec.height * spec.nchannels > limits.max_values) {
+  if (std::int64_t{spec.width} * spec.height * spec.channels > limits.max_values) {
     refuse(file, concat("expected at most ", limits.max_values, " values in all, found ", size));
   }
 }
@@ -94,7 +89,7 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 /// Memory is taken for all pixels before the first is decoded, so a header may not claim more than
 /// the file can hold. TIFFs are looked at before they are opened (tiff_defect); OpenEXR and JPEG have
 /// no such bound, only that of all images' memory.
-void check_png_claim(const path& file, std::string_view bytes, const OIIO::ImageSpec& spec) {
+void check_png_claim(const path& file, std::string_view bytes, const PictureFacts& spec) {
   constexpr std::uint64_t kMostOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
   const std::uint64_t bits = png_bits_per_pixel(bytes);
   const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
@@ -105,7 +100,7 @@ void check_png_claim(const path& file, std::string_view bytes, const OIIO::Image
                       " bytes, found ", bytes.size(), " (cut short?)"));
 }
 
-void check_kind(const path& file, std::string_view format, const OIIO::ImageSpec& spec) {
+void check_kind(const path& file, std::string_view format, const PictureFacts& spec) {
   if (spec.deep || spec.depth > 1) refuse(file, "expected a flat image, found a deep one");
   // Only OpenEXR has a window to lie in; the offsets of others say where the picture was cut from.
   const bool moved = format == "openexr" && (spec.x != spec.full_x || spec.y != spec.full_y);
@@ -117,58 +112,39 @@ void check_kind(const path& file, std::string_view format, const OIIO::ImageSpec
   }
 }
 
-/// Strips of a TIFF are decoded a row at a time: when the decoder takes several at once, it hides that
-/// one of them is damaged. (Where planes lie apart it does not, and rows would be read again for each.)
-bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
-  return std::string_view(input.format_name()) == "tiff" && spec.tile_width == 0 &&
-         spec.get_string_attribute("planarconfig") != "separate";
+/// Values of all pixels.
+std::size_t value_count(const PictureFacts& facts) {
+  return static_cast<std::size_t>(facts.width) * static_cast<std::size_t>(facts.height) *
+         static_cast<std::size_t>(facts.channels);
 }
 
 template <class T>
-void read_pixels(OIIO::ImageInput& input, const path& file, Image& image) {
-  const OIIO::ImageSpec& spec = input.spec();
-  const auto row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
-  const std::size_t values = row * static_cast<std::size_t>(spec.height);
+void* make_room(Image& image, std::size_t values) {
   std::vector<T>& pixels = image.pixels.emplace<std::vector<T>>();
   pixels.resize(values);
-  constexpr OIIO::TypeDesc kType = OIIO::BaseTypeFromC<T>::value;
-  bool read = true;
-  if (by_rows(input, spec)) {
-    for (int y = 0; read && y < spec.height; ++y) {
-      read = input.read_scanline(spec.y + y, 0, kType,
-                                 pixels.data() + row * static_cast<std::size_t>(y));
-    }
-  } else {
-    read = input.read_image(0, 0, 0, -1, kType, pixels.data());
-  }
-  // Of some damage the decoder says only that it was there.
-  if (!read || input.has_error()) {
-    refuse(file, concat("is damaged or cut short: ", input.geterror()));
-  }
+  return pixels.data();
 }
 
-void read_pixels(OIIO::ImageInput& input, const path& file, Image& image) {
-  const OIIO::TypeDesc type = input.spec().format;
-  switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8:
-      return read_pixels<std::uint8_t>(input, file, image);
-    case OIIO::TypeDesc::UINT16:
-      return read_pixels<std::uint16_t>(input, file, image);
-    case OIIO::TypeDesc::HALF:
-    case OIIO::TypeDesc::FLOAT:
-    case OIIO::TypeDesc::DOUBLE:
-      return read_pixels<float>(input, file, image);
-    default:
-      refuse(file, concat("expected 8 or 16 bit integers or floats, found ", type.c_str()));
+void* make_room(const path& file, const PictureFacts& facts, Image& image) {
+  const std::size_t values = value_count(facts);
+  switch (facts.values) {
+    case PictureFacts::Values::kBytes:
+      return make_room<std::uint8_t>(image, values);
+    case PictureFacts::Values::kWords:
+      return make_room<std::uint16_t>(image, values);
+    case PictureFacts::Values::kFloats:
+      return make_room<float>(image, values);
+    case PictureFacts::Values::kOthers:
+      break;
   }
+  refuse(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type));
 }
 
 /// Bytes that the pixels take, those of integers in their own type.
-std::uint64_t pixel_bytes(const OIIO::ImageSpec& spec) {
-  const std::size_t of_value = std::min<std::size_t>(spec.format.basesize(), sizeof(float));
-  return static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
-         static_cast<std::uint64_t>(spec.nchannels) *
-         (spec.format.is_floating_point() ? sizeof(float) : of_value);
+std::uint64_t pixel_bytes(const PictureFacts& facts) {
+  const bool bytes = facts.values == PictureFacts::Values::kBytes;
+  const bool words = facts.values == PictureFacts::Values::kWords;
+  return value_count(facts) * (bytes ? 1 : words ? 2 : sizeof(float));
 }
 
 void check_finite(const path& file, const Image& image) {
@@ -193,43 +169,32 @@ void require_size(int width, int height, int channels, std::size_t values) {
           " values");
 }
 
-/// Pixels of ours can be encoded, unless memory runs out.
-constexpr const char* kNotEncoded = "cannot be encoded (is there too little memory?): ";
-
-/// \param format  the writer's name in OpenImageIO.
-std::string encode(const std::string& format, const OIIO::ImageSpec& spec,
-                   const OIIO::TypeDesc& type, const void* pixels) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  auto output = OIIO::ImageOutput::create(format);
-  if (!output) throw IoError(concat(format, ": ", kNotEncoded, OIIO::geterror()));
-  output->set_ioproxy(&memory);
-  if (!output->open("memory." + format, spec) || !output->write_image(type, pixels) ||
-      !output->close()) {
-    throw IoError(concat(format, ": ", kNotEncoded, output->geterror()));
+std::string encode(const std::string& format, const PictureToEncode& picture) {
+  std::string bytes, error;
+  if (!image_codec().encode(picture, bytes, error)) {  // of pixels of ours
+    throw IoError(concat(format, ": cannot be encoded (is there too little memory?): ", error));
   }
-  return {bytes.begin(), bytes.end()};
+  return bytes;
 }
 
 /// Opens a file and refuses what should not be decoded.
-std::unique_ptr<OIIO::ImageInput> open_checked(const path& file, const MappedFile& mapped,
-                                               OIIO::Filesystem::IOMemReader& bytes,
-                                               const ImageLimits& limits, OIIO::ImageSpec& spec) {
+OpenPicture open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
-  auto input = open(file, format, bytes, spec);
-  check_kind(file, format, spec);
-  check_size(file, spec, limits);
-  if (format == "png") check_png_claim(file, mapped.bytes(), spec);
-  return input;
+  OpenPicture opened = open(file, format, mapped.bytes());
+  check_kind(file, format, opened.facts);
+  check_size(file, opened.facts, limits);
+  if (format == "png") check_png_claim(file, mapped.bytes(), opened.facts);
+  return opened;
 }
 
 Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
-  OIIO::ImageSpec spec;
-  OIIO::Filesystem::IOMemReader bytes(mapped.bytes().data(), mapped.bytes().size());
-  const auto input = open_checked(file, mapped, bytes, limits, spec);
-  Image image{spec.width, spec.height, spec.nchannels, spec.alpha_channel, {}, {}};
-  if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(spec));
-  read_pixels(*input, file, image);
+  const auto [facts, picture] = open_checked(file, mapped, limits);
+  Image image{facts.width, facts.height, facts.channels, facts.alpha_channel, {}, {}};
+  if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(facts));
+  std::string error;
+  if (!image_codec().read(*picture, make_room(file, facts, image), error)) {
+    refuse(file, concat("is damaged or cut short: ", error));
+  }
   check_finite(file, image);
   return image;
 }
@@ -253,38 +218,27 @@ Image read_image(const path& file, const ImageLimits& limits) {
 
 ImageSize read_image_size(const path& file, const ImageLimits& limits) {
   const MappedFile mapped(file);
-  OIIO::ImageSpec spec;
-  OIIO::Filesystem::IOMemReader bytes(mapped.bytes().data(), mapped.bytes().size());
-  open_checked(file, mapped, bytes, limits, spec);
-  return {spec.width, spec.height};
+  const PictureFacts facts = open_checked(file, mapped, limits).facts;
+  return {facts.width, facts.height};
 }
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
                        PngEffort effort) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
   require_size(width, height, channels, pixels.size());
-  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
-  spec.alpha_channel = channels % 2 == 0 ? channels - 1 : -1;
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (effort == PngEffort::kFast) spec.attribute("png:compressionLevel", 1);
-  return encode("png", spec, OIIO::TypeDesc::UINT8, pixels.data());
+  const auto form = effort == PngEffort::kFast ? PictureToEncode::Form::kFastPng
+                                               : PictureToEncode::Form::kSmallPng;
+  return encode("png", {form, width, height, channels, pixels.data()});
 }
 
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {
   require_size(width, height, 3, pixels.size());
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("compression", "jpeg:92");
-  spec.attribute("jpeg:subsampling", "4:4:4");
-  return encode("jpeg", spec, OIIO::TypeDesc::UINT8, pixels.data());
+  return encode("jpeg", {PictureToEncode::Form::kJpeg, width, height, 3, pixels.data()});
 }
 
 std::string encode_exr(int width, int height, std::span<const float> pixels) {
   require_size(width, height, 3, pixels.size());
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::HALF);
-  spec.attribute("compression", "zip");
-  spec.attribute("oiio:ColorSpace", "linear");
-  spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the time of writing
-  return encode("openexr", spec, OIIO::TypeDesc::FLOAT, pixels.data());
+  return encode("openexr", {PictureToEncode::Form::kExr, width, height, 3, pixels.data()});
 }
 
 }  // namespace crowdface

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include <crowdface/crowdface.h>
+#include <crowdface/io/image.h>
 #include <crowdface/synth/synthetic_head.h>
 
 int main() {
@@ -11,8 +12,12 @@ int main() {
                                     OperatorKind::kUmbrella);
   const Positions head = heads.positions(1, 1);
   const Positions smoothed = smooth(ChebyshevFilter(smoothing, head), head, 100);
+  const std::uint8_t grey[] = {0, 128, 255, 7};
+  const bool encoded = encode_png(2, 2, 1, grey).starts_with("\x89PNG");
   Problems problems;
   const bool refused = !read_config("no_such_file.yaml", {}, problems);
   std::cout << "crowdface " << kVersion << ", " << smoothed.rows() << " vertices smoothed\n";
-  return smoothed.allFinite() && refused && problems.code() == ExitCode::kMissingInput ? 0 : 1;
+  return smoothed.allFinite() && encoded && refused && problems.code() == ExitCode::kMissingInput
+             ? 0
+             : 1;
 }

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shared library that image_codec.h tells of.
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "crowdface/io/image_codec.h"
+
+namespace crowdface {
+
+struct ImageCodec::Picture {
+  explicit Picture(std::string_view bytes) : memory(bytes.data(), bytes.size()) {}
+  OIIO::Filesystem::IOMemReader memory;
+  std::unique_ptr<OIIO::ImageInput> input;
+};
+
+namespace {
+
+using Picture = ImageCodec::Picture;
+using Values = PictureFacts::Values;
+using Form = PictureToEncode::Form;
+
+Values values_of(const OIIO::TypeDesc& type) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+      return Values::kBytes;
+    case OIIO::TypeDesc::UINT16:
+      return Values::kWords;
+    case OIIO::TypeDesc::HALF:
+    case OIIO::TypeDesc::FLOAT:
+    case OIIO::TypeDesc::DOUBLE:
+      return Values::kFloats;
+    default:
+      return Values::kOthers;
+  }
+}
+
+OIIO::TypeDesc type_of(Values values) {
+  if (values == Values::kBytes) return OIIO::TypeDesc::UINT8;
+  return values == Values::kWords ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+PictureFacts facts_of(const OIIO::ImageSpec& spec) {
+  PictureFacts facts;
+  facts.width = spec.width;
+  facts.height = spec.height;
+  facts.depth = spec.depth;
+  facts.channels = spec.nchannels;
+  facts.x = spec.x;
+  facts.y = spec.y;
+  facts.full_x = spec.full_x;
+  facts.full_y = spec.full_y;
+  facts.full_width = spec.full_width;
+  facts.full_height = spec.full_height;
+  facts.tile_width = spec.tile_width;
+  facts.tile_height = spec.tile_height;
+  facts.alpha_channel = spec.alpha_channel;
+  facts.deep = spec.deep;
+  facts.values = values_of(spec.format);
+  facts.type = spec.format.c_str();
+  return facts;
+}
+
+/// Decoders get the bytes as they are mapped: those that read files themselves take a disk that fails for
+/// a file that is damaged.
+Picture* open(const std::string& format, const std::string& file, std::string_view bytes,
+              PictureFacts& facts, std::string& error) {
+  auto picture = std::make_unique<Picture>(bytes);
+  picture->input = OIIO::ImageInput::create(format);
+  OIIO::ImageInput* input = picture->input.get();
+  if (input == nullptr) {
+    error = "this build reads no " + format + ": " + OIIO::geterror();
+    return nullptr;
+  }
+  OIIO::ImageSpec wish, spec;
+  wish.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
+  input->threads(1);
+  if (!input->set_ioproxy(&picture->memory)) {
+    error = "this build reads no " + format + " from memory";
+    return nullptr;
+  }
+  if (!input->open(file, spec, wish)) {
+    error = "cannot be read as " + format + ": " + input->geterror();
+    return nullptr;
+  }
+  facts = facts_of(spec);
+  return picture.release();
+}
+
+/// Strips of a TIFF are decoded a row at a time: when the decoder takes several at once, it hides that
+/// one of them is damaged. (Where planes lie apart it does not, and rows would be read again for each.)
+bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
+  return std::string_view(input.format_name()) == "tiff" && spec.tile_width == 0 &&
+         spec.get_string_attribute("planarconfig") != "separate";
+}
+
+bool read(Picture& picture, void* pixels, std::string& error) {
+  OIIO::ImageInput& input = *picture.input;
+  const OIIO::ImageSpec& spec = input.spec();
+  const OIIO::TypeDesc type = type_of(values_of(spec.format));
+  bool read = true;
+  if (by_rows(input, spec)) {
+    const std::size_t row = static_cast<std::size_t>(spec.width) *
+                            static_cast<std::size_t>(spec.nchannels) * type.size();
+    for (int y = 0; read && y < spec.height; ++y) {
+      read = input.read_scanline(spec.y + y, 0, type,
+                                 static_cast<char*>(pixels) + row * static_cast<std::size_t>(y));
+    }
+  } else {
+    read = input.read_image(0, 0, 0, -1, type, pixels);
+  }
+  // Of some damage the decoder says only that it was there.
+  read = read && !input.has_error();
+  if (!read) error = input.geterror();
+  return read;
+}
+
+void close(Picture* picture) {
+  delete picture;
+}
+
+/// \return the writer's name in OpenImageIO.
+const char* describe(Form form, OIIO::ImageSpec& spec) {
+  if (form == Form::kExr) {
+    spec.set_format(OIIO::TypeDesc::HALF);
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "linear");
+    spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the time of writing
+    return "openexr";
+  }
+  if (form == Form::kJpeg) {
+    spec.attribute("compression", "jpeg:92");
+    spec.attribute("jpeg:subsampling", "4:4:4");
+    return "jpeg";
+  }
+  spec.alpha_channel = spec.nchannels % 2 == 0 ? spec.nchannels - 1 : -1;
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (form == Form::kFastPng) spec.attribute("png:compressionLevel", 1);
+  return "png";
+}
+
+bool encode(const PictureToEncode& picture, std::string& bytes, std::string& error) {
+  OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
+  const std::string format = describe(picture.form, spec);
+  const OIIO::TypeDesc type =
+      picture.form == Form::kExr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+  std::vector<unsigned char> written;
+  OIIO::Filesystem::IOVecOutput memory(written);
+  const auto output = OIIO::ImageOutput::create(format);
+  if (!output) {
+    error = OIIO::geterror();
+    return false;
+  }
+  output->set_ioproxy(&memory);
+  if (!output->open("memory." + format, spec) || !output->write_image(type, picture.pixels) ||
+      !output->close()) {
+    error = output->geterror();
+    return false;
+  }
+  bytes.assign(written.begin(), written.end());
+  return true;
+}
+
+}  // namespace
+}  // namespace crowdface
+
+extern "C" __attribute__((visibility("default"))) const crowdface::ImageCodec*
+crowdface_image_codec() {
+  static const crowdface::ImageCodec codec = {crowdface::open, crowdface::read, crowdface::close,
+                                              crowdface::encode};
+  return &codec;
+}
