@@ -94,6 +94,9 @@ TEST_F(ExampleConfigs, ThoseOfTheReferenceAreReadToo) {
   touch("configs/mask.png");
   touch("configs/template/neutral.obj");
   touch("configs/template/shapes/smile.obj");
+  for (const char* name : {"ann", "bob", "cyd"}) {
+    touch(concat("configs/expressions/", name, "/jawOpen.obj"));
+  }
   for (const char* name : {"bob", "crop", "cap", "round"}) {
     touch(concat("configs/attachments/", name, ".obj"));
   }

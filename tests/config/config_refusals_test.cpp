@@ -89,6 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"parts: {soft: []}", "5:9", "expected one of shape, skin, rigid"},
         Wrong{"blending: {normalization: print}", "5:27", "did you mean \"printed\"?"},
         Wrong{"blending: {normalisation: printed}", "5:12", "did you mean \"normalization\"?"},
+        Wrong{"shapes: {}", "5:9", "expected neutral"},
+        Wrong{"shapes: {neutral: heads/ann.obj}", "5:9", "and directory"},
         Wrong{"plane: {layout: manual, anchors: {ann: [0, 0]}}", "5:17",
               "missing in plane.anchors: "
               "bob, cyd"},

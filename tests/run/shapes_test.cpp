@@ -166,6 +166,80 @@ TEST_F(ShapesOfACrowd, AreTheShapesThemselvesOnTheTemplate) {
   }
 }
 
+constexpr const char* kOfHeads = "\nshapes: {heads: sets}";
+
+/// Each head with expressions of its own: one becomes ever another person, and one stays.
+class ShapesOfHeads : public ShapesOfACrowd {
+ protected:
+  ShapesOfHeads() {
+    std::uint64_t person = 40;
+    for (const std::string& head : folder_.names()) {
+      const std::string of_head = "sets/" + head;
+      folder_.folder().write(of_head + "/other.obj",
+                             testing::bowl_text(folder_.crowd().bowl, person++));
+      folder_.folder().write(of_head + "/still.obj", testing::read_text(folder_.head(head)));
+    }
+    folder_.configure(crowd(kOfHeads));
+  }
+  /// A crowd of one face that is one of the heads.
+  void cast_only(const std::string& head, const std::string& shapes = kOfHeads) {
+    SmallCrowd crowd = ShapesOfACrowd::crowd(shapes.c_str());
+    crowd.count = 0;
+    crowd.more += "\nrecipes: [{id: same, target: " + head + ", regions: {all: {weights: {" + head +
+                  ": 1}, iterations: 20, "
+                  "extrapolation: 1}}}]";
+    folder_.configure(crowd);
+  }
+  void expect_shape(const fs::path& expected) {
+    const auto shape = reference::read_obj(expected).vertices;
+    const auto carried = reference::read_obj(mesh("same+other.obj")).vertices;
+    for (std::size_t v = 0; v < shape.size(); ++v) {
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(carried[v][c], shape[v][c], 2e-5) << v;
+    }
+  }
+};
+
+TEST_F(ShapesOfHeads, AreThoseOfTheHeadThatAFaceIs) {
+  for (const std::string& head : {folder_.names().front(), folder_.names().back()}) {
+    cast_only(head);
+    run("[obj]", Replace::kForce);
+    expect_shape(folder_ / ("sets/" + head + "/other.obj"));
+    EXPECT_EQ(testing::read_text(mesh("same+still.obj")), testing::read_text(mesh("same.obj")));
+  }
+}
+
+TEST_F(ShapesOfHeads, MakeFacesWithShapesBetweenThem) {
+  run("[obj, points]");
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const std::string id = line.at("id");
+    EXPECT_EQ(testing::read_text(mesh(id + "+still.obj")), testing::read_text(mesh(id + ".obj")));
+    EXPECT_NE(testing::read_text(mesh(id + "+other.obj")), testing::read_text(mesh(id + ".obj")));
+  }
+  EXPECT_THAT(testing::read_text(folder_.out() / "config.yaml"), HasSubstr("heads: ../sets"));
+}
+
+TEST_F(ShapesOfHeads, ThatAHeadLacksAreNamed) {
+  const std::string head = folder_.names().at(1);
+  fs::remove(folder_ / ("sets/" + head + "/other.obj"));
+  testing::expect_error(ExitCode::kMissingInput, {"sets/" + head + " has no other.obj"},
+                        [&] { run("[obj]"); });
+  fs::remove_all(folder_ / ("sets/" + head));
+  testing::expect_error(ExitCode::kMissingInput, {"sets/" + head}, [&] { run("[obj]"); });
+}
+
+TEST_F(ShapesOfHeads, ThatAHeadLacksAreCarriedFromTheTemplate) {
+  const std::string head = folder_.names().at(1);
+  const std::string with_template =
+      "\nshapes: {neutral: heads/" + head + ".obj, directory: shapes, heads: sets}";
+  fs::remove_all(folder_ / ("sets/" + head));
+  cast_only(head, with_template);
+  run("[obj]");
+  expect_shape(folder_ / "shapes/other.obj");
+  cast_only(folder_.names().front(), with_template);
+  run("[obj]", Replace::kForce);
+  expect_shape(folder_ / ("sets/" + folder_.names().front() + "/other.obj"));
+}
+
 TEST_F(ShapesOfACrowd, OfAnotherTopologyAreRefused) {
   folder_.folder().write("shapes/coarse.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   testing::expect_error(ExitCode::kBadData, {"coarse.obj: not the same mesh as"},

@@ -127,12 +127,15 @@ struct Config {
     std::vector<std::vector<std::string>> together;  ///< each a rigid part
   } parts;
 
-  /// Expressions of a template, to be carried to every face.
+  /// Expressions, of a template or of each head, to be carried to every face.
   struct Shapes {
-    std::filesystem::path neutral;  ///< empty: there are none
-    std::filesystem::path directory;
-    std::vector<std::filesystem::path> files;  ///< one a shape, by name; the neutral mesh is none
-    std::vector<std::string> names;            ///< #files
+    std::filesystem::path neutral;    ///< of the template; empty: there is none
+    std::filesystem::path directory;  ///< of the template's shapes
+    std::filesystem::path heads;      ///< with a folder a head; empty: one set serves all
+    std::vector<std::string> names;   ///< empty: there are no shapes
+    std::vector<std::filesystem::path>
+        files;  ///< #names, of the template; empty: it lacks that shape
+    std::vector<std::vector<std::filesystem::path>> of_head;  ///< #heads by #names; likewise
   } shapes;
 
   std::filesystem::path points;  ///< that follow the face: a file; empty: none

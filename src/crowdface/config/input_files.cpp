@@ -24,6 +24,17 @@ void add_image(const fs::path& image, std::vector<fs::path>& files) {
   for (fs::path& tile : find_tiles(image)) files.push_back(std::move(tile));
 }
 
+void add_shapes(const Config::Shapes& shapes, std::vector<fs::path>& files) {
+  if (!shapes.neutral.empty()) files.push_back(shapes.neutral);
+  const auto add = [&](const std::vector<fs::path>& some) {
+    for (const fs::path& file : some) {
+      if (!file.empty()) files.push_back(file);
+    }
+  };
+  add(shapes.files);
+  for (const std::vector<fs::path>& of_head : shapes.of_head) add(of_head);
+}
+
 bool is_head(const fs::path& path) {
   std::error_code ignored;
   return mesh_format_of(path) == MeshFormat::kObj && !path.filename().string().starts_with('.') &&
@@ -49,8 +60,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
 std::vector<fs::path> input_files(const Config& config) {
   std::vector<fs::path> files = {config.file};
   files.insert(files.end(), config.faces.files.begin(), config.faces.files.end());
-  if (!config.shapes.files.empty()) files.push_back(config.shapes.neutral);
-  files.insert(files.end(), config.shapes.files.begin(), config.shapes.files.end());
+  add_shapes(config.shapes, files);
   if (!config.points.empty()) files.push_back(config.points);
   const Config::Attachments& attachments = config.attachments;
   if (!attachments.file.empty()) files.push_back(attachments.file);

@@ -146,7 +146,7 @@ const Keys<Sheet>& contact_sheet_keys() {
          const auto faces = whole(0, 64).read(node, draft);
          sheet.shapes = static_cast<int>(faces.value_or(0));
          if (sheet.shapes == 0) return;
-         if (draft.config.shapes.files.empty()) {
+         if (draft.config.shapes.names.empty()) {
            draft.complaints.about(node, "there are no shapes: the key shapes is missing, or none");
          }
          if (draft.config.output.meshes.empty()) {

@@ -2,11 +2,13 @@
 // The section `shapes`.
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/name.h"
+#include "crowdface/core/text.h"
 #include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
@@ -16,6 +18,11 @@ namespace fs = std::filesystem;
 using Shapes = Config::Shapes;
 
 constexpr std::size_t kMostShapes = 1000;
+
+/// Nothing for what is not asked for.
+std::string write_path(const fs::path& value, const ConfigWriting& writing) {
+  return value.empty() ? "" : path("").write(value, writing);
+}
 
 void read_neutral(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto file = path("an OBJ file").read(node, draft);
@@ -28,62 +35,152 @@ void read_neutral(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   shapes.neutral = *file;
 }
 
+/// The OBJ files of a folder by the names of their shapes, in the files' order.
+std::vector<std::pair<std::string, fs::path>> list_shapes(const YamlNode& node,
+                                                          const fs::path& folder,
+                                                          const fs::path& neutral,
+                                                          ConfigDraft& draft) {
+  std::vector<std::pair<std::string, fs::path>> shapes;
+  for (const fs::path& file : list_heads(folder)) {
+    std::error_code ignored;
+    if (fs::equivalent(file, neutral, ignored)) continue;
+    const std::string name = file.stem().string();
+    if (!is_name(name)) {
+      draft.complaints.about(
+          node, concat("a shape is called like its file, and ", quoted(name),
+                       " is no name: letters (a-z), digits, '_', '-' and '.', 64 at most"));
+    } else if (std::ranges::any_of(shapes, [&](const auto& one) { return one.first == name; })) {
+      draft.complaints.about(node, concat("two shapes are called ", quoted(name)));
+    }
+    shapes.emplace_back(name, file);
+  }
+  return shapes;
+}
+
 /// Every OBJ file of the folder but the neutral mesh, which comes first in the section.
 void read_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder of OBJ files").read(node, draft);
   if (!folder) return;
   shapes.directory = *folder;
   try {
-    for (const fs::path& file : list_heads(*folder)) {
-      std::error_code ignored;
-      if (fs::equivalent(file, shapes.neutral, ignored)) continue;
-      const std::string name = file.stem().string();
-      if (!is_name(name)) {
-        draft.complaints.about(
-            node, concat("a shape is called like its file, and ", quoted(name),
-                         " is no name: letters (a-z), digits, '_', '-' and '.', 64 at most"));
-      } else if (std::find(shapes.names.begin(), shapes.names.end(), name) != shapes.names.end()) {
-        draft.complaints.about(node, concat("two shapes are called ", quoted(name)));
-      }
-      shapes.files.push_back(file);
+    for (const auto& [name, file] : list_shapes(node, *folder, shapes.neutral, draft)) {
       shapes.names.push_back(name);
-    }
-    if (shapes.files.empty() || shapes.files.size() > kMostShapes) {
-      draft.complaints.about(
-          node, concat("expected 1 to ", kMostShapes, " shapes, found ", shapes.files.size(),
-                       " OBJ files in ", quoted(node.text)));
+      shapes.files.push_back(file);
     }
   } catch (const MissingInput& error) {
-    draft.complaints.about(node, error.what(), error.code());
+    return draft.complaints.about(node, error.what(), error.code());
+  }
+  if (shapes.files.empty()) {
+    draft.complaints.about(node, concat("there is no OBJ file in ", quoted(node.text)));
+  }
+}
+
+void add_name(const std::string& name, Shapes& shapes) {
+  if (std::ranges::find(shapes.names, name) != shapes.names.end()) return;
+  shapes.names.push_back(name);
+  shapes.files.emplace_back();
+}
+
+/// A folder a head, of its own name. The file of a head at rest may lie among its shapes.
+void read_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
+  const auto folder = path("a folder with one of OBJ files for each head").read(node, draft);
+  if (!folder) return;
+  shapes.heads = *folder;
+  if (std::error_code ignored; !fs::is_directory(*folder, ignored)) {
+    return draft.complaints.about(node,
+                                  concat("the folder ", quoted(folder->string()), " is not there"),
+                                  ExitCode::kMissingInput);
+  }
+  if (!draft.heads_known) return;
+  const Config::Faces& faces = draft.config.faces;
+  std::vector<std::vector<std::pair<std::string, fs::path>>> found(faces.files.size());
+  for (std::size_t h = 0; h < faces.files.size(); ++h) {
+    const fs::path of_head = *folder / faces.names[h];
+    try {
+      std::error_code ignored;
+      if (!shapes.files.empty() && !fs::exists(of_head, ignored)) continue;
+      found[h] = list_shapes(node, of_head, faces.files[h], draft);
+    } catch (const MissingInput& error) {
+      draft.complaints.about(node, error.what(), error.code());
+    }
+    for (const auto& [name, file] : found[h]) add_name(name, shapes);
+  }
+  for (const auto& files : found) {
+    std::vector<fs::path>& of_head = shapes.of_head.emplace_back(shapes.names.size());
+    for (const auto& [name, file] : files) {
+      const auto at = std::ranges::find(shapes.names, name) - shapes.names.begin();
+      of_head[static_cast<std::size_t>(at)] = file;
+    }
   }
 }
 
 const Keys<Shapes>& shapes_keys() {
-  static const Keys<Shapes> keys = {{"neutral", read_neutral,
-                                     [](const Shapes& shapes, const ConfigWriting& writing) {
-                                       return path("").write(shapes.neutral, writing);
-                                     },
-                                     "the template's mesh at rest, an OBJ file"},
-                                    {"directory", read_directory,
-                                     [](const Shapes& shapes, const ConfigWriting& writing) {
-                                       return path("").write(shapes.directory, writing);
-                                     },
-                                     "the folder of the template's shapes, an OBJ file each"}};
+  static const Keys<Shapes> keys = {
+      {"neutral", read_neutral,
+       [](const Shapes& shapes, const ConfigWriting& writing) {
+         return write_path(shapes.neutral, writing);
+       }},
+      {"directory", read_directory,
+       [](const Shapes& shapes, const ConfigWriting& writing) {
+         return write_path(shapes.directory, writing);
+       }},
+      {"heads", read_heads, [](const Shapes& shapes, const ConfigWriting& writing) {
+         return write_path(shapes.heads, writing);
+       }}};
   return keys;
+}
+
+/// A shape that a head lacks is carried to it from the template.
+void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
+  for (std::size_t h = 0; h < shapes.of_head.size(); ++h) {
+    std::vector<std::string> lacking;
+    for (std::size_t s = 0; s < shapes.names.size(); ++s) {
+      if (shapes.of_head[h][s].empty() && shapes.files[s].empty()) {
+        lacking.push_back(shapes.names[s] + ".obj");
+      }
+    }
+    if (lacking.empty()) continue;
+    const std::string& head = draft.config.faces.names[h];
+    draft.complaints.add(node.place,
+                         concat(node.path, ": the head ", head, " lacks what others have: ",
+                                (shapes.heads / head).string(), " has no ", join(lacking),
+                                "; with neutral and directory too, a template's would be carried "
+                                "to it"),
+                         ExitCode::kMissingInput);
+  }
+}
+
+void check_shapes(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
+  if (shapes.neutral.empty() != shapes.directory.empty() ||
+      (shapes.neutral.empty() && shapes.heads.empty())) {
+    return draft.complaints.about(
+        node,
+        "expected neutral (the template's mesh at rest, an OBJ file) and directory (the "
+        "folder of its shapes), or heads (a folder with one of shapes for each head), or all");
+  }
+  if (shapes.heads.empty() ? shapes.names.empty() : !draft.heads_known) return;
+  if (shapes.names.empty() || shapes.names.size() > kMostShapes) {
+    return draft.complaints.about(
+        node, concat("expected 1 to ", kMostShapes, " shapes, found ", shapes.names.size()));
+  }
+  check_lacking(node, shapes, draft);
 }
 
 }  // namespace
 
 void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (is_word(node, "none")) return;
-  if (!draft.complaints.expect_map(node, "none or a mapping with the keys neutral, directory")) {
+  if (!draft.complaints.expect_map(node,
+                                   "none or a mapping with the keys neutral, directory, heads")) {
     return;
   }
+  const std::size_t before = draft.complaints.size();
   read_keys(node, shapes_keys(), config.shapes, draft);
+  if (draft.complaints.size() == before) check_shapes(node, config.shapes, draft);
 }
 
 std::string write_shapes(const Config& config, const ConfigWriting& writing) {
-  if (config.shapes.files.empty()) return "none";
+  if (config.shapes.names.empty()) return "none";
   return block_map(write_keys(shapes_keys(), config.shapes, writing));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/find_levels.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -41,11 +43,39 @@ Positions weighted(const Positions& mean, const PartList& parts) {
   return sizes;
 }
 
-/// The template in each of its shapes.
-std::vector<Positions> shaped(const ShapeSet& shapes) {
-  std::vector<Positions> meshes(shapes.shapes.size(), shapes.neutral);
-  for (std::size_t s = 0; s < meshes.size(); ++s) shapes.shapes[s].moves.add_to(meshes[s]);
+/// A mesh in each of its shapes.
+std::vector<Positions> shaped(const Positions& neutral, const std::vector<Displacements>& moves) {
+  std::vector<Positions> meshes(moves.size(), neutral);
+  for (std::size_t s = 0; s < meshes.size(); ++s) moves[s].add_to(meshes[s]);
   return meshes;
+}
+
+/// Over the template, or each head, in all its shapes.
+LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const LevelMap& map) {
+  const ShapeSet& set = inputs.shapes;
+  if (set.shapes.empty()) return {};
+  const auto error_on = [&](const Positions& neutral, const std::vector<Displacements>& moves) {
+    const std::vector<Positions> meshes = shaped(neutral, moves);
+    std::vector<const Positions*> all;
+    for (const Positions& mesh : meshes) all.push_back(&mesh);
+    return level_error(level, map, all);
+  };
+  std::vector<Displacements> moves;
+  if (set.of_head.empty()) {
+    for (const Shape& shape : set.shapes) moves.push_back(shape.moves);
+    return error_on(set.neutral, moves);
+  }
+  LevelError error;
+  double squares = 0;
+  for (std::size_t h = 0; h < set.of_head.size(); ++h) {
+    moves.clear();
+    for (const OwnShape& shape : set.of_head[h]) moves.push_back(displacements_of(shape));
+    const LevelError on_head = error_on(inputs.faces.heads[h].positions, moves);
+    error.most = std::max(error.most, on_head.most);
+    squares += on_head.root_mean_square * on_head.root_mean_square;
+  }
+  error.root_mean_square = std::sqrt(squares / static_cast<double>(set.of_head.size()));
+  return error;
 }
 
 }  // namespace
@@ -53,10 +83,8 @@ std::vector<Positions> shaped(const ShapeSet& shapes) {
 void find_levels(const Config& config, Inputs& inputs) {
   if (config.output.lods.empty() || config.output.meshes.empty()) return;
   const Positions mean = mean_head(inputs.faces);
-  const std::vector<Positions> shapes = shaped(inputs.shapes);
-  std::vector<const Positions*> heads, shaped_heads;
+  std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
-  for (const Positions& shape : shapes) shaped_heads.push_back(&shape);
   const double mm = mm_per(config.faces.units);
   std::vector<double> shares;
   for (const double percent : config.output.lods) shares.push_back(percent / 100);
@@ -65,10 +93,8 @@ void find_levels(const Config& config, Inputs& inputs) {
   for (DetailLevel& level : detail_levels(typical, inputs.materials.of_face, shares)) {
     throw_if_interrupted();
     const LevelMap map = map_to_level(inputs.faces.topology, inputs.adjacency, level, mean);
-    const auto error = [&](const std::vector<const Positions*>& meshes) {
-      return meshes.empty() ? LevelError{} : in_mm(level_error(level, map, meshes), mm);
-    };
-    const LevelError of_heads = error(heads), of_shapes = error(shaped_heads);
+    const LevelError of_heads = in_mm(level_error(level, map, heads), mm);
+    const LevelError of_shapes = in_mm(error_in_shapes(inputs, level, map), mm);
     inputs.levels.push_back({std::move(level), of_heads, of_shapes});
   }
 }

@@ -85,19 +85,21 @@ Positions read_template(const std::filesystem::path& file, const Inputs& inputs)
 }
 
 /// The mesh beside which one set of points stands.
-Positions template_of(const YamlNode& root, const std::filesystem::path& file, const Inputs& inputs,
+Positions template_of(const YamlNode& root, const std::filesystem::path& file,
+                      const std::filesystem::path& neutral, const Inputs& inputs,
                       Complaints& complaints) {
   const YamlEntry* entry = root.find("template");
   if (entry == nullptr) {
-    if (inputs.shapes.neutral.rows() > 0) return inputs.shapes.neutral;
+    if (!neutral.empty()) return read_template(neutral, inputs);
     complaints.about(root, "the key template is missing: the OBJ file beside which points stand");
     return {};
   }
   return read_template(file.parent_path() / entry->value.text, inputs);
 }
 
-void read_file(const std::filesystem::path& file, const YamlNode& root, Inputs& inputs,
-               Complaints& complaints) {
+/// \param neutral  of the shapes' template, if there is one
+void read_file(const std::filesystem::path& file, const YamlNode& root,
+               const std::filesystem::path& neutral, Inputs& inputs, Complaints& complaints) {
   constexpr const char* kExpected =
       "a mapping with the keys template, points, or with the key heads";
   if (!complaints.expect_map(root, kExpected)) return;
@@ -109,7 +111,7 @@ void read_file(const std::filesystem::path& file, const YamlNode& root, Inputs& 
   if ((points == nullptr) == (heads == nullptr)) return complaints.expected(root, kExpected);
   if (heads != nullptr) return read_heads(heads->value, inputs, complaints);
   inputs.points.positions = {read_set(points->value, inputs.points.names, complaints)};
-  inputs.points.meshes = {template_of(root, file, inputs, complaints)};
+  inputs.points.meshes = {template_of(root, file, neutral, inputs, complaints)};
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ void load_points(const Config& config, Inputs& inputs, Problems& problems) {
   Complaints complaints;
   try {
     if (const auto root = read_yaml(config.points.string(), complaints)) {
-      read_file(config.points, *root, inputs, complaints);
+      read_file(config.points, *root, config.shapes.neutral, inputs, complaints);
     }
   } catch (const Error& error) {
     problems.add(error);

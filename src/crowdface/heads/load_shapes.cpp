@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/load_shapes.h"
 
+#include <algorithm>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -9,7 +11,11 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
+#include "crowdface/parts/rigid_motion.h"
+#include "crowdface/shapes/shape_transfer.h"
 
 namespace crowdface {
 namespace {
@@ -31,43 +37,161 @@ std::vector<std::uint32_t> skin_of(const Inputs& inputs) {
   return skin;
 }
 
-}  // namespace
-
-void load_shapes(const Config& config, Inputs& inputs, Problems& problems) {
-  const Config::Shapes& asked = config.shapes;
-  if (asked.files.empty()) return;
-  std::vector<std::filesystem::path> files = asked.files;
-  files.push_back(asked.neutral);
-  std::vector<Positions> meshes(files.size());
+/// Reads many meshes in parallel. \param take  take(i, positions of files[i]) for each that can be read
+template <class Take>
+void read_meshes(const std::vector<std::filesystem::path>& files, const Config& config,
+                 const Topology& topology, Problems& problems, const Take& take) {
   std::vector<std::optional<Error>> errors(files.size());
   parallel_for_each(files.size(), [&](std::size_t i) {
     throw_if_interrupted();
     try {
-      meshes[i] = read_positions(files[i], config, inputs.faces.topology);
+      take(i, read_positions(files[i], config, topology));
     } catch (const Error& error) {
       errors[i] = error;
     }
   });
-  const std::size_t before = problems.size();
   for (const auto& error : errors) {
     if (error) problems.add(*error);
   }
+}
+
+/// The template's shapes; those that it lacks are left out. \param places  of those it has, among all
+ShapeSet load_template(const Config& config, const Inputs& inputs, double extent,
+                       std::vector<std::size_t>& places, Problems& problems) {
+  const Config::Shapes& asked = config.shapes;
+  const std::size_t before = problems.size();
+  std::vector<std::filesystem::path> files;
+  for (std::size_t s = 0; s < asked.names.size(); ++s) {
+    if (asked.files[s].empty()) continue;
+    files.push_back(asked.files[s]);
+    places.push_back(s);
+  }
+  ShapeSet set;
+  std::vector<Positions> meshes(files.size());
+  const Topology& topology = inputs.faces.topology;
+  read_meshes({asked.neutral}, config, topology, problems,
+              [&](std::size_t, Positions mesh) { set.neutral = std::move(mesh); });
+  read_meshes(files, config, topology, problems,
+              [&](std::size_t i, Positions mesh) { meshes[i] = std::move(mesh); });
+  if (problems.size() > before) return set;
+  if (extent == 0) extent = extent_of(set.neutral, skin_of(inputs));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    set.shapes.push_back(shape_of(asked.names[places[i]], set.neutral, meshes[i], extent));
+  }
+  return set;
+}
+
+/// A head as its file has it, and the motion that aligned it.
+struct RestingHead {
+  Positions mesh;
+  RigidMotion motion;
+};
+
+RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t head) {
+  const Positions& used = inputs.faces.heads[head].positions;
+  if (config.faces.align != Align::kRigid) return {used, {}};
+  Positions mesh = read_positions(config.faces.files[head], config, inputs.faces.topology);
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(mesh.rows()));
+  std::iota(all.begin(), all.end(), 0U);
+  const RigidMotion motion =
+      fit_rigid_motion(mesh, used, all, std::vector<double>(all.size(), 1.0));
+  return {std::move(mesh), motion};
+}
+
+/// Reads the shapes of one head.
+void load_head(const Config& config, const Inputs& inputs, std::size_t head, double extent,
+               std::vector<OwnShape>& shapes, Problems& problems) {
+  const std::vector<std::filesystem::path>& files = config.shapes.of_head[head];
+  const RestingHead rest = resting_head(config, inputs, head);
+  std::vector<std::filesystem::path> there;
+  std::vector<std::size_t> places;
+  for (std::size_t s = 0; s < files.size(); ++s) {
+    if (files[s].empty()) continue;
+    there.push_back(files[s]);
+    places.push_back(s);
+  }
+  read_meshes(there, config, inputs.faces.topology, problems,
+              [&](std::size_t i, const Positions& mesh) {
+                Displacements moves = shape_of({}, rest.mesh, mesh, extent).moves;
+                for (Index row = 0; row < moves.moves.rows(); ++row) {
+                  moves.moves.row(row) = rest.motion.turn(row3(moves.moves, row)).transpose();
+                }
+                shapes[places[i]] = own_shape_of(moves);
+              });
+}
+
+/// Carries the template's shapes to heads that lack them.
+void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_template,
+             const std::vector<std::size_t>& places, ShapeSet& set) {
+  std::optional<ShapeTransfer> transfer;
+  for (std::size_t h = 0; h < set.of_head.size(); ++h) {
+    const auto& files = config.shapes.of_head[h];
+    if (std::ranges::none_of(files, [](const auto& file) { return file.empty(); })) continue;
+    if (!transfer) {
+      transfer.emplace(inputs.faces, inputs.adjacency, inputs.parts, head_axes(config),
+                       of_template);
+    }
+    const auto carried = transfer->carry(static_cast<Index>(h), inputs.faces.heads[h].positions);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (files[places[i]].empty()) set.of_head[h][places[i]] = own_shape_of(carried[i]);
+    }
+  }
+}
+
+/// The shapes of each head, and their mean on the mean head.
+void load_heads(const Config& config, Inputs& inputs, Problems& problems) {
+  const Config::Shapes& asked = config.shapes;
+  ShapeSet& set = inputs.shapes;
+  set.neutral = mean_head(inputs.faces);
+  const double extent = extent_of(set.neutral, skin_of(inputs));
+  set.of_head.assign(inputs.faces.heads.size(), std::vector<OwnShape>(asked.names.size()));
+  const std::size_t before = problems.size();
+  for (std::size_t h = 0; h < set.of_head.size(); ++h) {
+    load_head(config, inputs, h, extent, set.of_head[h], problems);
+  }
   if (problems.size() > before) return;
-  inputs.shapes.neutral = std::move(meshes.back());
-  const double extent = extent_of(inputs.shapes.neutral, skin_of(inputs));
+  if (!asked.neutral.empty()) {
+    std::vector<std::size_t> places;
+    const ShapeSet of_template = load_template(config, inputs, extent, places, problems);
+    if (problems.size() > before) return;
+    fill_in(config, inputs, of_template, places, set);
+  }
+  for (std::size_t s = 0; s < asked.names.size(); ++s) {
+    set.shapes.push_back({asked.names[s], mean_of(set.of_head, s)});
+  }
+}
+
+Digest digest_of(const ShapeSet& set) {
   Hasher hasher;
-  const auto add = [&](const Positions& values) {
-    hasher.add_array(
-        std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+  const auto add = [&](const auto& values) {
+    hasher.add_array(std::span(values.data(), static_cast<std::size_t>(values.size())));
   };
-  add(inputs.shapes.neutral);
-  for (std::size_t i = 0; i < asked.files.size(); ++i) {
-    Shape shape = shape_of(asked.names[i], inputs.shapes.neutral, meshes[i], extent);
+  add(set.neutral);
+  for (const Shape& shape : set.shapes) {
     hasher.add(shape.name).add_array(std::span<const std::uint32_t>(shape.moves.vertices));
     add(shape.moves.moves);
-    inputs.shapes.shapes.push_back(std::move(shape));
   }
-  inputs.shapes_digest = hasher.digest();
+  for (const std::vector<OwnShape>& of_head : set.of_head) {
+    for (const OwnShape& shape : of_head) {
+      hasher.add_array(std::span<const std::uint32_t>(shape.vertices));
+      add(shape.moves);
+    }
+  }
+  return hasher.digest();
+}
+
+}  // namespace
+
+void load_shapes(const Config& config, Inputs& inputs, Problems& problems) {
+  if (config.shapes.names.empty()) return;
+  const std::size_t before = problems.size();
+  if (config.shapes.heads.empty()) {
+    std::vector<std::size_t> places;
+    inputs.shapes = load_template(config, inputs, 0, places, problems);
+  } else {
+    load_heads(config, inputs, problems);
+  }
+  if (problems.size() == before) inputs.shapes_digest = digest_of(inputs.shapes);
 }
 
 }  // namespace crowdface

@@ -7,7 +7,8 @@
 
 namespace crowdface {
 
-/// Reads the shapes that a config names, in parallel, into inputs whose faces are known. Every problem
+/// Reads the shapes that a config names, in parallel, into inputs whose faces and parts are known. What
+/// a head lacks is carried to it from the template. Every problem
 /// is added: a mesh that cannot be read, or is not in the heads' topology.
 void load_shapes(const Config& config, Inputs& inputs, Problems& problems);
 

@@ -11,6 +11,11 @@
 #include "crowdface/io/little_endian.h"
 
 namespace crowdface {
+
+Positions as_written(const Positions& positions) {
+  return positions.unaryExpr([](double value) -> double { return to_single(value); });
+}
+
 Positions read_singles(const char* bytes, Index rows, std::size_t stride) {
   Positions positions(rows, 3);
   for (Index i = 0; i < rows; ++i) {

@@ -16,6 +16,9 @@ inline float to_single(double value) {
   return single == 0 ? 0.0F : single;
 }
 
+/// Positions as every mesh format holds them: what is made from these is the same from a file.
+Positions as_written(const Positions& positions);
+
 /// Writes a row's three numbers as binary formats hold them. \return where they end.
 inline char* put_row(char* out, const Positions& rows, Index i) {
   for (Index c = 0; c < 3; ++c) out = put_number(out, to_single(rows(i, c)));

@@ -47,11 +47,10 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
 
 WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
                                     Index target, const Positions& positions,
+                                    std::span<const Displacements> moves,
                                     const std::vector<BlendedPicture>* textures,
                                     const std::vector<WornAttachment>& worn) const {
-  // As every mesh file holds them, so that pictures made from those are the same.
-  const Positions single =
-      positions.unaryExpr([](double value) -> double { return to_single(value); });
+  const Positions single = as_written(positions);
   const auto put = [](const std::filesystem::path& path, const std::string& bytes) {
     write_file(path, bytes);
     return FileDigest{bytes.size(), hash_bytes(bytes)};
@@ -63,7 +62,7 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
                           std::nullopt};
   if (gallery_ != nullptr) {
     written.preview =
-        put(directory.gallery_face(id), gallery_->face_script(id, target, single, painted));
+        put(directory.gallery_face(id), gallery_->face_script(id, single, moves, painted));
   }
   return written;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,14 +32,18 @@ class CrowdRenders {
 
   /// From now on `write` leaves a face's mesh for the gallery, too. Must outlive this object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
+  /// Whether `write` needs a face's shapes.
+  bool show_shapes() const { return gallery_ != nullptr; }
 
   /// The folders that `write` needs.
   void make_folders(const CrowdDirectory& directory) const;
   /// Writes a face's picture, and what the gallery shows of it.
+  /// \param moves     its displacements in each shape, if they are shown.
   /// \param textures  of its own, or null: it bears its target's, if there are any.
   /// \param worn      its attachments.
   WrittenPictures write(const CrowdDirectory& directory, const std::string& id, Index target,
-                        const Positions& positions, const std::vector<BlendedPicture>* textures,
+                        const Positions& positions, std::span<const Displacements> moves,
+                        const std::vector<BlendedPicture>* textures,
                         const std::vector<WornAttachment>& worn = {}) const;
 
   /// All views of a face side by side, as a PNG file's bytes.

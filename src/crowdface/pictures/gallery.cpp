@@ -213,8 +213,6 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
 
 void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) {
   if (inputs_.shapes.shapes.empty()) return;
-  transfer_.emplace(inputs_.faces, inputs_.adjacency, inputs_.parts, head_axes(config_),
-                    inputs_.shapes);
   const double least = kLeastMoveMm / mm_per(config_.faces.units);
   std::vector<std::uint32_t> reduced(static_cast<std::size_t>(inputs_.faces.topology.vertex_count),
                                      kNoIndex);
@@ -241,9 +239,8 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   for (float& open : open_) open = std::max(open, kLeastLight);
 }
 
-std::string GalleryMeshes::packed_shapes(Index target, const Positions& positions) const {
+std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried) const {
   constexpr double kMost = 32767;
-  const std::vector<Displacements> carried = transfer_->carry(target, positions);
   std::string bytes;
   for (std::size_t s = 0; s < carried.size(); ++s) {
     for (const std::uint32_t row : shown_[s].rows) {
@@ -321,7 +318,7 @@ std::string GalleryMeshes::shared_script() const {
     }
     return base64(bytes);
   };
-  if (transfer_) {
+  if (!shown_.empty()) {
     json["widest"] = {
         {"shape", widest_}, {"at_rest", light(open_)}, {"open", light(open_in_widest_)}};
   }
@@ -331,18 +328,20 @@ std::string GalleryMeshes::shared_script() const {
   return call("setMesh", json);
 }
 
-std::string GalleryMeshes::face_script(const std::string& name, Index target,
-                                       const Positions& positions, const TextureCoat* coat) const {
+std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions,
+                                       std::span<const Displacements> moves,
+                                       const TextureCoat* coat) const {
   std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions);
   if (coat != nullptr) bytes += shades(textured(*coat));
-  const std::string moves =
-      transfer_ ? concat(",\"", base64(packed_shapes(target, positions)), '"') : std::string();
-  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), '"', moves, ");\n");
+  const std::string shapes =
+      shown_.empty() ? std::string() : concat(",\"", base64(packed_shapes(moves)), '"');
+  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), '"', shapes, ");\n");
 }
 
 void write_gallery(const CrowdDirectory& directory, const Config& config, const fs::path& page,
-                   const GalleryMeshes& meshes, const std::vector<CastFace>& crowd,
-                   const Digest& settings, const CrowdLikeness& likeness) {
+                   const GalleryMeshes& meshes, const FaceShapes& shapes,
+                   const std::vector<CastFace>& crowd, const Digest& settings,
+                   const CrowdLikeness& likeness) {
   make_directories(directory.gallery_head("").parent_path());
   std::set<std::string> ids;
   for (const CastFace& face : crowd) ids.insert(face.id);
@@ -352,8 +351,8 @@ void write_gallery(const CrowdDirectory& directory, const Config& config, const 
     const std::optional<TextureCoat> coat = meshes.coat_of(static_cast<Index>(h));
     // A face may bear a head's name.
     write_file(directory.gallery_head(head.name),
-               meshes.face_script(concat("head ", head.name), static_cast<Index>(h), head.positions,
-                                  coat ? &*coat : nullptr));
+               meshes.face_script(concat("head ", head.name), head.positions,
+                                  shapes.of_head(static_cast<Index>(h)), coat ? &*coat : nullptr));
   }
   write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
   write_file(directory.gallery() / "data/crowd.js",

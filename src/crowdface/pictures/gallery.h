@@ -3,17 +3,19 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "crowdface/config/config.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/likeness_file.h"
+#include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/preview/packed_face.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
-#include "crowdface/shapes/shape_transfer.h"
+#include "crowdface/shapes/shape_set.h"
 
 namespace crowdface {
 
@@ -46,10 +48,10 @@ class GalleryMeshes {
   /// data/mesh.js: triangles, colours, the frame of the positions.
   std::string shared_script() const;
   /// data/faces/NAME.js or data/heads/NAME.js.
-  /// \param target  the head it was built on, or it is.
-  /// \param coat    the face's textures, or null: it has the colours that all share.
-  std::string face_script(const std::string& name, Index target, const Positions& positions,
-                          const TextureCoat* coat) const;
+  /// \param moves  the face's displacements in each shape.
+  /// \param coat   the face's textures, or null: it has the colours that all share.
+  std::string face_script(const std::string& name, const Positions& positions,
+                          std::span<const Displacements> moves, const TextureCoat* coat) const;
 
   const std::vector<Head>& heads() const { return inputs_.faces.heads; }
   const ShapeSet& shapes() const { return inputs_.shapes; }
@@ -62,7 +64,7 @@ class GalleryMeshes {
   VertexColours textured(const TextureCoat& coat) const;
   std::vector<Corner> find_corners(const FaceSet& faces) const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
-  std::string packed_shapes(Index target, const Positions& positions) const;
+  std::string packed_shapes(std::span<const Displacements> carried) const;
 
   const Config& config_;
   const Inputs& inputs_;
@@ -79,16 +81,15 @@ class GalleryMeshes {
     std::vector<std::uint32_t> rows;      ///< of the shape's displacements
     std::vector<std::uint32_t> vertices;  ///< of the reduced mesh
   };
-  std::optional<ShapeTransfer> transfer_;  ///< if there are expression shapes
-  std::vector<ShownMoves> shown_;          ///< #shapes
-  std::size_t widest_ = 0;                 ///< the shape that moves most: a jaw that opens
-  std::vector<float> open_in_widest_;      ///< as `open_`, in that shape
+  std::vector<ShownMoves> shown_;      ///< #shapes
+  std::size_t widest_ = 0;             ///< the shape that moves most: a jaw that opens
+  std::vector<float> open_in_widest_;  ///< as `open_`, in that shape
 };
 
 /// Everything of the gallery but its faces' scripts: the page, the crowd's recipes, the heads.
 void write_gallery(const CrowdDirectory& directory, const Config& config,
                    const std::filesystem::path& page, const GalleryMeshes& meshes,
-                   const std::vector<CastFace>& crowd, const Digest& settings,
-                   const CrowdLikeness& likeness);
+                   const FaceShapes& shapes, const std::vector<CastFace>& crowd,
+                   const Digest& settings, const CrowdLikeness& likeness);
 
 }  // namespace crowdface

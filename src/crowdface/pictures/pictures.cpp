@@ -30,13 +30,15 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
 
 CrowdPictures::CrowdPictures(const Config& config, const Config::ContactSheet& sheet,
                              const Inputs& inputs, const Digest& settings,
-                             const CrowdDirectory& directory, const TextureBlender* textures)
+                             const CrowdDirectory& directory, const TextureBlender* textures,
+                             const FaceShapes& shapes)
     : config_(config),
       sheet_(sheet),
       inputs_(inputs),
       settings_(settings),
       directory_(directory),
       textures_(textures),
+      shapes_(shapes),
       renders_(config, sheet, inputs),
       page_(page_for(config)) {
   if (!page_) return;
@@ -73,7 +75,9 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
     if (textures_ != nullptr) textures = textures_->blend(face.recipe);
     const Positions positions =
         read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count);
-    renders_.write(directory_, face.id, face.recipe.target, positions,
+    std::vector<Displacements> moves;
+    if (renders_.show_shapes()) moves = shapes_.of_face(face.recipe, positions);
+    renders_.write(directory_, face.id, face.recipe.target, positions, moves,
                    textures.empty() ? nullptr : &textures, attachments.worn_by(face, positions));
     progress.step();
   });
@@ -85,10 +89,11 @@ WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
   for (const CastFace& face : crowd) ids.push_back(face.id);
   write_file(directory_.likeness(), format_likeness(likeness, config_.plan_names(), ids));
   if (page_) {
-    write_gallery(directory_, config_, *page_, *gallery_, crowd, settings_, likeness);
+    write_gallery(directory_, config_, *page_, *gallery_, shapes_, crowd, settings_, likeness);
     log_info(concat("gallery: ", (directory_.gallery() / "index.html").string()));
   }
-  return write_sheets(config_, sheet_, inputs_, directory_, renders_, crowd, likeness.likeness);
+  return write_sheets(config_, sheet_, inputs_, directory_, renders_, shapes_, crowd,
+                      likeness.likeness);
 }
 
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "crowdface/crowd/likeness_file.h"
+#include "crowdface/heads/face_shapes.h"
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/pictures/gallery.h"
 #include "crowdface/pictures/sheets.h"
@@ -19,9 +20,10 @@ class CrowdPictures {
   /// \param sheet     how its sheets are to be; likewise.
   /// \param settings  see settings_digest; the gallery shows it.
   /// \param textures  of faces' own, or null; likewise.
+  /// \param shapes    of faces; likewise.
   CrowdPictures(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                 const Digest& settings, const CrowdDirectory& directory,
-                const TextureBlender* textures);
+                const TextureBlender* textures, const FaceShapes& shapes);
 
   const CrowdRenders& renders() const { return renders_; }
 
@@ -42,6 +44,7 @@ class CrowdPictures {
   Digest settings_;
   const CrowdDirectory& directory_;
   const TextureBlender* textures_;
+  const FaceShapes& shapes_;
   CrowdRenders renders_;
   std::optional<std::filesystem::path> page_;  ///< of the gallery, if there is to be one
   std::unique_ptr<GalleryMeshes> gallery_;

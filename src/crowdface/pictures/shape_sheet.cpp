@@ -9,8 +9,6 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/face_mesh.h"
-#include "crowdface/heads/named_parts.h"
-#include "crowdface/shapes/shape_transfer.h"
 
 namespace crowdface {
 namespace {
@@ -36,12 +34,11 @@ void add_row(const CrowdRenders& renders, const ShapeSet& set, std::size_t first
 
 void add_shape_pages(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                      const CrowdDirectory& directory, const CrowdRenders& renders,
-                     const std::vector<CastFace>& crowd, SheetWriter& pages) {
+                     const FaceShapes& shapes, const std::vector<CastFace>& crowd,
+                     SheetWriter& pages) {
   const ShapeSet& set = inputs.shapes;
   const std::size_t faces = std::min(crowd.size(), static_cast<std::size_t>(sheet.shapes));
   if (faces == 0) return;
-  const ShapeTransfer transfer(inputs.faces, inputs.adjacency, inputs.parts, head_axes(config),
-                               set);
   std::vector<Displacements> of_template;
   for (const Shape& shape : set.shapes) of_template.push_back(shape.moves);
   const std::size_t count = (set.shapes.size() + kMostColumns - 2) / (kMostColumns - 1);
@@ -51,13 +48,14 @@ void add_shape_pages(const Config& config, const Config::ContactSheet& sheet, co
     const std::size_t first = page * per_page;
     const std::size_t shown = std::min(per_page, set.shapes.size() - first);
     std::vector<SheetCell> cells;
-    add_row(renders, set, first, shown, "template", set.neutral, of_template, cells);
+    add_row(renders, set, first, shown, set.of_head.empty() ? "template" : "mean head", set.neutral,
+            of_template, cells);
     for (std::size_t f = 0; f < faces; ++f) {
       throw_if_interrupted();
       const Positions face = read_face(directory, crowd[f].id, config.output.meshes,
                                        inputs.faces.topology.vertex_count);
-      add_row(renders, set, first, shown, crowd[f].id, face,
-              transfer.carry(crowd[f].recipe.target, face), cells);
+      add_row(renders, set, first, shown, crowd[f].id, face, shapes.of_face(crowd[f].recipe, face),
+              cells);
     }
     pages.add(concat("shapes_", zero_padded(page + 1, 3)), "shapes",
               contact_sheet(cells, {.columns = static_cast<int>(1 + shown),

@@ -17,6 +17,7 @@ namespace crowdface {
 /// \param crowd  its first `sheet.shapes` are shown, from their meshes in the folder.
 void add_shape_pages(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                      const CrowdDirectory& directory, const CrowdRenders& renders,
-                     const std::vector<CastFace>& crowd, SheetWriter& pages);
+                     const FaceShapes& shapes, const std::vector<CastFace>& crowd,
+                     SheetWriter& pages);
 
 }  // namespace crowdface

@@ -35,12 +35,14 @@ class CrowdSheets {
  public:
   CrowdSheets(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
               const CrowdDirectory& directory, const CrowdRenders& renders,
-              const std::vector<CastFace>& crowd, const Likeness& likeness)
+              const FaceShapes& shapes, const std::vector<CastFace>& crowd,
+              const Likeness& likeness)
       : config_(config),
         sheet_(sheet),
         inputs_(inputs),
         directory_(directory),
         renders_(renders),
+        shapes_(shapes),
         crowd_(crowd),
         likeness_(likeness),
         compared_(config, sheet.compare, inputs, directory, crowd, likeness),
@@ -50,7 +52,7 @@ class CrowdSheets {
     const std::size_t pages = write_faces();
     write_heads();
     write_families();
-    add_shape_pages(config_, sheet_, inputs_, directory_, renders_, crowd_, pages_);
+    add_shape_pages(config_, sheet_, inputs_, directory_, renders_, shapes_, crowd_, pages_);
     return {pages, pages_.finish()};
   }
 
@@ -244,6 +246,7 @@ class CrowdSheets {
   const Inputs& inputs_;
   const CrowdDirectory& directory_;
   const CrowdRenders& renders_;
+  const FaceShapes& shapes_;
   const std::vector<CastFace>& crowd_;
   const Likeness& likeness_;
   FaceComparison compared_;
@@ -260,11 +263,11 @@ std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t face
 
 WrittenSheets write_sheets(const Config& config, const Config::ContactSheet& sheet,
                            const Inputs& inputs, const CrowdDirectory& directory,
-                           const CrowdRenders& renders, const std::vector<CastFace>& crowd,
-                           const Likeness& likeness) {
+                           const CrowdRenders& renders, const FaceShapes& shapes,
+                           const std::vector<CastFace>& crowd, const Likeness& likeness) {
   make_directories(directory.sheets());
   WrittenSheets sheets =
-      CrowdSheets(config, sheet, inputs, directory, renders, crowd, likeness).write();
+      CrowdSheets(config, sheet, inputs, directory, renders, shapes, crowd, likeness).write();
   for (const std::filesystem::path& old : crowd_sheets(directory)) {
     if (std::find(sheets.files.begin(), sheets.files.end(), old) != sheets.files.end()) continue;
     std::error_code ignored;

@@ -5,6 +5,7 @@
 
 #include "crowdface/cast/likeness.h"
 #include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/crowd_renders.h"
 
@@ -20,8 +21,8 @@ struct WrittenSheets {
 /// family, an index; removes what an earlier run left over.
 WrittenSheets write_sheets(const Config& config, const Config::ContactSheet& sheet,
                            const Inputs& inputs, const CrowdDirectory& directory,
-                           const CrowdRenders& renders, const std::vector<CastFace>& crowd,
-                           const Likeness& likeness);
+                           const CrowdRenders& renders, const FaceShapes& shapes,
+                           const std::vector<CastFace>& crowd, const Likeness& likeness);
 
 /// How many pages a crowd's contact sheets have.
 std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces);

@@ -10,6 +10,7 @@
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/likeness_file.h"
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/face_builder.h"
@@ -130,8 +131,9 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   if (crowd.empty()) return log_info("a crowd of no faces has no sheets");
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
   const FaceTextures textures(job.config, job.inputs);
+  const FaceShapes shapes(job.config, job.inputs);
   const CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs,
-                               job.settings, directory, textures.blender());
+                               job.settings, directory, textures.blender(), shapes);
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   pictures.write_faces(

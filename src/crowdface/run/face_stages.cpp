@@ -15,6 +15,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
+#include "crowdface/io/single_precision.h"
 
 namespace crowdface {
 namespace {
@@ -52,7 +53,8 @@ std::uint64_t vertex_count(const Inputs& inputs) {
 std::uint64_t input_bytes(const Inputs& inputs) {
   return inputs.faces.heads.size() * vertex_count(inputs) * 3 * sizeof(double) +
          static_cast<std::uint64_t>(inputs.regions.alpha.size()) * sizeof(double) +
-         kMeshBytesAVertex * vertex_count(inputs) + texture_bytes(inputs.textures);
+         kMeshBytesAVertex * vertex_count(inputs) + texture_bytes(inputs.textures) +
+         displacement_bytes(inputs.shapes) + own_shape_bytes(inputs.shapes);
 }
 
 /// What all threads take while they make pictures.
@@ -91,7 +93,7 @@ class FaceOutput {
   FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const TextureBlender* textures,
              const OwnTextures* own, std::span<const MeshFormat> formats,
              const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
-             const FaceLedger& ledger, const FaceAttachments* attachments,
+             const FaceLedger& ledger, const FaceAttachments* attachments, const FaceShapes& shapes,
              const AttachmentWriters& attachment_writers)
       : builder_(builder),
         writers_(writers),
@@ -103,6 +105,7 @@ class FaceOutput {
         check_(check),
         ledger_(ledger),
         attachments_(attachments),
+        shapes_(shapes),
         attachment_writers_(attachment_writers) {}
 
   FaceFiles write(const CastFace& face, const Positions& positions) {
@@ -118,11 +121,16 @@ class FaceOutput {
       const Busy busy(blend_);
       worn = attachments_->worn_by(face, positions);
     }
-    write_meshes(face, positions, worn, pictures, files);
+    std::vector<Displacements> moves;
+    if (writers_.holds_shapes() || (renders_ != nullptr && renders_->show_shapes())) {
+      const Busy busy(encode_);
+      moves = shapes_.of_face(face.recipe, as_written(positions));
+    }
+    write_meshes(face, positions, moves, worn, pictures, files);
     if (renders_ != nullptr) {
       const Busy busy(render_);
       const WrittenPictures written =
-          renders_->write(directory_, face.id, face.recipe.target, positions,
+          renders_->write(directory_, face.id, face.recipe.target, positions, moves,
                           textures_ != nullptr ? &pictures : nullptr, worn);
       files.picture = written.picture;
       files.preview = written.preview;
@@ -145,7 +153,7 @@ class FaceOutput {
 
  private:
   void write_meshes(const CastFace& face, const Positions& positions,
-                    const std::vector<WornAttachment>& worn,
+                    std::span<const Displacements> moves, const std::vector<WornAttachment>& worn,
                     const std::vector<BlendedPicture>& pictures, FaceFiles& files) {
     if (formats_.empty()) return;
     std::vector<std::string> textures;
@@ -157,7 +165,7 @@ class FaceOutput {
         textures = own_->encode(pictures);
         of_mesh = own_->of_mesh(textures);
       }
-      meshes = writers_.encode(face, positions, of_mesh, worn);
+      meshes = writers_.encode(face, positions, moves, of_mesh, worn);
       if (attachments_have_files(formats_)) attachment_writers_.add_to(meshes, face.id, worn);
     }
     const Busy busy(write_);
@@ -181,6 +189,7 @@ class FaceOutput {
   const SkinCheck* check_;
   const FaceLedger& ledger_;
   const FaceAttachments* attachments_;
+  const FaceShapes& shapes_;
   const AttachmentWriters& attachment_writers_;
   std::atomic<double> blend_ = 0, encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
 };
@@ -200,17 +209,18 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const FaceBuilder& builder, const TextureBlender* textures,
-                       const FaceAttachments* attachments, const std::vector<CastFace>& crowd,
-                       std::uint64_t memory)
+                       const FaceAttachments* attachments, const FaceShapes& shapes,
+                       const std::vector<CastFace>& crowd, std::uint64_t memory)
     : writes_meshes_(!config.output.meshes.empty()),
       writers_(config, inputs, config.output.meshes, crowd),
       builder_(builder),
       textures_(textures),
       attachments_(attachments),
+      shapes_(shapes),
       attachment_writers_(inputs),
       meshes_(config.output.meshes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
-                           level_bytes(prepared) + writers_.memory_bytes();
+                           level_bytes(prepared) + writers_.memory_bytes() + shapes.memory_bytes();
   std::uint64_t of_thread = writers_.encode_bytes();
   if (textures_ != nullptr) {
     own_.emplace(config, inputs, crowd);
@@ -236,7 +246,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (renders != nullptr) renders->make_folders(directory);
 
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
-                    renders, check_ ? &*check_ : nullptr, ledger, attachments_,
+                    renders, check_ ? &*check_ : nullptr, ledger, attachments_, shapes_,
                     attachment_writers_);
   std::atomic<double> blend_seconds = 0;
   Progress progress("faces", faces.size());

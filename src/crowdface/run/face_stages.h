@@ -7,6 +7,7 @@
 
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/heads/face_shapes.h"
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/face_builder.h"
@@ -36,13 +37,14 @@ class FaceStages {
   /// \param builder  must outlive this object, as inputs and prepared heads must.
   /// \param textures  blends those of faces' own, or null; likewise.
   /// \param attachments  what faces wear, or null; likewise.
+  /// \param shapes   of faces; likewise.
   /// \param crowd    recipes of all faces that may be made.
   /// \param memory  bytes that the whole process may take; sets how many faces are blended together.
   /// \throws UsageError if one face at a time does not fit.
   FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
              const FaceBuilder& builder, const TextureBlender* textures,
-             const FaceAttachments* attachments, const std::vector<CastFace>& crowd,
-             std::uint64_t memory);
+             const FaceAttachments* attachments, const FaceShapes& shapes,
+             const std::vector<CastFace>& crowd, std::uint64_t memory);
 
   /// Each face is recorded when all its files are there. While one group of faces is written and
   /// rendered the next is blended: two groups at most are in memory.
@@ -56,6 +58,7 @@ class FaceStages {
   const FaceBuilder& builder_;
   const TextureBlender* textures_;
   const FaceAttachments* attachments_;
+  const FaceShapes& shapes_;
   AttachmentWriters attachment_writers_;
   std::optional<OwnTextures> own_;  ///< none: faces have no textures of their own
   std::span<const MeshFormat> meshes_;

@@ -17,6 +17,7 @@
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/face_comparison.h"
 #include "crowdface/pictures/sheets.h"
@@ -77,12 +78,14 @@ struct CastJob {
           return std::make_unique<FaceBuilder>(job.config, job.inputs, prepared);
         }),
         textures([&job] { return std::make_unique<FaceTextures>(job.config, job.inputs); }),
-        attachments([&job] { return std::make_unique<FaceAttachments>(job.config, job.inputs); }) {}
+        attachments([&job] { return std::make_unique<FaceAttachments>(job.config, job.inputs); }),
+        shapes([&job] { return std::make_unique<FaceShapes>(job.config, job.inputs); }) {}
 
   Prepared prepared;
   Lazy<FaceBuilder> builder;
   Lazy<FaceTextures> textures;
   Lazy<FaceAttachments> attachments;
+  Lazy<FaceShapes> shapes;
   Cast cast;
   /// If not empty, `cast` holds a shard's faces, as the folder's plan has them, and no more.
   std::vector<LedgerEntry::File> plan_files;
@@ -241,7 +244,8 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
-                                           cast_job.textures.get().blender());
+                                           cast_job.textures.get().blender(),
+                                           cast_job.shapes.get());
   });
   const StageBusy busy = timed(stages, "build", [&] {
     const CrowdRenders* renders =
@@ -306,8 +310,8 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   Lazy<FaceStages> face_stages([&] {
     return std::make_unique<FaceStages>(job.config, job.inputs, crowd->prepared,
                                         crowd->builder.get(), crowd->textures.get().blender(),
-                                        &crowd->attachments.get(), crowd->cast.crowd,
-                                        memory_for(options));
+                                        &crowd->attachments.get(), crowd->shapes.get(),
+                                        crowd->cast.crowd, memory_for(options));
   });
   if (is_new && !crowd->cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);

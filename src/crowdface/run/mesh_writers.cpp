@@ -108,9 +108,6 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
     usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs), config.output.subdivision);
   }
   if (need_normals) fans_.emplace(faces.topology);
-  if (!inputs.shapes.shapes.empty() && formats_ != std::vector{MeshFormat::kPly}) {
-    shapes_.emplace(faces, inputs.adjacency, inputs.parts, head_axes(config), inputs.shapes);
-  }
   if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
     levels_.emplace_back(config, inputs, level, formats_, all_targets);
@@ -127,6 +124,12 @@ void MeshWriters::add_obj_templates(const std::vector<Index>& targets) {
 
 bool MeshWriters::has(MeshFormat format) const {
   return std::find(formats_.begin(), formats_.end(), format) != formats_.end();
+}
+
+bool MeshWriters::holds_shapes() const {
+  return !inputs_.shapes.shapes.empty() && std::ranges::any_of(formats_, [](MeshFormat format) {
+    return format != MeshFormat::kPly;
+  });
 }
 
 bool MeshWriters::had_normals(Index target) const {
@@ -156,8 +159,8 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
   }
   const Positions moved = in_shape(face, mesh.shape);
   const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
-  const WholeFace acting{face.id,       face.target,        moved,      normals, face.moves,
-                         face.textures, face.texture_names, face.points};
+  const WholeFace acting{face.id,       face.target,        moved,       normals, face.moves,
+                         face.textures, face.texture_names, face.points, {}};
   return level.encode(mesh, acting, had_normals(face.target));
 }
 
@@ -184,14 +187,13 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) con
 }
 
 std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positions& positions,
+                                             std::span<const Displacements> moves,
                                              std::span<const std::string_view> textures,
                                              std::span<const WornAttachment> worn) const {
   Positions normals;
   if (needs_normals(face.recipe.target)) {
     normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
   }
-  std::vector<Displacements> moves;
-  if (shapes_) moves = shapes_->carry(face.recipe.target, positions);
   Positions points;
   if (points_) points = points_->carry(face.recipe.target, positions);
   const std::vector<std::string> texture_names = own_texture_names(config_, inputs_, face.id);
@@ -216,7 +218,6 @@ std::size_t MeshWriters::memory_bytes() const {
   if (glb_) bytes += glb_->memory_bytes();
   if (glb_attachments_) bytes += glb_attachments_->memory_bytes();
   if (usd_) bytes += usd_->memory_bytes();
-  if (shapes_) bytes += displacement_bytes(inputs_.shapes);
   for (const LevelWriter& level : levels_) bytes += level.memory_bytes();
   return bytes;
 }
@@ -224,8 +225,8 @@ std::size_t MeshWriters::memory_bytes() const {
 std::size_t MeshWriters::encode_bytes() const {
   std::size_t obj = 0;
   for (const auto& [target, form] : obj_) obj = std::max(obj, form.encode_bytes());
-  if (shapes_ && has(MeshFormat::kObj)) obj *= 1 + inputs_.shapes.shapes.size();
-  std::size_t bytes = (shapes_ ? 2 * displacement_bytes(inputs_.shapes) : 0) + obj +
+  if (has(MeshFormat::kObj)) obj *= 1 + inputs_.shapes.shapes.size();
+  std::size_t bytes = (holds_shapes() ? 2 * displacement_bytes(inputs_.shapes) : 0) + obj +
                       (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
   if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
   if (glb_) bytes += glb_->encode_bytes();

@@ -19,12 +19,12 @@
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/ply_template.h"
 #include "crowdface/io/usda_template.h"
+#include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/face_files.h"
 #include "crowdface/run/glb_attachments.h"
 #include "crowdface/run/level_writer.h"
 #include "crowdface/shapes/point_carrier.h"
-#include "crowdface/shapes/shape_transfer.h"
 
 namespace crowdface {
 
@@ -51,13 +51,18 @@ class MeshWriters {
 
   /// The face in each of the formats, in their order, then its shapes (see mesh_names); refers to
   /// this object and to the textures.
+  /// \param moves     its displacements in each shape; none where no format holds shapes.
   /// \param textures  files of the face's own pictures, as far as there are any, for GLB; OBJ files name
   ///                  the face's own material file instead.
   /// \param worn      its attachments, for GLB.
   /// \throws InvalidInput if positions are not finite.
   std::vector<EncodedMesh> encode(const CastFace& face, const Positions& positions,
+                                  std::span<const Displacements> moves,
                                   std::span<const std::string_view> textures = {},
                                   std::span<const WornAttachment> worn = {}) const;
+
+  /// Whether there are shapes that a format holds.
+  bool holds_shapes() const;
 
   /// What this object itself takes, and what the encoding of one face takes at most.
   std::size_t memory_bytes() const;
@@ -81,8 +86,7 @@ class MeshWriters {
   std::optional<GlbAttachments> glb_attachments_;  ///< if there are any
   std::optional<UsdaTemplate> usd_;
   std::vector<MeshName> names_;
-  std::optional<ShapeTransfer> shapes_;  ///< if there are any that a format holds
-  std::optional<PointCarrier> points_;   ///< if there are any
+  std::optional<PointCarrier> points_;  ///< if there are any
   std::vector<LevelWriter> levels_;
   std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
 };

@@ -7,6 +7,8 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/heads/face_shapes.h"
+#include "crowdface/io/single_precision.h"
 #include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/own_textures.h"
@@ -46,14 +48,18 @@ void write_face(const Job& job, const TextureBlender* textures, const CastFace& 
     worn = FaceAttachments(job.config, job.inputs).worn_by(face, positions);
   }
   write_attachments(job, face, format, worn, file);
+  std::vector<Displacements> moves;
+  if (writers.holds_shapes()) {
+    moves = FaceShapes(job.config, job.inputs).of_face(face.recipe, as_written(positions));
+  }
   if (textures == nullptr) {
-    write_mesh(writers.encode(face, positions, {}, worn).front(), file);
+    write_mesh(writers.encode(face, positions, moves, {}, worn).front(), file);
     return;
   }
   const OwnTextures own(job.config, job.inputs, {&face, 1});
   std::vector<std::string> encoded = own.encode(textures->blend(face.recipe));
   const std::vector<std::string_view> of_mesh = own.of_mesh(encoded);
-  write_mesh(writers.encode(face, positions, of_mesh, worn).front(), file);
+  write_mesh(writers.encode(face, positions, moves, of_mesh, worn).front(), file);
   for (const OwnFile& beside : own.files(face, std::span(&format, 1), std::move(encoded))) {
     const std::filesystem::path path = file.parent_path() / beside.name;
     make_directories(path.parent_path());

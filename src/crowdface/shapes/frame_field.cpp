@@ -26,18 +26,6 @@ double bump(double distance) {
   return rest > 0 ? rest * rest : 0;
 }
 
-/// The inverse of a symmetric positive definite matrix, by cofactors.
-Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m) {
-  const Eigen::Vector3d a = m.row(0).transpose(), b = m.row(1).transpose(),
-                        c = m.row(2).transpose();
-  const Eigen::Vector3d bc = cross3(b, c), ca = cross3(c, a), ab = cross3(a, b);
-  Eigen::Matrix3d inverse;
-  inverse.col(0) = bc;
-  inverse.col(1) = ca;
-  inverse.col(2) = ab;
-  return inverse / dot3(a, bc);
-}
-
 /// Vertices that lie as far from each other as can be: the next is always the farthest from those
 /// before, until none is as far as `spacing`.
 std::vector<std::uint32_t> spread_over(const Positions& positions,
@@ -57,6 +45,17 @@ std::vector<std::uint32_t> spread_over(const Positions& positions,
 }
 
 }  // namespace
+
+Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m) {
+  const Eigen::Vector3d a = m.row(0).transpose(), b = m.row(1).transpose(),
+                        c = m.row(2).transpose();
+  const Eigen::Vector3d bc = cross3(b, c), ca = cross3(c, a), ab = cross3(a, b);
+  Eigen::Matrix3d inverse;
+  inverse.col(0) = bc;
+  inverse.col(1) = ca;
+  inverse.col(2) = ab;
+  return inverse / dot3(a, bc);
+}
 
 FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
                        std::span<const std::uint32_t> used)

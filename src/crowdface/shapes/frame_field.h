@@ -68,4 +68,7 @@ inline Eigen::Vector3d apply3(const Eigen::Matrix3d& map, const Eigen::Vector3d&
           map(2, 0) * v.x() + map(2, 1) * v.y() + map(2, 2) * v.z()};
 }
 
+/// The inverse of a matrix that has one, by cofactors.
+Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m);
+
 }  // namespace crowdface

@@ -16,7 +16,7 @@ namespace {
 constexpr double kWholeShare = 1.8, kNoShare = 3;   // from the eyeball's centre
 constexpr double kWholeHold = 0.27, kNoHold = 0.6;  // off the eyeball's surface
 /// Cosine of the angle to the axis at which holding off begins, and over which it grows.
-constexpr double kHoldFrom = -0.25, kHoldOver = 0.25;
+constexpr double kHoldFrom = -2, kHoldOver = 0.25;
 constexpr std::size_t kPlaces = 32;  // along the opening
 constexpr double kProfile = 0.35;    // of a place, to either side
 constexpr double kBlur = .12;        // over which places are evened out
@@ -93,7 +93,7 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
     const double cosine = dot3(from, axes.front) / length3(from);
-    Lid lid{row, v, 0, 0, gap_after, gap_after - gap_before, {}};
+    Lid lid{row, v, 0, 0, {}};
     lid.hold = fading(std::min(std::abs(gap_before), std::abs(gap_after)), kWholeHold * radius_,
                       kNoHold * radius_) *
                std::clamp((cosine - kHoldFrom) / kHoldOver, 0.0, 1.0);
@@ -133,7 +133,7 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     if (cut.low.empty() || cut.high.empty()) continue;
     const double before = cut.gap(neutral), after = cut.gap(closed);
     if (before - after < kLeastClosed * radius_ || after > kLeft * before) continue;
-    Place place{{}, {}, at, {}, before - after};
+    Place place{{}, {}, at, before - after};
     const auto add = [&](const std::vector<EdgePoint>& points, std::vector<Point>& to) {
       for (const EdgePoint& point : points) {
         to.push_back({point, row_of(shape, point.a), row_of(shape, point.b)});
@@ -143,14 +143,50 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     add(cut.high, place.high);
     places_.push_back(std::move(place));
   }
-  const std::vector<Gap> closed_gaps = gaps({along, axes.up}, neutral, shape.moves);
-  for (std::size_t p = 0; p < places_.size(); ++p) places_[p].gap = closed_gaps[p];
 }
 
 std::vector<std::uint32_t> LidClosure::rows() const {
   std::vector<std::uint32_t> rows;
   for (const Lid& lid : lids_) rows.push_back(lid.row);
   return rows;
+}
+
+LidClosure::Axes LidClosure::axes_on(const RigidMotion& whole) const {
+  return {whole.turn(axes_.side()) / whole.scale, whole.turn(axes_.up) / whole.scale};
+}
+
+LidClosure::Goals LidClosure::goals(const Positions& mesh, const FaceEye& eye,
+                                    const RigidMotion& whole, const Positions& moves) const {
+  Goals goals;
+  if (!places_.empty()) goals.gaps = gaps(axes_on(whole), mesh, moves);
+  for (Gap& gap : goals.gaps) gap = {gap.paired / whole.scale, gap.plumb / whole.scale};
+  for (const Lid& lid : lids_) {
+    const Eigen::Vector3d before = row3(mesh, lid.vertex);
+    const double gap_before = eye.gap_at(before).gap;
+    const double gap_after = eye.gap_at(before + row3(moves, lid.row)).gap;
+    goals.least.push_back(gap_after / whole.scale);
+    goals.gap_change.push_back((gap_after - gap_before) / whole.scale);
+  }
+  return goals;
+}
+
+LidClosure::Goals LidClosure::mean(std::span<const Goals> goals, std::span<const SetShare> shares) {
+  Goals mean;
+  mean.gaps.assign(goals.front().gaps.size(), {0, 0});
+  mean.least.assign(goals.front().least.size(), 0);
+  mean.gap_change = mean.least;
+  for (const SetShare& of_set : shares) {
+    const Goals& one = goals[of_set.set];
+    for (std::size_t p = 0; p < mean.gaps.size(); ++p) {
+      mean.gaps[p].paired += of_set.share * one.gaps[p].paired;
+      mean.gaps[p].plumb += of_set.share * one.gaps[p].plumb;
+    }
+    for (std::size_t i = 0; i < mean.least.size(); ++i) {
+      mean.least[i] += of_set.share * one.least[i];
+      mean.gap_change[i] += of_set.share * one.gap_change[i];
+    }
+  }
+  return mean;
 }
 
 LidClosure::Rim LidClosure::rim_point(const std::vector<Point>& points, double sign,
@@ -201,31 +237,33 @@ void LidClosure::close(const Eigen::Vector3d& up, const Positions& carried,
 }
 
 void LidClosure::hold_off(const Positions& face, const FaceEye& eye,
-                          std::span<const double> rest_gaps, double scale, Positions& moves) const {
+                          std::span<const double> rest_gaps, double scale, const Goals& goals,
+                          Positions& moves) const {
   for (std::size_t i = 0; i < lids_.size(); ++i) {
     const Lid& lid = lids_[i];
     if (lid.hold == 0) continue;
     const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
-    const double least = std::min({rest_gaps[i], scale * lid.least, kMargin * scale * radius_});
-    const double wanted = std::max(rest_gaps[i] + scale * lid.gap_change, least);
+    const double least =
+        std::min({rest_gaps[i], scale * goals.least[i], kMargin * scale * radius_});
+    const double wanted = std::max(rest_gaps[i] + scale * goals.gap_change[i], least);
     moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
   }
 }
 
 void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
-                     Positions& moves) const {
-  const Axes axes{whole.turn(axes_.side()) / whole.scale, whole.turn(axes_.up) / whole.scale};
+                     const Goals& goals, Positions& moves) const {
+  const Axes axes = axes_on(whole);
   const Positions carried = moves;
   std::vector<double> rest_gaps;
   for (const Lid& lid : lids_) rest_gaps.push_back(eye.gap_at(row3(face, lid.vertex)).gap);
   std::vector<double> gains(places_.size(), 0.0);
   for (int step = 0;; ++step) {
     close(axes.up, carried, gains, moves);
-    hold_off(face, eye, rest_gaps, whole.scale, moves);
+    hold_off(face, eye, rest_gaps, whole.scale, goals, moves);
     if (step == kSteps || places_.empty()) return;
     const std::vector<Gap> now = gaps(axes, face, moves);
     for (std::size_t p = 0; p < places_.size(); ++p) {
-      const Gap& wanted = places_[p].gap;
+      const Gap& wanted = goals.gaps[p];
       const double missing = std::max(now[p].paired - whole.scale * wanted.paired,
                                       now[p].plumb - whole.scale * std::max(wanted.plumb, 0.0));
       gains[p] += missing / (whole.scale * places_[p].closed);

@@ -11,6 +11,7 @@
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/shape_set.h"
+#include "crowdface/shapes/shape_shares.h"
 
 namespace crowdface {
 
@@ -46,13 +47,31 @@ class LidClosure {
 
   /// Whether the shape moves this eye's lids.
   bool empty() const { return lids_.empty(); }
+
+  /// Between the rims at a place; negative where the upper lid reaches below the lower one.
+  struct Gap {
+    double paired;  ///< of the points that lie above each other on the template
+    double plumb;   ///< straight down from the upper one, whatever lies there
+  };
+  /// What a face's lids are to be like, of a mesh whose shape is known, in the template's size.
+  struct Goals {
+    std::vector<Gap> gaps;                  ///< #places
+    std::vector<double> least, gap_change;  ///< #lids: to the eyeball, in the shape; and since rest
+  };
+  /// \param mesh   #V by 3, at rest
+  /// \param whole  from the template to the mesh
+  /// \param moves  its own, as the shape's rows
+  Goals goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& whole,
+              const Positions& moves) const;
+  /// Between those of several sets.
+  static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
   /// The rows of the shape that `fit` may change.
   std::vector<std::uint32_t> rows() const;
 
   /// \param face   #V by 3, at rest
   /// \param whole  from the template to the face
   /// \param moves  as the shape's, carried to the face; made to fit
-  void fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
+  void fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole, const Goals& goals,
            Positions& moves) const;
 
  private:
@@ -61,16 +80,10 @@ class LidClosure {
     EdgePoint on;
     std::uint32_t row_a, row_b;
   };
-  /// Between the rims at a place; negative where the upper lid reaches below the lower one.
-  struct Gap {
-    double paired;  ///< of the points that lie above each other on the template
-    double plumb;   ///< straight down from the upper one, whatever lies there
-  };
   struct Place {
     std::vector<Point> low, high;
     double along;   ///< the opening
-    Gap gap;        ///< in the template's shape
-    double closed;  ///< by how much it is less than at rest
+    double closed;  ///< by how much the template's gap is less than at rest
   };
   /// Of a face: along the opening, and from the lower lid to the upper one; unit.
   struct Axes {
@@ -84,7 +97,6 @@ class LidClosure {
     std::uint32_t row, vertex;
     double share;                ///< of what closes the lids: 1 around the eye, less farther off
     double hold;                 ///< of what holds it off the eyeball: 1 near it
-    double least, gap_change;    ///< of its gap on the template
     std::vector<double> places;  ///< how much it hears of each, of sum one
   };
 
@@ -93,7 +105,8 @@ class LidClosure {
   void close(const Eigen::Vector3d& up, const Positions& carried, std::span<const double> gains,
              Positions& moves) const;
   void hold_off(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
-                double scale, Positions& moves) const;
+                double scale, const Goals& goals, Positions& moves) const;
+  Axes axes_on(const RigidMotion& whole) const;
   static Rim rim_point(const std::vector<Point>& points, double sign, const Axes& axes,
                        const Positions& face, const Positions& moves);
   std::vector<Gap> gaps(const Axes& axes, const Positions& face, const Positions& moves) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/shapes/shape_set.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "crowdface/mesh/vector3.h"
@@ -24,10 +26,46 @@ Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh
   return shape;
 }
 
+OwnShape own_shape_of(const Displacements& moves) {
+  return {moves.vertices, moves.moves.cast<float>()};
+}
+
+Displacements displacements_of(const OwnShape& shape) {
+  return {shape.vertices, shape.moves.cast<double>()};
+}
+
+Displacements mean_of(const std::vector<std::vector<OwnShape>>& of_head, std::size_t shape) {
+  Displacements mean;
+  for (const auto& shapes : of_head) {
+    std::vector<std::uint32_t> both;
+    std::ranges::set_union(mean.vertices, shapes[shape].vertices, std::back_inserter(both));
+    mean.vertices = std::move(both);
+  }
+  mean.moves = Positions::Zero(static_cast<Index>(mean.vertices.size()), 3);
+  for (const auto& shapes : of_head) {
+    const OwnShape& one = shapes[shape];
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < one.vertices.size(); ++i) {
+      while (mean.vertices[row] != one.vertices[i]) ++row;
+      mean.moves.row(static_cast<Index>(row)) +=
+          one.moves.row(static_cast<Index>(i)).cast<double>() / static_cast<double>(of_head.size());
+    }
+  }
+  return mean;
+}
+
 std::size_t displacement_bytes(const ShapeSet& shapes) {
   std::size_t vertices = 0;
   for (const Shape& shape : shapes.shapes) vertices += shape.moves.vertices.size();
   return vertices * (3 * sizeof(double) + sizeof(std::uint32_t));
+}
+
+std::size_t own_shape_bytes(const ShapeSet& shapes) {
+  std::size_t vertices = 0;
+  for (const auto& of_head : shapes.of_head) {
+    for (const OwnShape& shape : of_head) vertices += shape.vertices.size();
+  }
+  return vertices * (3 * sizeof(float) + sizeof(std::uint32_t));
 }
 
 }  // namespace crowdface

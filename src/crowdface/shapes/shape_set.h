@@ -9,23 +9,42 @@
 
 namespace crowdface {
 
-/// One expression, as displacements of the template's neutral mesh.
+/// One expression, as displacements of a mesh at rest.
 struct Shape {
   std::string name;
   Displacements moves;
 };
 
-/// The expressions of a template, in the topology of a crowd's heads.
+/// Three numbers a row as mesh files hold them, to save memory.
+using SingleRows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// Where an expression takes one of the heads.
+struct OwnShape {
+  std::vector<std::uint32_t> vertices;  ///< ascending
+  SingleRows moves;                     ///< #vertices by 3
+};
+
+/// Expressions in the topology of a crowd's heads: those of one template, or of each head.
 struct ShapeSet {
-  Positions neutral;  ///< #V by 3; of no rows: there are no shapes
-  std::vector<Shape> shapes;
+  Positions
+      neutral;  ///< of the template, or the mean head; #V by 3; of no rows: there are no shapes
+  std::vector<Shape> shapes;                        ///< of the template, or the mean of the heads'
+  std::vector<std::vector<OwnShape>> of_head = {};  ///< #heads by #shapes; empty: one set for all
 };
 
 /// What the displacements of all shapes of one face take.
 std::size_t displacement_bytes(const ShapeSet& shapes);
+/// What a set for each head takes.
+std::size_t own_shape_bytes(const ShapeSet& shapes);
 
 /// A shape from its mesh. What moves by less than four thousandths of a millimetre on a head (a
 /// share of `extent`, the diagonal of the skin's box) stays.
 Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh, double extent);
+
+OwnShape own_shape_of(const Displacements& moves);
+Displacements displacements_of(const OwnShape& shape);
+
+/// The mean of all heads' displacements: of the vertices that one of them moves.
+Displacements mean_of(const std::vector<std::vector<OwnShape>>& of_head, std::size_t shape);
 
 }  // namespace crowdface

@@ -10,7 +10,9 @@
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/shapes/frame_field.h"
+#include "crowdface/shapes/kept_contacts.h"
 #include "crowdface/shapes/lid_closure.h"
+#include "crowdface/shapes/rigid_turn.h"
 
 namespace crowdface {
 namespace {
@@ -19,14 +21,6 @@ namespace {
 constexpr std::size_t kMostFitted = 500;
 /// How far from an eyeball's centre its lids' skin may be, as a share of its radius.
 constexpr double kEyeSkin = 3;
-
-/// A rigid part of the template.
-struct RigidPart {
-  std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> fitted;  ///< some of them
-  std::vector<double> ones;           ///< #fitted
-  Eigen::Vector3d middle;             ///< of an eyeball: its centre
-};
 
 struct Eye {
   std::size_t part;  ///< of the rigid ones
@@ -37,9 +31,14 @@ struct Eye {
 /// A rigid part in a shape.
 struct PartMove {
   std::size_t part;
-  RigidMotion motion;                  ///< of the part, on the template
-  std::vector<std::uint32_t> rows;     ///< of the shape
-  std::vector<Eigen::Vector3d> rests;  ///< #rows: of the moves, beside that motion
+  std::vector<std::uint32_t> rows, vertices;
+  std::vector<RigidTurn> turns;  ///< #sets
+};
+
+/// The lids of an eye in a shape.
+struct LidMove {
+  LidClosure lids;
+  std::vector<LidClosure::Goals> goals;  ///< #sets
 };
 
 /// A vertex of a bound part that goes along with lids.
@@ -51,9 +50,12 @@ struct Hanging {
 
 struct ShapeState {
   std::vector<std::uint32_t> used;  ///< #rows: numbers among the used vertices
+  std::vector<SingleRows> of_head;  ///< #heads by #rows, as on the mean head; empty: one set
   std::vector<PartMove> parts;
-  std::vector<LidClosure> lids;  ///< of the eyes
+  std::vector<LidMove> lids;  ///< of the eyes
   std::vector<Hanging> hanging;
+  bool moves_contacts = false;
+  std::vector<std::vector<double>> widening;  ///< #sets, if it does: of the gaps between lips
 };
 
 std::uint32_t place_in(std::span<const std::uint32_t> sorted, std::uint32_t value) {
@@ -73,6 +75,29 @@ std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
   return used;
 }
 
+/// A head's displacements as rows of the whole set's.
+Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& shape) {
+  Positions rows = Positions::Zero(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
+    rows.row(place_in(vertices, shape.vertices[i])) =
+        shape.moves.row(static_cast<Index>(i)).cast<double>();
+  }
+  return rows;
+}
+
+std::vector<std::uint32_t> skin_of(const FaceSet& faces, const PartList& parts,
+                                   const FacesAround& around) {
+  std::vector<bool> is_skin(static_cast<std::size_t>(faces.topology.vertex_count), true);
+  for (const Part& part : parts.parts) {
+    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
+  }
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
+    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
+  }
+  return skin;
+}
+
 }  // namespace
 
 struct ShapeTransfer::State {
@@ -82,21 +107,40 @@ struct ShapeTransfer::State {
   FacesAround around;
   std::vector<std::uint32_t> skin;  ///< ascending
   std::vector<RigidPart> rigid;
+  std::vector<std::vector<double>> rigid_alpha;  ///< #rigid by #regions, of the skin at them
   std::vector<Eye> eyes;
   std::vector<std::uint32_t> used;  ///< vertices that some shape moves
+  RegionWeights::Alpha alpha;       ///< #used by #regions: of the skin nearest to them
+  KeptContacts contacts;
+  RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
   FrameField field;
   std::vector<ShapeState> shapes;
 
+  /// A face, and how it is turned and stretched.
+  struct Carrier {
+    const Positions& mesh;
+    FrameField::Frames frames;
+    std::vector<Eigen::Matrix3d> maps;  ///< #used
+    std::vector<double> gaps;           ///< #contacts
+  };
+  Carrier carrier_to(const Positions& face) const;
+
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
+  void look_up_regions(const RegionWeights& regions);
   ShapeState bind(const Displacements& moves, const Adjacency& adjacency) const;
   void bind_lids(const Displacements& moves, const Adjacency& adjacency, ShapeState& state) const;
-  Displacements carry(std::size_t shape, std::size_t target, const Positions& face,
-                      const FrameField::Frames& frames,
-                      std::span<const Eigen::Matrix3d> maps) const;
-  void carry_part(const PartMove& part, const Displacements& shape, const Positions& face,
-                  const FrameField::Frames& frames, const Eigen::Matrix3d& map,
-                  Positions& moves) const;
+  void add_sets();
+  void add_set(const Carrier& carrier, const Displacements& shape, std::span<const FaceEye> at_eyes,
+               ShapeState& state) const;
+  void keep_contacts(const ShapeState& state, const Carrier& carrier, const RegionShares& shares,
+                     Positions& scratch, Displacements& result) const;
+  SingleRows undone(const Carrier& carrier, const ShapeState& state, const Positions& moves) const;
+  Positions mixed_moves(std::size_t shape, const RegionShares& shares) const;
+  Eigen::Matrix3d map_of(const PartMove& part, const ShapeState& state,
+                         std::span<const Eigen::Matrix3d> maps) const;
+  Displacements carry(std::size_t shape, std::size_t target, const Carrier& carrier,
+                      const RegionShares& shares, Positions& scratch) const;
 };
 
 void ShapeTransfer::State::add_part(const Part& part, const PartList& parts,
@@ -137,16 +181,25 @@ void ShapeTransfer::State::add_eye(const Part& part, const ComponentShape& ball,
 }
 
 ShapeTransfer::ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency,
-                             const PartList& parts, const HeadAxes& axes, const ShapeSet& shapes) {
-  auto state = std::make_unique<State>(
-      State{faces, shapes, axes, FacesAround(faces.topology), {}, {}, {}, {}, {}, {}});
-  std::vector<bool> is_skin(static_cast<std::size_t>(faces.topology.vertex_count), true);
-  for (const Part& part : parts.parts) {
-    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
-  }
-  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
-    if (is_skin[v] && !state->around.of(v).empty()) state->skin.push_back(v);
-  }
+                             const PartList& parts, const HeadAxes& axes, const ShapeSet& shapes,
+                             const RegionWeights& regions) {
+  const FacesAround around(faces.topology);
+  std::vector<std::uint32_t> skin = skin_of(faces, parts, around);
+  KeptContacts contacts(faces, adjacency, skin);
+  auto state = std::make_unique<State>(State{faces,
+                                             shapes,
+                                             axes,
+                                             around,
+                                             std::move(skin),
+                                             {},
+                                             {},
+                                             {},
+                                             {},
+                                             {},
+                                             std::move(contacts),
+                                             {},
+                                             {},
+                                             {}});
   const Positions mean = mean_head(faces);
   for (const Part& part : parts.parts) {
     if (part.part_class != PartClass::kRigid) continue;
@@ -156,36 +209,61 @@ ShapeTransfer::ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency,
   state->used = used_vertices(shapes);
   state->field =
       FrameField(shapes.neutral, state->skin, extent_of(shapes.neutral, state->skin), state->used);
+  if (!shapes.of_head.empty()) state->look_up_regions(regions);
   state->shapes.resize(shapes.shapes.size());
   parallel_for_each(shapes.shapes.size(), [&](std::size_t s) {
     state->shapes[s] = state->bind(shapes.shapes[s].moves, adjacency);
   });
+  state->add_sets();
   state_ = std::move(state);
 }
 
 ShapeTransfer::~ShapeTransfer() = default;
 
+/// Masks say nothing of lashes and eyeballs.
+void ShapeTransfer::State::look_up_regions(const RegionWeights& regions) {
+  const PointGrid grid(set.neutral, skin);
+  const auto nearest = [&](std::uint32_t v) {
+    return std::ranges::binary_search(skin, v) ? v : grid.nearest(row3(set.neutral, v)).vertex;
+  };
+  alpha.resize(static_cast<Index>(used.size()), regions.alpha.cols());
+  parallel_for_each(used.size(), [&](std::size_t i) {
+    alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(used[i]));
+  });
+  const std::vector<std::uint32_t> at_contacts = contacts.vertices();
+  contact_alpha.resize(static_cast<Index>(at_contacts.size()), regions.alpha.cols());
+  for (std::size_t p = 0; p < at_contacts.size(); ++p) {
+    contact_alpha.row(static_cast<Index>(p)) = regions.alpha.row(at_contacts[p]);
+  }
+  for (const RigidPart& part : rigid) {
+    std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
+    for (const std::uint32_t v : part.fitted) {
+      const std::uint32_t at = nearest(v);
+      for (std::size_t k = 0; k < mean.size(); ++k) {
+        mean[k] +=
+            regions.alpha(at, static_cast<Index>(k)) / static_cast<double>(part.fitted.size());
+      }
+    }
+    rigid_alpha.push_back(std::move(mean));
+  }
+}
+
 ShapeState ShapeTransfer::State::bind(const Displacements& moves,
                                       const Adjacency& adjacency) const {
   ShapeState state;
   for (const std::uint32_t v : moves.vertices) state.used.push_back(place_in(used, v));
-  Positions shape = set.neutral;
-  moves.add_to(shape);
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     PartMove part{p, {}, {}, {}};
     for (const std::uint32_t v : rigid[p].vertices) {
       const std::uint32_t row = place_in(moves.vertices, v);
-      if (row != kNoIndex) part.rows.push_back(row);
+      if (row == kNoIndex) continue;
+      part.rows.push_back(row);
+      part.vertices.push_back(v);
     }
-    if (part.rows.empty()) continue;
-    part.motion = fit_rigid_motion(set.neutral, shape, rigid[p].fitted, rigid[p].ones);
-    for (const std::uint32_t row : part.rows) {
-      const std::uint32_t v = moves.vertices[row];
-      part.rests.push_back(row3(shape, v) - part.motion.apply(row3(set.neutral, v)));
-    }
-    state.parts.push_back(std::move(part));
+    if (!part.rows.empty()) state.parts.push_back(std::move(part));
   }
   bind_lids(moves, adjacency, state);
+  state.moves_contacts = contacts.moved_by(moves.vertices);
   return state;
 }
 
@@ -195,7 +273,7 @@ void ShapeTransfer::State::bind_lids(const Displacements& moves, const Adjacency
   for (const Eye& eye : eyes) {
     LidClosure lids(eye.of_template, adjacency, set.neutral, moves, axes);
     for (const std::uint32_t row : lids.rows()) fitted[row] = true;
-    state.lids.push_back(std::move(lids));
+    state.lids.push_back({std::move(lids), {}});
   }
   std::vector<bool> is_free(static_cast<std::size_t>(set.neutral.rows()), true);
   for (const std::uint32_t v : skin) is_free[v] = false;
@@ -228,48 +306,152 @@ void ShapeTransfer::State::bind_lids(const Displacements& moves, const Adjacency
   }
 }
 
-void ShapeTransfer::State::carry_part(const PartMove& part, const Displacements& shape,
-                                      const Positions& face, const FrameField::Frames& frames,
-                                      const Eigen::Matrix3d& map, Positions& moves) const {
-  const RigidPart& bound = rigid[part.part];
-  const RigidMotion home = fit_rigid_motion(set.neutral, face, bound.fitted, bound.ones);
-  const Eigen::Vector3d middle = home.apply(bound.middle);
-  const Eigen::Vector3d shift = apply3(map, part.motion.apply(bound.middle) - bound.middle);
-  for (std::size_t i = 0; i < part.rows.size(); ++i) {
-    const std::uint32_t row = part.rows[i];
-    const Eigen::Vector3d arm = row3(face, shape.vertices[row]) - middle;
-    // The template's turn, as the whole face is turned against it.
-    const Eigen::Vector3d on_template =
-        frames.whole.undo(frames.whole.to + arm) - frames.whole.from;
-    const Eigen::Vector3d turned = frames.whole.turn(part.motion.turn(on_template));
-    moves.row(row) = (turned - arm + shift + apply3(map, part.rests[i])).transpose();
+ShapeTransfer::State::Carrier ShapeTransfer::State::carrier_to(const Positions& face) const {
+  Carrier carrier{face, field.frames(face), std::vector<Eigen::Matrix3d>(used.size()),
+                  contacts.gaps(face)};
+  for (std::size_t i = 0; i < used.size(); ++i) carrier.maps[i] = field.at(i, carrier.frames);
+  return carrier;
+}
+
+Eigen::Matrix3d ShapeTransfer::State::map_of(const PartMove& part, const ShapeState& state,
+                                             std::span<const Eigen::Matrix3d> maps) const {
+  Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t row : part.rows) map += maps[state.used[row]];
+  return map / static_cast<double>(part.rows.size());
+}
+
+/// Finds what each set's shapes do to parts and lids, and takes out of the heads' own shapes how the heads
+/// are turned and stretched.
+void ShapeTransfer::State::add_sets() {
+  const std::size_t heads = set.of_head.size();
+  for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
+    const Carrier carrier = carrier_to(heads > 0 ? faces.heads[h].positions : set.neutral);
+    std::vector<FaceEye> at_eyes;
+    for (const Eye& eye : eyes) {
+      at_eyes.push_back({heads > 0 ? &eye.balls[h] : &eye.of_template.ball, {}});
+    }
+    parallel_for_each(shapes.size(), [&](std::size_t s) {
+      const Displacements& all = set.shapes[s].moves;
+      if (heads == 0) return add_set(carrier, all, at_eyes, shapes[s]);
+      const Positions own = rows_in(all.vertices, set.of_head[h][s]);
+      add_set(carrier, {all.vertices, own}, at_eyes, shapes[s]);
+      shapes[s].of_head.push_back(undone(carrier, shapes[s], own));
+    });
   }
 }
 
-Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target,
-                                          const Positions& face, const FrameField::Frames& frames,
-                                          std::span<const Eigen::Matrix3d> maps) const {
-  const Displacements& shape = set.shapes[number].moves;
-  const ShapeState& state = shapes[number];
-  Displacements result{shape.vertices, Positions(shape.moves.rows(), 3)};
-  for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
-    const auto row = static_cast<Index>(i);
-    result.moves.row(row) = apply3(maps[state.used[i]], row3(shape.moves, row)).transpose();
+void ShapeTransfer::State::add_set(const Carrier& carrier, const Displacements& shape,
+                                   std::span<const FaceEye> at_eyes, ShapeState& state) const {
+  const Positions& moves = shape.moves;
+  const RigidMotion& whole = carrier.frames.whole;
+  for (PartMove& part : state.parts) {
+    const RigidPart& bound = rigid[part.part];
+    const Eigen::Matrix3d map = map_of(part, state, carrier.maps);
+    const PlacedPart placed(bound, set.neutral, carrier.mesh, whole, map);
+    part.turns.push_back(find_turn(bound, placed, part.vertices, part.rows, moves));
   }
-  for (const PartMove& part : state.parts) {
-    Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
-    for (const std::uint32_t row : part.rows) map += maps[state.used[row]];
-    map /= static_cast<double>(part.rows.size());
-    carry_part(part, shape, face, frames, map, result.moves);
-  }
-  const Positions carried = result.moves;
   for (std::size_t e = 0; e < eyes.size(); ++e) {
-    if (state.lids[e].empty()) continue;
+    LidMove& move = state.lids[e];
+    if (move.lids.empty()) continue;
+    move.goals.push_back(move.lids.goals(carrier.mesh, at_eyes[e], whole, moves));
+  }
+  if (!state.moves_contacts) return;
+  Positions moved = carrier.mesh;
+  shape.add_to(moved);
+  std::vector<double>& widening = state.widening.emplace_back(contacts.gaps(moved));
+  for (std::size_t p = 0; p < widening.size(); ++p) {
+    widening[p] = (widening[p] - carrier.gaps[p]) / whole.scale;
+  }
+}
+
+/// Lips that the shape leaves closed stay closed.
+void ShapeTransfer::State::keep_contacts(const ShapeState& state, const Carrier& carrier,
+                                         const RegionShares& shares, Positions& scratch,
+                                         Displacements& result) const {
+  std::vector<double> widening(state.widening.front().size(), 0.0);
+  for (std::size_t p = 0; p < widening.size(); ++p) {
+    SetShares here = {{0, 1}};
+    if (!state.of_head.empty()) {
+      const Index at = static_cast<Index>(p);
+      here = shares_at(
+          std::span(&contact_alpha(at, 0), static_cast<std::size_t>(contact_alpha.cols())), shares);
+    }
+    for (const SetShare& of_set : here) {
+      widening[p] += of_set.share * carrier.frames.whole.scale * state.widening[of_set.set][p];
+    }
+  }
+  scratch = carrier.mesh;
+  result.add_to(scratch);
+  contacts.keep(carrier.gaps, widening, scratch);
+  for (std::size_t i = 0; i < result.vertices.size(); ++i) {
+    const std::uint32_t v = result.vertices[i];
+    auto move = result.moves.row(static_cast<Index>(i));
+    const Eigen::RowVector3d before = carrier.mesh.row(v) + move;
+    move += scratch.row(v) - before;
+  }
+}
+
+SingleRows ShapeTransfer::State::undone(const Carrier& carrier, const ShapeState& state,
+                                        const Positions& moves) const {
+  SingleRows rows(moves.rows(), 3);
+  for (Index i = 0; i < moves.rows(); ++i) {
+    const Eigen::Matrix3d& map = carrier.maps[state.used[static_cast<std::size_t>(i)]];
+    rows.row(i) = apply3(inverse3(map), row3(moves, i)).cast<float>().transpose();
+  }
+  return rows;
+}
+
+Positions ShapeTransfer::State::mixed_moves(std::size_t number, const RegionShares& shares) const {
+  const ShapeState& state = shapes[number];
+  Positions moves = Positions::Zero(static_cast<Index>(state.used.size()), 3);
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    for (const SetShare& of_set : shares[k]) {
+      const SingleRows& own = state.of_head[of_set.set];
+      for (Index i = 0; i < moves.rows(); ++i) {
+        const double part = alpha(state.used[static_cast<std::size_t>(i)], static_cast<Index>(k));
+        if (part == 0) continue;
+        const double share = part * of_set.share;
+        for (Index c = 0; c < 3; ++c) moves(i, c) += share * static_cast<double>(own(i, c));
+      }
+    }
+  }
+  return moves;
+}
+
+Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target,
+                                          const Carrier& carrier, const RegionShares& shares,
+                                          Positions& scratch) const {
+  const ShapeState& state = shapes[number];
+  const SetShares one_set = {{0, 1}};
+  const auto shares_of = [&](std::size_t part) {
+    return state.of_head.empty() ? one_set : shares_at(rigid_alpha[part], shares);
+  };
+  Positions mixed;
+  if (!state.of_head.empty()) mixed = mixed_moves(number, shares);
+  const Positions& on_template = state.of_head.empty() ? set.shapes[number].moves.moves : mixed;
+  Displacements result{set.shapes[number].moves.vertices, Positions(on_template.rows(), 3)};
+  for (std::size_t i = 0; i < state.used.size(); ++i) {
+    const auto row = static_cast<Index>(i);
+    result.moves.row(row) = apply3(carrier.maps[state.used[i]], row3(on_template, row)).transpose();
+  }
+  const RigidMotion& whole = carrier.frames.whole;
+  for (const PartMove& part : state.parts) {
+    const Eigen::Matrix3d map = map_of(part, state, carrier.maps);
+    const PlacedPart placed(rigid[part.part], set.neutral, carrier.mesh, whole, map);
+    carry_turn(mean_turn(part.turns, shares_of(part.part)), placed, part.vertices, part.rows,
+               result.moves);
+  }
+  Positions carried;
+  if (!state.hanging.empty()) carried = result.moves;
+  for (std::size_t e = 0; e < eyes.size(); ++e) {
+    const LidMove& move = state.lids[e];
+    if (move.lids.empty()) continue;
     const BallMap& ball = eyes[e].balls[target];
     const RigidPart& part = rigid[eyes[e].part];
-    const FaceEye eye{
-        &ball, fit_rigid_motion(faces.heads[target].positions, face, part.fitted, part.ones)};
-    state.lids[e].fit(face, eye, frames.whole, result.moves);
+    const FaceEye eye{&ball, fit_rigid_motion(faces.heads[target].positions, carrier.mesh,
+                                              part.fitted, part.ones)};
+    move.lids.fit(carrier.mesh, eye, whole, LidClosure::mean(move.goals, shares_of(eyes[e].part)),
+                  result.moves);
   }
   for (const Hanging& hanging : state.hanging) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -278,19 +460,31 @@ Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target
       result.moves.row(hanging.row) += hanging.shares[k] * (result.moves.row(on) - carried.row(on));
     }
   }
+  if (state.moves_contacts) keep_contacts(state, carrier, shares, scratch, result);
   return result;
 }
 
-std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& face) const {
+std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& face,
+                                                std::span<const RegionShares> shares) const {
   const State& state = *state_;
-  const FrameField::Frames frames = state.field.frames(face);
-  std::vector<Eigen::Matrix3d> maps(state.used.size());
-  for (std::size_t i = 0; i < maps.size(); ++i) maps[i] = state.field.at(i, frames);
+  const State::Carrier carrier = state.carrier_to(face);
   std::vector<Displacements> shapes;
+  Positions scratch;
   for (std::size_t s = 0; s < state.shapes.size(); ++s) {
-    shapes.push_back(state.carry(s, static_cast<std::size_t>(target), face, frames, maps));
+    shapes.push_back(state.carry(s, static_cast<std::size_t>(target), carrier,
+                                 s < shares.size() ? shares[s] : RegionShares(), scratch));
   }
   return shapes;
+}
+
+std::size_t ShapeTransfer::memory_bytes() const {
+  std::size_t bytes = static_cast<std::size_t>(state_->alpha.size()) * sizeof(double);
+  for (const ShapeState& state : state_->shapes) {
+    for (const SingleRows& rows : state.of_head) {
+      bytes += static_cast<std::size_t>(rows.size()) * sizeof(float);
+    }
+  }
+  return bytes;
 }
 
 }  // namespace crowdface

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/part_list.h"
+#include "crowdface/region/region_weights.h"
 #include "crowdface/shapes/shape_set.h"
+#include "crowdface/shapes/shape_shares.h"
 
 namespace crowdface {
 
-/// Carries the expressions of a template to faces of its topology (docs/shapes.md):
+/// Carries expressions to faces of their topology (docs/shapes.md): those of a template, or between
+/// those of the heads, each first measured on the mean head:
 ///
 /// - skin, lashes and whatever else is bound to the skin by how the face's skin is turned and stretched
 ///   against the template's (FrameField);
@@ -19,20 +23,27 @@ namespace crowdface {
 /// - a rigid part, teeth or eyeball, by the turn that the shape gives it, about its own middle (an
 ///   eyeball's centre), and the shift of that, carried like skin.
 ///
-/// What depends on the template alone is found once. A face that is the template gives the shapes
-/// themselves up to rounding, and vertices that a shape leaves alone are in no displacement.
+/// What depends on the shapes alone is found once. A face that is the template, or a head with shapes of
+/// its own, has the shapes themselves up to rounding, and vertices that a shape leaves alone are in no
+/// displacement.
 class ShapeTransfer {
  public:
   /// \param faces, shapes  must outlive this object; at least one head.
   /// \param parts          of no parts: all is skin.
+  /// \param regions        α, #V by #regions, for sets of shapes of the heads.
   ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency, const PartList& parts,
-                const HeadAxes& axes, const ShapeSet& shapes);
+                const HeadAxes& axes, const ShapeSet& shapes, const RegionWeights& regions = {});
   ~ShapeTransfer();
 
   /// \param target  the head the face was built on, whose eyeballs it has.
   /// \param face    #V by 3.
-  /// \return        #shapes, each with the vertices of the template's shape.
-  std::vector<Displacements> carry(Index target, const Positions& face) const;
+  /// \param shares  #shapes: whose shapes count how much, by head; none: the template's.
+  /// \return        #shapes, each with the vertices of the set's shape.
+  std::vector<Displacements> carry(Index target, const Positions& face,
+                                   std::span<const RegionShares> shares = {}) const;
+
+  /// What it keeps of the heads' own shapes.
+  std::size_t memory_bytes() const;
 
  private:
   struct State;

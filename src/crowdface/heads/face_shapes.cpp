@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/face_shapes.h"
+
+#include <algorithm>
+
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+/// How much of a field of displacements one iteration of smoothing leaves, as a whole: what it leaves of a
+/// wave of the field's mean size (the Rayleigh quotient of the one-ring mean).
+double kept_by_smoothing(const Adjacency& adjacency, const Displacements& moves,
+                         OperatorKind kind) {
+  Positions whole = Positions::Zero(adjacency.vertex_count(), 3);
+  moves.add_to(whole);
+  double all = 0, with_neighbours = 0;
+  for (const std::uint32_t v : moves.vertices) {
+    const Eigen::Vector3d here = row3(whole, v);
+    for (const std::uint32_t other : adjacency.of(v)) {
+      all += dot3(here, here);
+      with_neighbours += dot3(here, row3(whole, other));
+    }
+  }
+  const double kept = all > 0 ? std::max(with_neighbours / all, 0.0) : 1;
+  return kind == OperatorKind::kLazy ? (1 + kept) / 2 : kept;
+}
+
+double power(double base, std::uint64_t exponent) {
+  double result = 1;
+  for (; exponent > 0; exponent /= 2, base *= base) {
+    if (exponent % 2 == 1) result *= base;
+  }
+  return result;
+}
+
+/// The sets of a region's heads: B's own, and for each band what is smoothed of it taken out of it, as in
+/// level_shares, as far as smoothing changes this shape.
+SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
+  std::vector<double> shares(heads, 0.0);
+  for (const SourceWeight& part : target_shares(recipe)) {
+    shares[static_cast<std::size_t>(part.head)] += part.weight;
+  }
+  for (const LevelShares& band : level_shares(recipe, region, Extrapolation::kNone)) {
+    const double lost = 1 - power(kept, band.level);
+    for (const SourceWeight& part : band.shares) {
+      shares[static_cast<std::size_t>(part.head)] -= lost * part.weight;
+    }
+  }
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  SetShares result;
+  for (std::uint32_t h = 0; h < heads; ++h) {
+    if (shares[h] != 0) result.push_back({h, shares[h] / sum});
+  }
+  return result;
+}
+
+}  // namespace
+
+FaceShapes::FaceShapes(const Config& config, const Inputs& inputs) : inputs_(inputs) {
+  const ShapeSet& set = inputs.shapes;
+  if (set.shapes.empty()) return;
+  transfer_ = std::make_unique<ShapeTransfer>(inputs.faces, inputs.adjacency, inputs.parts,
+                                              head_axes(config), set, inputs.regions);
+  if (set.of_head.empty()) return;
+  for (const Shape& shape : set.shapes) {
+    kept_.push_back(
+        kept_by_smoothing(inputs.adjacency, shape.moves, config.smoothing.operator_kind));
+  }
+}
+
+std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
+  std::vector<RegionShares> shares;
+  for (const double kept : kept_) {
+    RegionShares& of_shape = shares.emplace_back();
+    for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+      of_shape.push_back(shares_in(recipe, k, inputs_.faces.heads.size(), kept));
+    }
+  }
+  return shares;
+}
+
+std::vector<Displacements> FaceShapes::of_face(const Recipe& recipe, const Positions& face) const {
+  if (!transfer_) return {};
+  return transfer_->carry(recipe.target, face, shares_of(recipe));
+}
+
+std::vector<Displacements> FaceShapes::of_head(Index head) const {
+  if (!transfer_) return {};
+  const SetShares own = {{static_cast<std::uint32_t>(head), 1}};
+  const RegionShares everywhere(static_cast<std::size_t>(inputs_.regions.alpha.cols()), own);
+  return transfer_->carry(head, inputs_.faces.heads[static_cast<std::size_t>(head)].positions,
+                          std::vector<RegionShares>(kept_.size(), everywhere));
+}
+
+std::size_t FaceShapes::memory_bytes() const {
+  if (!transfer_) return 0;
+  return displacement_bytes(inputs_.shapes) + transfer_->memory_bytes();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/rigid_turn.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/shapes/frame_field.h"
+
+namespace crowdface {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of less than half a turn.
+std::array<double, 4> quaternion_of(const RigidMotion& motion) {
+  constexpr double kLeast = 1e-6;
+  const auto& r = motion.rotation;
+  const double w = std::sqrt(std::max(1 + r[0][0] + r[1][1] + r[2][2], kLeast)) / 2;
+  return {w, (r[2][1] - r[1][2]) / (4 * w), (r[0][2] - r[2][0]) / (4 * w),
+          (r[1][0] - r[0][1]) / (4 * w)};
+}
+
+void normalize(std::array<double, 4>& q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (double& part : q) part /= length;
+}
+
+Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
+  const Vector3d axis(q[1], q[2], q[3]);
+  const Vector3d once = 2 * cross3(axis, v);
+  return v + q[0] * once + cross3(axis, once);
+}
+
+/// As the template has it.
+Vector3d undone(const RigidMotion& whole, const Vector3d& direction) {
+  return whole.undo(whole.to + direction) - whole.from;
+}
+
+/// How far a vertex of the part goes by the turn alone.
+Vector3d by_turn(const std::array<double, 4>& quaternion, const PlacedPart& placed,
+                 std::uint32_t vertex) {
+  const Vector3d arm = row3(placed.mesh, vertex) - placed.middle;
+  return placed.whole.turn(turned(quaternion, undone(placed.whole, arm))) - arm;
+}
+
+RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
+                            std::span<const std::uint32_t> vertices,
+                            std::span<const std::uint32_t> rows, const Positions& moves) {
+  Positions rest(static_cast<Index>(part.fitted.size()), 3);
+  std::vector<std::uint32_t> all(part.fitted.size());
+  std::iota(all.begin(), all.end(), 0U);
+  for (const std::uint32_t i : all) rest.row(i) = mesh.row(part.fitted[i]);
+  Positions shape = rest;
+  for (const std::uint32_t i : all) {
+    const auto at = std::ranges::lower_bound(vertices, part.fitted[i]);
+    if (at == vertices.end() || *at != part.fitted[i]) continue;
+    shape.row(i) += moves.row(rows[static_cast<std::size_t>(at - vertices.begin())]);
+  }
+  return fit_rigid_motion(rest, shape, all, part.ones);
+}
+
+}  // namespace
+
+PlacedPart::PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& positions,
+                       const RigidMotion& motion, const Eigen::Matrix3d& skin)
+    : middle(fit_rigid_motion(neutral, positions, part.fitted, part.ones).apply(part.middle)),
+      mesh(positions),
+      whole(motion),
+      map(skin) {}
+
+RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
+                    std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
+                    const Positions& moves) {
+  const RigidMotion motion = motion_in_shape(part, placed.mesh, vertices, rows, moves);
+  const Eigen::Matrix3d inverse = inverse3(placed.map);
+  const std::array<double, 4> here = quaternion_of(motion);
+  const Vector3d axis = undone(placed.whole, {here[1], here[2], here[3]}) * placed.whole.scale;
+  RigidTurn turn{{here[0], axis.x(), axis.y(), axis.z()},
+                 apply3(inverse, motion.apply(placed.middle) - placed.middle),
+                 {}};
+  normalize(turn.quaternion);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Vector3d left = row3(moves, rows[i]) - by_turn(turn.quaternion, placed, vertices[i]);
+    turn.rests.push_back(apply3(inverse, left) - turn.shift);
+  }
+  return turn;
+}
+
+RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares) {
+  RigidTurn mean{{0, 0, 0, 0}, {0, 0, 0}, {}};
+  mean.rests.assign(turns.front().rests.size(), Vector3d::Zero());
+  for (const SetShare& of_set : shares) {
+    const RigidTurn& turn = turns[of_set.set];
+    for (std::size_t c = 0; c < 4; ++c) mean.quaternion[c] += of_set.share * turn.quaternion[c];
+    mean.shift += of_set.share * turn.shift;
+    for (std::size_t i = 0; i < mean.rests.size(); ++i) {
+      mean.rests[i] += of_set.share * turn.rests[i];
+    }
+  }
+  normalize(mean.quaternion);
+  return mean;
+}
+
+void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
+                std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
+                Positions& moves) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    moves.row(rows[i]) = (by_turn(turn.quaternion, placed, vertices[i]) +
+                          apply3(placed.map, turn.shift + turn.rests[i]))
+                             .transpose();
+  }
+}
+
+}  // namespace crowdface
