@@ -5,7 +5,7 @@
 # PICTURES=DIR keeps a picture.
 set -euo pipefail
 program=$1 root=$2
-if ! command -v blender >/dev/null || ! python3 -c 'import numpy' 2>/dev/null; then
+if ! command -v blender >/dev/null || ! /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
   echo "no Blender: Debian's packages blender and python3-numpy have it" >&2
   exit 69
 fi
