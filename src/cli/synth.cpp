@@ -3,6 +3,7 @@
 #include <optional>
 #include <system_error>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
@@ -16,6 +17,7 @@
 #include "cli/common_options.h"
 #include "cli/head_files.h"
 #include "cli/head_tags.h"
+#include "cli/synth_hair.h"
 
 namespace crowdface::cli {
 namespace {
@@ -29,7 +31,7 @@ constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
 
 struct Options : CommonOptions {
   std::string out, count = "8", vertices = "20000", seed = "1", mask, textures;
-  bool tags = false, skin_only = false, force = false;
+  bool hair = false, tags = false, skin_only = false, force = false;
 };
 
 /// Whether both name one folder, which need not be there yet.
@@ -39,13 +41,13 @@ bool same_folder(const fs::path& a, const fs::path& b) {
          fs::weakly_canonical(fs::absolute(b / "", error), error);
 }
 
-/// The skin in a picture's colours, the other pieces in their own.
+/// Skin and eyes in a picture's colours, teeth in their own.
 std::string material_file(const std::vector<MaterialRange>& materials, const std::string& picture) {
   std::string text;
   for (const MaterialRange& material : materials) {
-    const bool skin = material.name == "skin";
+    const bool teeth = material.name.starts_with("teeth");
     text += concat("newmtl ", material.name,
-                   skin ? "\nKd 1 1 1\nmap_Kd " + picture : "\nKd 0.8 0.77 0.72", '\n');
+                   teeth ? "\nKd 0.8 0.77 0.72" : "\nKd 1 1 1\nmap_Kd " + picture, '\n');
   }
   return text;
 }
@@ -63,9 +65,14 @@ void synth(const Options& options) {
   }
   using Parts = SyntheticHeads::Parts;
   using Scalp = SyntheticHeads::Scalp;
+  if (options.hair && options.textures.empty()) {
+    throw UsageError(
+        "--hair: expected --textures beside it, which paints the scalp below the hair");
+  }
+  const Scalp painted = options.hair ? Scalp::kShorn : Scalp::kHaired;
   const SyntheticHeads heads(static_cast<Index>(vertices),
                              options.skin_only ? Parts::kSkin : Parts::kEyesAndTeeth,
-                             options.textures.empty() ? Scalp::kBare : Scalp::kHaired);
+                             options.textures.empty() ? Scalp::kBare : painted);
   std::vector<MaterialRange> materials;
   if (!options.skin_only) {
     for (const auto& piece : heads.pieces()) materials.push_back({piece.name, piece.first_face});
@@ -78,10 +85,12 @@ void synth(const Options& options) {
   }
   std::vector<HeadFile> files;
   std::vector<TaggedHead> tagged;
+  SynthHair hair;
   for (std::uint64_t i = 1; i <= count; ++i) {
     const std::string name = head_name("synth", i);
     const synth::Person person = synth::draw_person(seed, i);
-    tagged.push_back({name, person.male > 0, person.age});
+    tagged.push_back(
+        {name, person.male > 0, person.age, options.hair ? hair.add_head(seed, i) : std::string()});
     const std::string library = skins ? concat(name, ".mtl") : std::string();
     files.push_back({directory / concat(name, ".obj"), [&heads, &materials, library, seed, i] {
                        return encode_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},
@@ -99,6 +108,7 @@ void synth(const Options& options) {
                        return file;
                      }});
   }
+  if (options.hair) hair.add_files(directory, heads, materials, files);
   if (options.tags) {
     files.push_back(text_file(directory / "tags.yaml",
                               format_tags(tagged, concat("Synthetic heads of seed ", seed))));
@@ -122,6 +132,8 @@ void declare(CLI::App& command, Options& options) {
   add_option(command, "--textures", options.textures, "SIZE",
              "Give each head hair and paint it, pictures of this side in texels: NAME_albedo.png, "
              "NAME.mtl");
+  command.add_flag("--hair", options.hair,
+                   "With --textures: hair as meshes of its own, to DIR/attachments");
   command.add_flag("--skin-only", options.skin_only,
                    "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
   command.add_flag("--tags", options.tags,

@@ -20,10 +20,10 @@ class Examples : public ::testing::Test {
     fs::copy(kSource / "configs", folder_ / "configs");
     fs::copy(kSource / "masks", folder_ / "masks");
     const fs::path heads = folder_ / "out/demo_heads";
-    crowdface(
-        0,
-        {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "12", "--textures", "64"},
-        {});
+    crowdface(0,
+              {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "12", "--textures",
+               "64", "--hair"},
+              {});
     crowdface(0,
               {"synth", "-o", (folder_ / "out/brief_heads").string(), "--vertices", "5000",
                "--count", "24"},

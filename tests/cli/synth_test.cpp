@@ -83,5 +83,27 @@ TEST(Synth, PaintsSkinsThatSheetsShow) {
   }
 }
 
+TEST(Synth, HairOfItsOwnIsWhatAConfigTakes) {
+  const TemporaryFolder folder;
+  const std::string heads = (folder / "heads").string();
+  crowdface(0, {"synth", "-o", heads, "--count", "3", "--vertices", "5000", "--textures", "64",
+                "--tags", "--hair"});
+  EXPECT_THAT(read_text(folder / "heads/tags.yaml"), HasSubstr("_hair"));
+  EXPECT_TRUE(fs::exists(folder / "heads/attachments/base.obj"));
+  crowdface(0, {"init", heads, "-o", (folder / "crowd.yaml").string()});
+  EXPECT_THAT(read_text(folder / "crowd.yaml"), HasSubstr("kind: hair"));
+  const fs::path out = folder / "out";
+  crowdface(0, {"generate", (folder / "crowd.yaml").string(), "--count", "4", "--out", out.string(),
+                "--cache", (folder / "cache").string(), "--set", "output.contact_sheet.cell=48"});
+  const std::string plan = read_text(out / "plan.jsonl");
+  EXPECT_THAT(plan, HasSubstr("\"attachments\":[\""));
+}
+
+TEST(Synth, HairWithoutAPaintedScalpIsRefused) {
+  const TemporaryFolder folder;
+  crowdface(64, {"synth", "-o", (folder / "heads").string(), "--hair"}, {"--hair", "--textures"});
+  EXPECT_FALSE(fs::exists(folder / "heads"));
+}
+
 }  // namespace
 }  // namespace crowdface::testing

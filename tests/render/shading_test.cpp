@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/shading.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "crowdface/render/gleam.h"
 #include "crowdface/render/perpendicular.h"
 
 namespace crowdface {
@@ -45,6 +47,31 @@ TEST(Shade, IsFiniteAndNotNegativeInEveryDirection) {
       EXPECT_LT(light.maxCoeff(), 20);
     }
   }
+}
+
+TEST(Gleam, PaintedHairGleamsLessThanTheSkinAroundWhateverTheTone) {
+  for (const float skin : {0.06F, 0.3F}) {
+    const auto gleam = [&](float share) { return skin_gleam(Light::Constant(share * skin), skin); };
+    EXPECT_EQ(gleam(1), 1);
+    EXPECT_EQ(gleam(1.5F), 1);
+    EXPECT_LT(gleam(0.3F), 0.5F);
+    EXPECT_LT(gleam(0.1F), 0.2F);
+    EXPECT_GT(gleam(0.1F), 0);
+  }
+  EXPECT_EQ(skin_gleam(Light::Constant(0.01F), 0), 1) << "no picture";
+  // Half of the gloss: half way to none.
+  const Eigen::Vector3f to_eye(0, 0, 1);
+  const ShadePoint point{(key_direction() + to_eye).normalized(), to_eye, Light::Constant(0.3F)};
+  const Light middle = (shade(point) + shade(point, 0)) / 2;
+  EXPECT_LT((shade(point, 0.5F) - middle).abs().maxCoeff(), 1e-6);
+  EXPECT_GT((shade(point) - shade(point, 0)).minCoeff(), 0.02F);
+}
+
+TEST(Gleam, SkinIsToldFromAPictureWithHairAndBlackAround) {
+  Texture picture{61, 20, std::vector<Light>(1220, Light::Constant(0.4F))};
+  std::fill_n(picture.texels.begin(), 500, Light::Constant(0.02F));
+  EXPECT_FLOAT_EQ(skin_lightness(picture), 0.4F);
+  EXPECT_EQ(skin_lightness(Texture{}), 0);
 }
 
 TEST(Shade, LessLightArrivingIsDarker) {

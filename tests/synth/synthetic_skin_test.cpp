@@ -50,7 +50,7 @@ TEST(SyntheticSkins, SameSeedSameBytesOnEveryMachine) {
   EXPECT_NE(albedo, small.albedo(3, 3));
   EXPECT_NE(albedo, small.albedo(4, 2));
   EXPECT_EQ(Hasher().add_array(std::span(albedo)).digest().hex(),
-            "57cd3f64ece4d610ec402ed889207704");
+            "e52126b40972f5e129bebf382b8072e7");
 }
 
 TEST(SyntheticSkins, EveryToneOccursAndShows) {
@@ -128,6 +128,57 @@ TEST(SyntheticSkins, ScalpHasHairInItsColour) {
   const Colour hair = 255 * synth::draw_complexion(1, woman).hair;
   const Colour crown = colour_near(skins().albedo(1, woman), kCrown, 2.5);
   EXPECT_LT((crown - hair).abs().maxCoeff(), 25);
+}
+
+TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
+  constexpr int kLarge = 512;
+  static const SyntheticSkins large(kLarge);
+  const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kLarge);
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const std::vector<std::uint8_t> albedo = large.albedo(1, i);
+    const Colour iris = 255 * synth::draw_complexion(1, i).iris;
+    Colour in_iris = Colour::Zero(), white = Colour::Zero();
+    double irises = 0, whites = 0;
+    for (std::size_t t = 0; t < atlas.size(); ++t) {
+      if (atlas[t].ball < 0.5 || !atlas[t].covered || atlas[t].on_ball.z() < 0) continue;
+      const double flat = atlas[t].on_ball.head<2>().norm();
+      const Colour colour(albedo[3 * t], albedo[3 * t + 1], albedo[3 * t + 2]);
+      if (flat > 0.22 && flat < 0.36) in_iris += colour, ++irises;
+      if (flat > 0.5 && flat < 0.7) white += colour, ++whites;
+      if (flat < 0.1) EXPECT_LT(colour.maxCoeff(), 30) << "the pupil";
+    }
+    ASSERT_GT(irises, 10);
+    EXPECT_LT((in_iris / irises - iris).abs().maxCoeff(), 25) << i;
+    EXPECT_GT((white / whites).minCoeff(), 150) << i;
+  }
+}
+
+TEST(SyntheticSkins, MenAreShavenStubblyOrBearded) {
+  double men = 0, shaven = 0, stubbly = 0, moustaches = 0, bearded = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    if (synth::draw_person(1, i).male < 0) continue;
+    const synth::Complexion look = synth::draw_complexion(1, i);
+    ++men;
+    shaven += look.moustache < 0.2 ? 1 : 0;
+    stubbly += look.moustache > 0.3 && look.moustache < 0.9 ? 1 : 0;
+    moustaches += look.moustache == 1 && look.beard < 1 ? 1 : 0;
+    bearded += look.beard == 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(shaven / men, 0.42, 0.06);
+  EXPECT_NEAR(stubbly / men, 0.25, 0.06);
+  EXPECT_NEAR(moustaches / men, 0.18, 0.06);
+  EXPECT_NEAR(bearded / men, 0.15, 0.06);
+}
+
+TEST(SyntheticSkins, EachSexHasEveryTone) {
+  for (const bool male : {false, true}) {
+    std::array<int, 5> seen{};
+    for (std::uint64_t i = 10; i < 20; ++i) {
+      if ((synth::draw_person(4, i).male > 0) != male) continue;
+      ++seen[static_cast<std::size_t>(5 * synth::draw_complexion(4, i).tone)];
+    }
+    EXPECT_EQ(seen, (std::array<int, 5>{1, 1, 1, 1, 1})) << male;
+  }
 }
 
 TEST(SkinAtlas, HoldsTheAverageHeadWhereItsVerticesLie) {

@@ -16,6 +16,7 @@
 #include "crowdface/mesh/normals.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
+#include "crowdface/render/gleam.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/render/sampling_pattern.h"
 #include "crowdface/render/shading.h"
@@ -179,6 +180,10 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
   std::optional<WornStage> worn_stage;
   if (!worn.empty()) worn_stage.emplace(prepared_->device, worn, camera);
+  std::vector<float> skin_lightnesses;
+  if (coat != nullptr) {
+    for (const auto& texture : coat->textures) skin_lightnesses.push_back(skin_lightness(*texture));
+  }
   const Stage stage{*scene,
                     std::move(normals),
                     sign,
@@ -188,6 +193,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->quad_paints,
                     prepared_->quad_uvs,
                     coat,
+                    std::move(skin_lightnesses),
                     prepared_->eyeballs,
                     std::move(eyes),
                     gaze,

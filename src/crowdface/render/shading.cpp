@@ -28,7 +28,7 @@ Material material_of(SurfaceKind kind) {
     case SurfaceKind::kGums:
       return {{0.42F, 0.20F, 0.18F}, {0.20F, 0.10F, 0.08F}, 0.30F, 0.04F};
     case SurfaceKind::kWorn:
-      return {{0.5F, 0.5F, 0.5F}, {0.12F, 0.12F, 0.12F}, 0.42F, 0.04F};
+      return {{0.5F, 0.5F, 0.5F}, {0.30F, 0.28F, 0.26F}, 0.45F, 0.03F};
     case SurfaceKind::kSkin:
     case SurfaceKind::kHidden:
       break;
@@ -87,7 +87,7 @@ float highlight(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye,
 }
 
 /// What is darker than any skin is painted hair, which scatters what falls on it.
-float skin_gloss(const Light& albedo) {
+float dark_gleam(const Light& albedo) {
   constexpr float kDarkestSkin = 0.055F;
   return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
 }
@@ -129,11 +129,11 @@ bool faces_key(const ShadePoint& point) {
   return cosine > -material_of(point.kind).wrap.maxCoeff();
 }
 
-Light shade(const ShadePoint& point) {
+Light shade(const ShadePoint& point, float gleam) {
   const Studio& lamps = studio();
   Material material = material_of(point.kind);
   if (point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn)
-    material.reflectance *= skin_gloss(point.albedo);
+    material.reflectance *= dark_gleam(point.albedo);
   const Eigen::Vector3f& n = point.normal;
   const Light open = with_bounces(point.sky, point.albedo);
 
@@ -152,7 +152,9 @@ Light shade(const ShadePoint& point) {
   gloss +=
       lamps.rim_left.colour * highlight(n, point.to_eye, lamps.rim_left.direction, material) * soft;
 
-  const Light light = point.albedo * diffuse + gloss;
+  if (point.kind == SurfaceKind::kWorn)
+    gleam *= 0.45F;  // mostly hair, which lies in all directions
+  const Light light = point.albedo * diffuse + gleam * gloss;
   return point.inside ? Light(light * 0.3F) : light;
 }
 

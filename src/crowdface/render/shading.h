@@ -30,7 +30,8 @@ Light albedo_of(SurfaceKind kind);
 /// A portrait studio that moves with the camera: a large key light from the upper left, a weak fill
 /// from the right, two rims from behind and a sky. Skin scatters light past the shadow's edge, red
 /// furthest (wrapped diffuse); the highlights are microfacet (Walter et al. 2007).
-Light shade(const ShadePoint& point);
+/// \param gleam  what part of its gloss the surface has.
+Light shade(const ShadePoint& point, float gleam = 1);
 
 /// Whether any light of the key comes off a surface that looks where this one does.
 bool faces_key(const ShadePoint& point);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/render/gleam.h"
 #include "crowdface/render/perpendicular.h"
 
 namespace crowdface {
@@ -25,14 +26,16 @@ constexpr float kSameAlbedo = 0.03F;
 // The pixels around a point count its own pixel in; this is for a point unlike all of them.
 constexpr float kOwnWeight = 0.01F;
 
-/// The texture's colour, if there is one.
-std::optional<Light> texture_albedo(const Stage& stage, std::uint32_t primitive,
-                                    const Eigen::Vector4f& weights) {
-  if (stage.coat == nullptr || stage.uvs.empty()) return std::nullopt;
+/// Which of the coat's pictures is on this quad, or kNone.
+std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
+  if (stage.coat == nullptr || stage.uvs.empty()) return TextureCoat::kNone;
   const TexturedQuad& quad = stage.uvs[primitive];
-  if (quad.face == TextureCoat::kNone) return std::nullopt;
-  const std::uint32_t texture = stage.coat->of_face[quad.face];
-  if (texture == TextureCoat::kNone) return std::nullopt;
+  return quad.face == TextureCoat::kNone ? TextureCoat::kNone : stage.coat->of_face[quad.face];
+}
+
+Light texture_albedo(const Stage& stage, std::uint32_t texture, std::uint32_t primitive,
+                     const Eigen::Vector4f& weights) {
+  const TexturedQuad& quad = stage.uvs[primitive];
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
   return colour_at(*stage.coat->textures[texture], uv);
@@ -40,7 +43,8 @@ std::optional<Light> texture_albedo(const Stage& stage, std::uint32_t primitive,
 
 Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
                  const Vector& point) {
-  if (const auto colour = texture_albedo(stage, primitive, weights)) return *colour;
+  const std::uint32_t texture = texture_of(stage, primitive);
+  if (texture != TextureCoat::kNone) return texture_albedo(stage, texture, primitive, weights);
   if (!stage.paints.empty() && stage.paints[primitive]) return *stage.paints[primitive];
   const SurfaceKind kind = stage.kinds[primitive];
   if (kind != SurfaceKind::kEye) return albedo_of(kind);
@@ -64,7 +68,8 @@ struct Meeting {
   Vector point;
   Vector start;  ///< where rays to the lights begin
   ShadePoint surface;
-  bool asks_key = false;  ///< whether the key light could reach it at all
+  float skin_lightness = 0;  ///< of the picture on it, or 0
+  bool asks_key = false;     ///< whether the key light could reach it at all
   Openness key, sky;
 };
 
@@ -91,6 +96,9 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   meeting.surface.albedo = stage.colours != nullptr
                                ? from_srgb(colour.array())
                                : own_albedo(stage, hit.primitive, weights, meeting.point);
+  const std::uint32_t texture = texture_of(stage, hit.primitive);
+  if (texture != TextureCoat::kNone && meeting.surface.kind == SurfaceKind::kSkin)
+    meeting.skin_lightness = stage.skin_lightness[texture];
   const Vector geometric = stage.winding * hit.normal;
   meeting.surface.inside = geometric.dot(direction) > 0;
   const float side = meeting.surface.inside ? -1.0F : 1.0F;
@@ -381,13 +389,18 @@ class Tile {
     return surface;
   }
 
+  Light shaded(const Meeting& meeting, int x, int y) {
+    return shade(with_shared_lights(meeting, x, y),
+                 skin_gleam(meeting.surface.albedo, meeting.skin_lightness));
+  }
+
   /// The mean of a pixel's samples.
   Light light_at(int x, int y) {
     const Pixel& at = pixel(x, y);
     const std::span<const Meeting> meetings = meetings_of(at);
-    if (!meetings.empty() && !at.changes) return shade(with_shared_lights(middle_of(at), x, y));
+    if (!meetings.empty() && !at.changes) return shaded(middle_of(at), x, y);
     Light sum = at.backdrop;
-    for (const Meeting& meeting : meetings) sum += shade(with_shared_lights(meeting, x, y));
+    for (const Meeting& meeting : meetings) sum += shaded(meeting, x, y);
     return sum / static_cast<float>(meetings.size() + at.missed);
   }
 

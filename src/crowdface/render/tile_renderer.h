@@ -39,6 +39,7 @@ struct Stage {
   const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& uvs;             ///< #quads, or empty
   const TextureCoat* coat;                          ///< or nullptr
+  std::vector<float> skin_lightness;                ///< of each of its pictures
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Eigen::Vector3f gaze;

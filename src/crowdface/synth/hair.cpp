@@ -59,6 +59,10 @@ HairStyle draw_hair_style(std::uint64_t seed, std::uint64_t index) {
 
 }  // namespace
 
+bool has_curls(std::uint64_t seed, std::uint64_t index) {
+  return draw_hair_style(seed, index).curls > 0.5;
+}
+
 Hair::Hair(std::uint64_t seed, std::uint64_t index)
     : style_(draw_hair_style(seed, index)),
       receding_(draw_complexion(seed, index).receding),
@@ -82,9 +86,8 @@ double Hair::falling(const Vector3d& p) const {
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
 }
 
-/// Centimetres above the hairline.
-double Hair::above_edge(const Vector3d& p) const {
-  const double away = receding_;
+double above_hairline(const Vector3d& p, bool low_edge, double receding) {
+  const double away = receding;
   const std::array<Vector2d, 9> high = {{{0.0, 7.6 + 3.2 * away},
                                          {0.25, 7.5 + 4.2 * away},
                                          {0.42, 6.6 + 3.0 * away},
@@ -103,7 +106,7 @@ double Hair::above_edge(const Vector3d& p) const {
                                                {0.92, 2.4},
                                                {1.35, -7.5}}};
   const double around = around_head(p);
-  return p.y() - (style_.low_edge ? between_knots(low, around) : between_knots(high, around));
+  return p.y() - (low_edge ? between_knots(low, around) : between_knots(high, around));
 }
 
 /// Bald heads thin out from the crown.

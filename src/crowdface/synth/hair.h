@@ -21,6 +21,12 @@ struct HairStyle {
   bool low_edge = false;  ///< it covers the temples, and runs down before the ears
 };
 
+/// Centimetres above the hairline. \param low_edge  as women's: it covers the temples.
+double above_hairline(const Eigen::Vector3d& p, bool low_edge, double receding = 0);
+
+/// Whether somebody's hair is curly rather than straight.
+bool has_curls(std::uint64_t seed, std::uint64_t index);
+
 /// The hair on the head of one person, as a layer of the scalp. Points are the average head's.
 class Hair {
  public:
@@ -36,7 +42,9 @@ class Hair {
   double thickness(const Eigen::Vector3d& p) const;
 
  private:
-  double above_edge(const Eigen::Vector3d& p) const;
+  double above_edge(const Eigen::Vector3d& p) const {
+    return above_hairline(p, style_.low_edge, receding_);
+  }
   double thinned(const Eigen::Vector3d& p) const;
   double falling(const Eigen::Vector3d& p) const;
 

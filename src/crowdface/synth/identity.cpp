@@ -66,6 +66,8 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
   scale_ =
       Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,
                1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
+  // Faces grow less even with the years (Skomina et al. 2020).
+  unevenness_ = 0.05 * (1 + 0.25 * aged);
   face_length_ = 0.014 * person_.male + 0.04 * normal("face_length");
   pulls_.push_back(
       {{0, -2.5, 11}, {2.5, 4, 3}, {0.07 * normal("nose_lean"), 0, 0}, Vector3d::Zero()});
@@ -78,9 +80,7 @@ Vector3d Identity::deform(const Vector3d& point) const {
   // Everything below the eyes longer or shorter, without a kink at the eyes.
   moved.y() += face_length_ * (point.y() - std::sqrt(point.y() * point.y() + 4)) / 2;
   const double uneven = lopsided_.at(point), other = lopsided_.at(point + Vector3d(40, 0, 0));
-  // Faces grow less even with the years (Skomina et al. 2020).
-  const double reach = 0.05 * (1 + 0.25 * person_.aged());
-  moved += reach * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
+  moved += unevenness_ * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
   return moved.cwiseProduct(scale_);
 }
 

@@ -28,6 +28,8 @@ Person draw_person(std::uint64_t seed, std::uint64_t index);
 class Identity {
  public:
   Identity(std::uint64_t seed, std::uint64_t index);
+  /// The average head's: nothing is drawn, no point moves.
+  static Identity average() { return Identity(); }
 
   /// Carries a point of the average head to this one.
   Eigen::Vector3d deform(const Eigen::Vector3d& point) const;
@@ -37,12 +39,15 @@ class Identity {
   std::uint64_t index() const { return index_; }
 
  private:
-  std::uint64_t seed_, index_;
+  Identity() : lopsided_(0, 5.5) {}
+
+  std::uint64_t seed_ = 0, index_ = 0;
   Person person_;
   std::vector<Pull> pulls_;
   Eigen::Vector3d scale_{1, 1, 1};
   double face_length_ = 0;
-  SmoothNoise lopsided_;  ///< nobody's left is quite like their right
+  double unevenness_ = 0;  ///< cm
+  SmoothNoise lopsided_;   ///< nobody's left is quite like their right
 };
 
 }  // namespace crowdface::synth

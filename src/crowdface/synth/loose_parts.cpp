@@ -122,7 +122,7 @@ void LooseParts::add_eyeball(double side, int n) {
       points_.push_back(p);
       // The ball from the front, its back in a ring around its front.
       const double flat = std::sqrt(p.x() * p.x() + p.y() * p.y());
-      const double out = 0.9 * (1 - p.z()) / 2;
+      const double out = p.z() > 0 ? 0.8 * flat : 0.9 - 0.1 * flat;
       const Vector2d around =
           flat > 0 ? Vector2d(p.x() * side / flat, p.y() / flat) : Vector2d(1, 0);
       uvs_.push_back(unwrap_hole(Sheet::kEye, side, out * around));

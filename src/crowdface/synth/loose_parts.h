@@ -28,6 +28,12 @@ class LooseParts {
   /// The same of its faces.
   Index first_face(LoosePiece piece) const { return first_faces_[static_cast<std::size_t>(piece)]; }
 
+  /// Whether a vertex is an eyeball's, and where it lies on the unit ball, which looks along +z.
+  bool in_eyeball(Index vertex) const { return vertex < first_vertex(LoosePiece::kUpperTeeth); }
+  const Eigen::Vector3d& on_eyeball(Index vertex) const {
+    return points_[static_cast<std::size_t>(vertex)];
+  }
+
   /// Their places in a head, vertex_count() by 3. The same surfaces at every edge length.
   Positions positions(const Identity& identity) const;
 

@@ -7,6 +7,8 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/synth/layout.h"
+#include "crowdface/synth/loose_parts.h"
+#include "crowdface/synth/sculpture.h"
 
 namespace crowdface::synth {
 namespace {
@@ -38,6 +40,8 @@ SkinPlace mix_places(const std::array<const SkinPlace*, 3>& corners,
     place.eye += weights[c] * corners[c]->eye;
     place.mouth += weights[c] * corners[c]->mouth;
     place.nostril += weights[c] * corners[c]->nostril;
+    place.ball += weights[c] * corners[c]->ball;
+    place.on_ball += weights[c] * corners[c]->on_ball;
   }
   place.skin.normal.normalize();
   return place;
@@ -94,13 +98,23 @@ void spread(int size, std::vector<SkinPlace>& texels) {
 }  // namespace
 
 std::vector<SkinPlace> skin_atlas(int size) {
-  const Layout layout = make_layout(kVertices);
+  Layout layout = make_layout(kVertices);
+  const LooseParts loose(0.5 * std::sqrt(5000.0 / kVertices));
   std::vector<SkinPlace> places(layout.addresses.size());
   parallel_blocks(static_cast<std::ptrdiff_t>(places.size()), 1024, [&](auto begin, auto end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       places[i] = place_at(layout.addresses[i]);
     }
   });
+  loose.append_to(layout.topology, layout.uvs);
+  for (Index v = 0; v < loose.vertex_count(); ++v) {
+    SkinPlace place;
+    place.skin = {eye_centre(), Eigen::Vector3d::UnitZ(), 0};
+    place.covered = loose.in_eyeball(v) && loose.on_eyeball(v).z() > -0.1;
+    place.ball = place.covered ? 1 : 0;
+    if (place.covered) place.on_ball = loose.on_eyeball(v);
+    places.push_back(place);
+  }
   std::vector<SkinPlace> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   const Topology& topology = layout.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -113,6 +127,10 @@ std::vector<SkinPlace> skin_atlas(int size) {
       return &places[topology.corner_vertices[corner]];
     };
     const auto corners = static_cast<std::uint32_t>(topology.face(f).size());
+    // Teeth have no picture, and eyeballs' backs run across their fronts.
+    bool shown = true;
+    for (std::uint32_t c = 0; c < corners; ++c) shown = shown && place(first + c)->covered;
+    if (!shown) continue;
     for (std::uint32_t c = 1; c + 1 < corners; ++c) {
       draw({at(first), at(first + c), at(first + c + 1)},
            {place(first), place(first + c), place(first + c + 1)}, size, texels);

@@ -11,9 +11,12 @@ namespace crowdface::synth {
 struct SkinPlace {
   SkinPoint skin;  ///< on the average head
   double eye = 0;  ///< ring address around an eye: 0 … 1 up to the lid's edge, beyond it 1 … 2
-  double mouth = 0;      ///< the same around the mouth
-  double nostril = 0;    ///< and around a nostril
-  bool covered = false;  ///< whether any skin is shown here
+  double mouth = 0;    ///< the same around the mouth
+  double nostril = 0;  ///< and around a nostril
+  double ball = 0;     ///< 1 on an eyeball, which the skin surrounds
+  Eigen::Vector3d on_ball =
+      Eigen::Vector3d::Zero();  ///< there: the place on the unit ball, looking along +z
+  bool covered = false;         ///< whether any surface is shown here
 };
 
 /// size × size places, row by row, first row at v = 1. Those that show no skin hold the place of the nearest

@@ -86,11 +86,11 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
   const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
                      0.7 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
-  const double blood = std::min(1.0, look_.ruddy + 0.25 * look_.made_up);
-  tint(colour, {1.02, 0.84, 0.83}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
+  const double blood = std::min(1.0, look_.ruddy + 0.2 * look_.made_up);
+  tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
   // Lines and hollows keep their colour from the sun and hold shade.
-  const double hollow = std::clamp(-relief_.folds(p) / 0.09, 0.0, 1.0);
-  tint(colour, {0.84, 0.76, 0.74}, hollow);
+  const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
+  tint(colour, {0.86, 0.78, 0.76}, hollow);
   return colour;
 }
 
@@ -113,11 +113,11 @@ void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const double pale = 0.25 * std::max(0.0, person_.aged()) + (person_.male > 0 ? 0.35 : 0.0);
-  tint(lips, {0.92, 0.70, 0.71}, 1 - pale);
-  tint(lips, {0.95, 0.66, 0.70}, look_.made_up);
-  tint(lips, ScreenColour::Constant(0.84), look_.tone);
+  tint(lips, {0.95, 0.76, 0.77}, 1 - pale);
+  tint(lips, {0.93, 0.62, 0.68}, look_.made_up);
+  tint(lips, ScreenColour::Constant(0.86), look_.tone);
   // Upper lips lie in their own shade.
-  if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.93, 0.90, 0.90}, 1);
+  if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.96, 0.93, 0.93}, 1);
   cover(colour, lips, amount);
 }
 
@@ -170,13 +170,23 @@ double SkinPaint::beard_cover(const Vector& p, double strand) const {
   const double over = p.y() - between_knots(edge, x);
   if (over > 1.5 || p.y() < -15) return 0;
   const double wander = 0.35 * hairline_.at(p);
-  const double below = smooth_step(0.5, -0.7, over + wander + 0.3 * strand);
+  const double below = smooth_step(0.6, -1.1, over + wander + 0.3 * strand);
   const double neck = smooth_step(-14.2, -12.2, p.y() + wander);
   const double back = smooth_step(-0.5, 0.8, p.z());
-  const double off_lips = 1 - on_lips(p);
   // Bare patches under the lower lip and beside the chin's tuft.
   const double bare = 0.5 * patch(p, {1.3, -8.4}, {0.9, 0.55});
-  return below * neck * back * off_lips * (1 - bare);
+  return below * neck * back * (1 - on_lips(p)) * (1 - bare);
+}
+
+/// How much of a beard somebody wears here: 0 … 1.
+double SkinPaint::beard_length(const Vector& p) const {
+  const double x = std::abs(p.x());
+  const double lip =
+      smooth_step(3.0, 2.3, x) * smooth_step(-7.3, -6.6, p.y()) * smooth_step(6, 8, p.z());
+  const double chin = smooth_step(2.9, 1.9, x) * smooth_step(-7.4, -8.2, p.y());
+  double length = look_.beard;
+  length += lip * (look_.moustache - length);
+  return length + chin * (look_.chin_beard - length);
 }
 
 void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
@@ -185,14 +195,36 @@ void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
   const double beard = beard_cover(p, strand);
   if (beard <= 0) return;
+  const double length = beard_length(p);
   // Hair in the skin lends it a cool shade before it shows.
-  tint(colour, {0.84, 0.86, 0.90}, 0.8 * beard * std::min(1.0, 1.6 * look_.beard));
-  const double grown = smooth_step(0.3, 1.0, look_.beard);
-  const double dense = grown * (0.70 + 0.10 * tufts_.at(p) + 0.30 * strand);
-  cover(colour, 0.9 * look_.hair, beard * std::clamp(dense, 0.0, 0.92));
+  tint(colour, {0.82, 0.80, 0.80}, 0.8 * beard * std::min(1.0, 1.4 * length));
+  const double grown = smooth_step(0.3, 1.0, length);
+  const double dense = grown * (0.75 + 0.10 * tufts_.at(p) + 0.30 * strand);
+  cover(colour, look_.brow_hair * (1 + 0.25 * strand), beard * std::clamp(dense, 0.0, 0.95));
+}
+
+/// White with a little blood towards the corners, an iris of spokes with a dark rim, a pupil.
+ScreenColour SkinPaint::eyeball(const Vector& ball) const {
+  const double flat = std::sqrt(ball.x() * ball.x() + ball.y() * ball.y());
+  ScreenColour colour(0.83, 0.815, 0.79);
+  tint(colour, {0.93, 0.80, 0.76},
+       smooth_step(0.45, 0.95, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
+  tint(colour, {0.93, 0.87, 0.76}, 0.5 * look_.tone + 0.25 * std::max(0.0, person_.aged()));
+  if (ball.z() < 0) return colour;
+  constexpr double kIris = 0.43, kPupil = 0.165;
+  const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
+  ScreenColour iris =
+      look_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
+  // Lighter around the pupil, and where the light that enters opposite leaves it.
+  iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
+  iris *= 1 - 0.62 * smooth_step(0.34, kIris, flat);
+  cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));
+  cover(colour, iris, smooth_step(kIris + 0.03, kIris - 0.02, flat));
+  return colour;
 }
 
 ScreenColour SkinPaint::at(const SkinPlace& place) const {
+  if (place.ball > 0.5) return eyeball(place.on_ball.normalized()).max(0.0).min(1.0);
   const Vector& p = place.skin.position;
   ScreenColour colour = bare_skin(p);
   paint_spots(p, colour);
@@ -207,7 +239,7 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
     cover(colour, look_.hair * (1 + (0.24 - 0.16 * look_.hair.mean()) * lock),
           hair_.cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
   }
-  cover(colour, 0.85 * look_.hair, brow_cover(p));
+  cover(colour, look_.brow_hair, brow_cover(p));
   return colour.max(0.0).min(1.0);
 }
 

@@ -19,6 +19,7 @@ class SkinPaint {
  private:
   using Vector = Eigen::Vector3d;
 
+  ScreenColour eyeball(const Vector& ball) const;
   ScreenColour bare_skin(const Vector& p) const;
   void paint_spots(const Vector& p, ScreenColour& colour) const;
   void paint_lips(const SkinPlace& place, ScreenColour& colour) const;
@@ -27,6 +28,7 @@ class SkinPaint {
   void paint_beard(const Vector& p, ScreenColour& colour) const;
   double brow_cover(const Vector& p) const;
   double beard_cover(const Vector& p, double strand) const;
+  double beard_length(const Vector& p) const;
   SmoothNoise noise(std::uint64_t lane, double spacing) const;
 
   std::uint64_t seed_, index_;

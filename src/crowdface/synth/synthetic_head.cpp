@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/synth/synthetic_head.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -86,17 +87,29 @@ Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) con
   const synth::Identity identity(seed, index);
   const synth::Relief relief(identity, state_->edge_cm);
   const synth::Hair hair(seed, index);
-  const bool haired = state_->scalp == Scalp::kHaired;
+  const bool haired = state_->scalp != Scalp::kBare;
+  const double most = state_->scalp == Scalp::kShorn ? 0.2 : 10;  // cm
   Positions out(state_->topology.vertex_count, 3);
   parallel_for_each(state_->mean.size(), kBlock, [&](std::size_t i) {
     const synth::SkinPoint& mean = state_->mean[i];
     double height = relief.height(mean);
-    if (haired && mean.relief > 0.5) height += hair.thickness(mean.position);
+    if (haired && mean.relief > 0.5) height += std::min(most, hair.thickness(mean.position));
     const Eigen::Vector3d fine = mean.position + height * mean.normal;
     out.row(static_cast<Index>(i)) = identity.deform(fine).transpose();
   });
   if (state_->loose) {
     out.bottomRows(state_->loose->vertex_count()) = state_->loose->positions(identity);
+  }
+  return out;
+}
+
+Positions SyntheticHeads::average() const {
+  Positions out(state_->topology.vertex_count, 3);
+  for (std::size_t i = 0; i < state_->mean.size(); ++i)
+    out.row(static_cast<Index>(i)) = state_->mean[i].position.transpose();
+  if (state_->loose) {
+    out.bottomRows(state_->loose->vertex_count()) =
+        state_->loose->positions(synth::Identity::average());
   }
   return out;
 }

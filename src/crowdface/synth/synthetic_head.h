@@ -22,6 +22,7 @@ class SyntheticHeads {
   enum class Scalp {
     kBare,    ///< skin alone
     kHaired,  ///< hair as a layer on it, in the style that fits the painted one (SyntheticSkins)
+    kShorn,   ///< no more of it than lies under hair in cards (synth/hair_cards.h)
   };
   /// \param vertices  wanted number, 5,000 … 1,200,000; nearest the layout can give, within 10 %.
   /// \throws BrokenPrecondition outside that range.
@@ -44,6 +45,8 @@ class SyntheticHeads {
   /// between the eyes' height and the ears. The same surface at every resolution, the same bits on
   /// every machine.
   Positions positions(std::uint64_t seed, std::uint64_t index) const;
+  /// The average head, bare and smooth, on which hair in cards sits.
+  Positions average() const;
 
  private:
   struct State;

@@ -49,7 +49,7 @@ struct Opening {
 Opening opening_of(Sheet sheet) {
   switch (sheet) {
     case Sheet::kEye:
-      return {{0.62, 0.36}, {0.10, 0.12}};
+      return {{0.62, 0.36}, {0.50, 0.28}};  // room for the eyeball's picture
     case Sheet::kNostril:
       return {{0.45, 0.45}, {0.2, 0.2}};
     case Sheet::kMouth:

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/synth_hair.h"
+
+#include <algorithm>
+
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/synth/complexion.h"
+#include "crowdface/synth/hair.h"
+#include "crowdface/synth/hair_cards.h"
+#include "crowdface/synth/identity.h"
+
+namespace crowdface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPictureSize = 512;
+constexpr double kBald = 0.55;  // of a hairline's way back
+
+const char* curl_tag(bool curly) {
+  return curly ? "curly_hair" : "straight_hair";
+}
+
+std::string picture_name(const std::string& colour, bool curly) {
+  return concat(colour, curly ? "_curly.png" : "_straight.png");
+}
+
+}  // namespace
+
+std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
+  const synth::Complexion look = synth::draw_complexion(seed, index);
+  if (look.receding > kBald) return "bald";
+  const Wish wish{synth::draw_person(seed, index).male < 0, synth::has_curls(seed, index),
+                  std::string(synth::nearest_hair_colour(look.hair).name)};
+  wishes_.insert(wish);
+  return concat(wish.colour, "_hair, ", curl_tag(wish.curly));
+}
+
+void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads,
+                          const std::vector<MaterialRange>& materials,
+                          std::vector<HeadFile>& files) const {
+  const fs::path folder = directory / "attachments";
+  files.push_back({folder / "base.obj", [&heads, materials] {
+                     return encode_obj({heads.topology(), heads.average(), heads.uvs()},
+                                       "the average synthetic head, made by crowdface synth; cm",
+                                       materials);
+                   }});
+  std::string section =
+      "# For a config beside the heads; crowdface init takes it over. Tags as in tags.yaml.\n"
+      "attachments:\n  fitted_to: attachments/base.obj\n  items:";
+  if (wishes_.empty()) section += " []";
+  section += '\n';
+  std::set<std::string> pictures;
+  for (const Wish& wish : wishes_) {
+    for (const synth::HairCut& cut : synth::hair_cuts()) {
+      if (cut.female != wish.female || cut.curly != wish.curly) continue;
+      const std::string name = concat(cut.name, "_", wish.colour);
+      const std::string picture = picture_name(wish.colour, wish.curly);
+      pictures.insert(picture);
+      files.push_back({folder / concat(name, ".obj"), [&cut, name] {
+                         return encode_obj(
+                             synth::hair_cards(cut),
+                             concat(name, " on base.obj, made by crowdface synth; cm"),
+                             {{"hair", 0}}, concat(name, ".mtl"));
+                       }});
+      files.push_back(text_file(folder / concat(name, ".mtl"),
+                                concat("newmtl hair\nKd 1 1 1\nmap_Kd textures/", picture, '\n')));
+      section += concat("    - {name: ", name, ", kind: hair, file: attachments/", name,
+                        ".obj, tags: [", wish.female ? "female" : "male", ", ", wish.colour,
+                        "_hair, ", curl_tag(wish.curly), "]}\n");
+    }
+  }
+  for (const synth::HairColour& colour : synth::hair_colours()) {
+    for (const bool curly : {false, true}) {
+      const std::string picture = picture_name(std::string(colour.name), curly);
+      if (!pictures.contains(picture)) continue;
+      files.push_back({folder / "textures" / picture, [&colour, curly] {
+                         EncodedFile file;
+                         file.add(
+                             encode_png(kPictureSize, kPictureSize, 4,
+                                        synth::hair_picture(kPictureSize, colour.colour, curly)));
+                         return file;
+                       }});
+    }
+  }
+  files.push_back(text_file(folder / "attachments.yaml", std::move(section)));
+}
+
+}  // namespace crowdface::cli

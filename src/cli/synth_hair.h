@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/synth/synthetic_head.h"
+
+#include "cli/head_files.h"
+
+namespace crowdface::cli {
+
+/// Hair in cards for synthetic heads, as attachments: in each cut that somebody may wear, in the colour that they have.
+class SynthHair {
+ public:
+  /// Notes what a head may wear. \return its tags: "brown_hair, straight_hair", or "bald".
+  std::string add_head(std::uint64_t seed, std::uint64_t index);
+
+  /// The folder `attachments` beside the heads: meshes, materials, textures, the average head on which they sit,
+  /// and attachments.yaml with the config's section.
+  void add_files(const std::filesystem::path& directory, const SyntheticHeads& heads,
+                 const std::vector<MaterialRange>& materials, std::vector<HeadFile>& files) const;
+
+ private:
+  struct Wish {
+    bool female, curly;
+    std::string colour;
+    bool operator<(const Wish& other) const {
+      return std::tie(female, curly, colour) < std::tie(other.female, other.curly, other.colour);
+    }
+  };
+  std::set<Wish> wishes_;
+};
+
+}  // namespace crowdface::cli

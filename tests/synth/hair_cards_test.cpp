@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/synth/hair_cards.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/synth/sculpture.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector3d;
+
+const HairCut& cut_named(std::string_view name) {
+  return *std::ranges::find_if(hair_cuts(), [&](const HairCut& cut) { return cut.name == name; });
+}
+
+TEST(HairCards, AreTheSameOnEveryMachine) {
+  const Mesh bob = hair_cards(cut_named("bob"));
+  const auto values = static_cast<std::size_t>(bob.positions.size());
+  EXPECT_EQ(Hasher().add_array(std::span(bob.positions.data(), values)).digest().hex(),
+            "fea9f6688eaadfd390e28b1958e80269");
+  const std::vector<std::uint8_t> picture = hair_picture(64, {0.5, 0.4, 0.3}, true);
+  EXPECT_EQ(Hasher().add_array(std::span(picture)).digest().hex(),
+            "f90ccda89641cd1a1bdd9acfec422a92");
+}
+
+TEST(HairCards, BothSexesHaveStraightAndCurlyCuts) {
+  for (const bool female : {true, false}) {
+    for (const bool curly : {true, false}) {
+      EXPECT_TRUE(std::ranges::any_of(
+          hair_cuts(),
+          [&](const HairCut& cut) { return cut.female == female && cut.curly == curly; }))
+          << female << curly;
+    }
+  }
+}
+
+TEST(HairCards, LeaveEyesNoseAndMouthFree) {
+  for (const HairCut& cut : hair_cuts()) {
+    const Mesh hair = hair_cards(cut);
+    for (Index v = 0; v < hair.positions.rows(); ++v) {
+      const Vector3d p = hair.positions.row(v);
+      const bool in_face = p.z() > 5 && std::abs(p.x()) < 3.5 && p.y() < 1.5;
+      ASSERT_FALSE(in_face) << cut.name << " at " << p.transpose();
+    }
+  }
+}
+
+TEST(HairCards, StayOutsideTheHeadButForTheirRoots) {
+  for (const HairCut& cut : hair_cuts()) {
+    const Mesh hair = hair_cards(cut);
+    Index inside = 0;
+    for (Index v = 0; v < hair.positions.rows(); ++v) {
+      const Vector3d p = hair.positions.row(v);
+      EXPECT_GT(skin_distance(p), -0.7) << cut.name << " at " << p.transpose();
+      inside += skin_distance(p) < -0.05 ? 1 : 0;
+    }
+    EXPECT_LT(inside, hair.positions.rows() / 10) << cut.name;
+  }
+}
+
+TEST(HairCards, EachCardShowsAStripFromRootsToTips) {
+  const Mesh hair = hair_cards(cut_named("long"));
+  ASSERT_EQ(hair.uvs.rows(), hair.positions.rows());
+  EXPECT_EQ(hair.topology.vertex_count, hair.positions.rows());
+  EXPECT_GT(hair.uvs.minCoeff(), 0);
+  EXPECT_LT(hair.uvs.maxCoeff(), 1);
+  for (Index f = 0; f < hair.topology.face_count(); ++f) {
+    const auto face = hair.topology.face(f);
+    ASSERT_EQ(face.size(), 4U);
+    EXPECT_GT(hair.uvs(face[0], 1), hair.uvs(face[3], 1)) << "v falls from the root on";
+    EXPECT_LT(std::abs(hair.uvs(face[0], 0) - hair.uvs(face[1], 0)), 0.25);
+  }
+}
+
+TEST(HairPicture, IsClosedAtTheRootsAndOpenAtTheTips) {
+  constexpr int kSize = 128;
+  const ScreenColour brown(0.3, 0.22, 0.17);
+  for (const bool curly : {false, true}) {
+    const std::vector<std::uint8_t> picture = hair_picture(kSize, brown, curly);
+    ASSERT_EQ(picture.size(), 4U * kSize * kSize);
+    const auto mean = [&](int row, std::size_t channel) {
+      double sum = 0;
+      for (int x = 0; x < kSize; ++x)
+        sum += picture[4 * static_cast<std::size_t>(row * kSize + x) + channel];
+      return sum / kSize / 255;
+    };
+    EXPECT_GT(mean(kSize / 4, 3), 0.75) << curly;
+    EXPECT_LT(mean(kSize - 2, 3), 0.2) << curly;
+    EXPECT_NEAR(mean(kSize / 2, 0), brown[0], 0.1);
+    EXPECT_NEAR(mean(kSize / 2, 2), brown[2], 0.06);
+  }
+}
+
+TEST(HairColours, ANamedOneIsItsOwnNearest) {
+  for (const HairColour& colour : hair_colours())
+    EXPECT_EQ(nearest_hair_colour(colour.colour).name, colour.name);
+  EXPECT_EQ(nearest_hair_colour({0.1, 0.1, 0.1}).name, "black");
+}
+
+}  // namespace
+}  // namespace crowdface::synth
