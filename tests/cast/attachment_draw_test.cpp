@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/attachment_draw.h"
 
+#include <algorithm>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -26,11 +27,40 @@ CastFace face_of(std::uint64_t index, Index target = 0) {
   return face;
 }
 
+/// Of a face that stands alone.
+std::vector<std::string> worn_by(const AttachmentDraw& draw, const CastFace& face) {
+  std::vector<CastFace> crowd = {face};
+  draw_attachments(draw, {}, crowd);
+  return crowd[0].attachments;
+}
+
+std::size_t count(const std::vector<CastFace>& crowd, const std::string& name) {
+  return static_cast<std::size_t>(std::count_if(crowd.begin(), crowd.end(), [&](const auto& face) {
+    return std::find(face.attachments.begin(), face.attachments.end(), name) !=
+           face.attachments.end();
+  }));
+}
+
+/// Sampled faces, women and men by turns.
+std::vector<CastFace> crowd_of(std::uint64_t faces) {
+  std::vector<CastFace> crowd;
+  for (std::uint64_t i = 1; i <= faces; ++i) {
+    crowd.push_back(face_of(i, static_cast<Index>(i % 2)));
+  }
+  return crowd;
+}
+
+std::vector<int> groups_of(const std::vector<CastFace>& crowd) {
+  std::vector<int> groups;
+  for (const CastFace& face : crowd) groups.push_back(static_cast<int>(face.recipe.target));
+  return groups;
+}
+
 std::map<std::string, double> shares_of(const AttachmentDraw& draw, Index target = 0) {
   constexpr std::uint64_t kFaces = 20000;
   std::map<std::string, double> shares;
   for (std::uint64_t i = 1; i <= kFaces; ++i) {
-    for (const std::string& name : draw_attachments(draw, face_of(i, target))) {
+    for (const std::string& name : worn_by(draw, face_of(i, target))) {
       shares[name] += 1.0 / kFaces;
     }
   }
@@ -52,7 +82,7 @@ TEST(AttachmentDraw, FollowsSharesAndNone) {
 TEST(AttachmentDraw, GivesAtMostOneOfAKind) {
   const AttachmentDraw draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
   for (std::uint64_t i = 1; i < 100; ++i) {
-    EXPECT_EQ(draw_attachments(draw, face_of(i)).size(), 1U);
+    EXPECT_EQ(worn_by(draw, face_of(i)).size(), 1U);
   }
 }
 
@@ -60,21 +90,20 @@ TEST(AttachmentDraw, IsForTargetsWithAllTags) {
   const AttachmentDraw draw = draw_of({{"bob", "hair", {"female"}, 1, {}},
                                        {"rim", "hair", {"male", "old"}, 1, {}},
                                        {"quiff", "hair", {"male", "young"}, 1, {}}});
-  EXPECT_THAT(draw_attachments(draw, face_of(1, 0)), ElementsAre("bob"));
-  EXPECT_THAT(draw_attachments(draw, face_of(1, 1)), ElementsAre("rim"));
+  EXPECT_THAT(worn_by(draw, face_of(1, 0)), ElementsAre("bob"));
+  EXPECT_THAT(worn_by(draw, face_of(1, 1)), ElementsAre("rim"));
 }
 
 TEST(AttachmentDraw, TakesAwayWhatIsExcluded) {
-  EXPECT_THAT(draw_attachments(draw_of({{"bob", "hair", {}, 1, {}},
-                                        {"cap", "hat", {}, 1, {"hair", "round"}},
-                                        {"round", "glasses", {}, 1, {}},
-                                        {"patch", "eye", {}, 1, {}}}),
-                               face_of(1)),
+  EXPECT_THAT(worn_by(draw_of({{"bob", "hair", {}, 1, {}},
+                               {"cap", "hat", {}, 1, {"hair", "round"}},
+                               {"round", "glasses", {}, 1, {}},
+                               {"patch", "eye", {}, 1, {}}}),
+                      face_of(1)),
               ElementsAre("cap", "patch"));
-  EXPECT_THAT(
-      draw_attachments(draw_of({{"cap", "hat", {}, 1, {"hair"}}, {"bob", "hair", {}, 1, {"cap"}}}),
-                       face_of(1)),
-      ElementsAre("cap"))
+  EXPECT_THAT(worn_by(draw_of({{"cap", "hat", {}, 1, {"hair"}}, {"bob", "hair", {}, 1, {"cap"}}}),
+                      face_of(1)),
+              ElementsAre("cap"))
       << "of two that exclude each other the first stays";
 }
 
@@ -88,9 +117,9 @@ TEST(AttachmentDraw, DependsOnIndexAndKindAlone) {
     CastFace other = face_of(i);
     other.id = "another";
     other.notes.attempt = 9;
-    const auto names = draw_attachments(draw_of(hair), face_of(i));
-    EXPECT_EQ(draw_attachments(draw_of(hair), other), names);
-    EXPECT_THAT(draw_attachments(draw_of(more), face_of(i)), Contains(names.at(0)));
+    const auto names = worn_by(draw_of(hair), face_of(i));
+    EXPECT_EQ(worn_by(draw_of(hair), other), names);
+    EXPECT_THAT(worn_by(draw_of(more), face_of(i)), Contains(names.at(0)));
     bobs += names.at(0) == "bob" ? 1 : 0;
   }
   EXPECT_GT(bobs, 60U);
@@ -104,14 +133,101 @@ TEST(AttachmentDraw, GoesByTheIdOfFacesThatAreNotSampled) {
     CastFace face = face_of(1);
     face.index.reset();
     face.id = "kin_" + std::to_string(i);
-    ++found[draw_attachments(draw, face).at(0)];
+    ++found[worn_by(draw, face).at(0)];
   }
   EXPECT_EQ(found.size(), 2U);
 }
 
 TEST(AttachmentDraw, LeavesAllWithoutAKindThatNobodyWears) {
-  EXPECT_THAT(draw_attachments(draw_of({{"bob", "hair", {}, 1, {}}}, {{"hair", 1}}), face_of(3)),
-              IsEmpty());
+  EXPECT_THAT(worn_by(draw_of({{"bob", "hair", {}, 1, {}}}, {{"hair", 1}}), face_of(3)), IsEmpty());
+}
+
+TEST(AttachmentDraw, ServesQuotasExactlyInEachGroup) {
+  AttachmentDraw draw = draw_of({{"round", "glasses", {}, 1, {}},
+                                 {"full", "beard", {"male"}, 1, {}},
+                                 {"bob", "hair", {}, 1, {}, "blond"},
+                                 {"bun", "hair", {}, 1, {}, "black"}});
+  draw.quotas = {{"glasses", 0.25}, {"beard", 0.5}, {"blond", 0.1}};
+  std::vector<CastFace> crowd = crowd_of(240);
+  draw_attachments(draw, groups_of(crowd), crowd);
+  EXPECT_EQ(count(crowd, "round"), 60U);
+  EXPECT_EQ(count(crowd, "full"), 60U) << "half of the men";
+  EXPECT_EQ(count(crowd, "bob"), 24U);
+  EXPECT_EQ(count(crowd, "bun"), 216U) << "those whom a colour's quota passes over wear another";
+  std::vector<CastFace> small = crowd_of(100);
+  draw_attachments(draw, groups_of(small), small);
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    EXPECT_EQ(small[i].attachments, crowd[i].attachments) << "a larger crowd moves nobody";
+  }
+  EXPECT_GE(count(small, "round"), 24U) << "12 of 50 in each group, or one more";
+  EXPECT_LE(count(small, "round"), 26U);
+  std::size_t in_step = 0;
+  for (std::size_t i = 8; i < crowd.size(); ++i) {
+    in_step += crowd[i].attachments == crowd[i - 8].attachments ? 1 : 0;
+  }
+  EXPECT_LT(in_step, 200U) << "they do not wear the same in a row of the sheet as in the next";
+}
+
+TEST(AttachmentDraw, GivesOneFaceOneColour) {
+  const AttachmentDraw draw = draw_of({{"quiff", "hair", {}, 1, {}, "black"},
+                                       {"mop", "hair", {}, 1, {}, "brown"},
+                                       {"full", "beard", {}, 1, {}, "black"},
+                                       {"goatee", "beard", {}, 1, {}, "brown"},
+                                       {"red", "brow", {}, 1, {}, "red"}});
+  std::vector<CastFace> crowd = crowd_of(60);
+  draw_attachments(draw, {}, crowd);
+  for (const CastFace& face : crowd) {
+    EXPECT_THAT(face.attachments, ::testing::AnyOf(ElementsAre("quiff", "full", "red"),
+                                                   ElementsAre("mop", "goatee", "red")));
+  }
+  EXPECT_GT(count(crowd, "mop"), 10U);
+  EXPECT_LT(count(crowd, "mop"), 50U);
+}
+
+TEST(AttachmentDraw, LetsColoursRunInFamilies) {
+  const AttachmentDraw draw = draw_of({{"bob", "hair", {"female"}, 1, {}, "black"},
+                                       {"braid", "hair", {"female"}, 1, {}, "red"},
+                                       {"bun", "hair", {"female"}, 1, {}, "blond"},
+                                       {"quiff", "hair", {"male"}, 1, {}, "black"},
+                                       {"mop", "hair", {"male"}, 1, {}, "red"},
+                                       {"rim", "hair", {"male", "old"}, 1, {}, "grey"}});
+  const auto colour_of = [&](const CastFace& face) {
+    return std::find_if(draw.items.begin(), draw.items.end(),
+                        [&](const auto& item) { return item.name == face.attachments.at(0); })
+        ->colour;
+  };
+  std::map<std::string, int> from;
+  for (int f = 0; f < 40; ++f) {
+    const std::string name = "kin" + std::to_string(f);
+    std::vector<CastFace> crowd;
+    const auto add = [&](const std::string& id, Index target) -> CastFace& {
+      CastFace& face = crowd.emplace_back();
+      face.id = name + id;
+      face.recipe.target = target;
+      return face;
+    };
+    add("_mother", 0);
+    add("_father", 1);
+    for (int child = 0; child < 4; ++child) {
+      CastFace& face = add("_child" + std::to_string(child), 0);
+      face.family = name;
+      face.parents = {name + "_mother", name + "_father"};
+    }
+    for (int twin = 0; twin < 3; ++twin)
+      add("_alone" + std::to_string(twin), 0).family = name + "b";
+    draw_attachments(draw, {}, crowd);
+    const std::string mother = colour_of(crowd[0]), father = colour_of(crowd[1]);
+    for (std::size_t child = 2; child < 6; ++child) {
+      const std::string own = colour_of(crowd[child]);
+      // What a father wears no daughter may: nobody makes her hair grey.
+      EXPECT_TRUE(own == mother || own == father) << own << ", " << mother << ", " << father;
+      if (mother != father) ++from[own == mother ? "mother" : "father"];
+    }
+    EXPECT_EQ(colour_of(crowd[7]), colour_of(crowd[6]));
+    EXPECT_EQ(colour_of(crowd[8]), colour_of(crowd[6]));
+  }
+  EXPECT_GT(from["mother"], 20);
+  EXPECT_GT(from["father"], 5);
 }
 
 }  // namespace

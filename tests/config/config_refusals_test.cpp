@@ -129,6 +129,18 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj}], "
               "none: {hair: 2}}",
               "5:81", "a number from 0 to 1"},
+        Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj, colour: red}], "
+              "quotas: {rad: 0.5}}",
+              "5:95", "did you mean \"red\"?"},
+        Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj, colour: red}], "
+              "quotas: {hair: 0.5, red: 0.1}}",
+              "5:106", "not both: hair"},
+        Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj}], "
+              "none: {hair: 0.5}, quotas: {hair: 0.5}}",
+              "5:102", "give one of them"},
+        Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj, colour: red}, "
+              "{name: b, kind: hair, file: heads/ann.obj}], quotas: {red: 0.7, b: 0.7}}",
+              "5:147", "add up to more than 1"},
         Wrong{"output: {meshes: obj}", "5:18", "expected a list"},
         Wrong{"output: {meshes: [obj, obj]}", "5:24", "twice"},
         Wrong{"output: {meshes: [fbx]}", "5:19",

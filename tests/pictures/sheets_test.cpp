@@ -57,14 +57,19 @@ TEST(SheetOrder, FamiliesStandTogetherAndThoseOfNoneLast) {
 TEST(SheetLabel, HasALineForEachThingAskedFor) {
   using L = SheetLabel;
   const std::vector<std::string> heads = {"ann", "bob"};
+  const std::vector<std::vector<std::string>> tags = {{"female", "old"}, {}};
   EXPECT_EQ(sheet_label({L::kId, L::kTarget, L::kNearest, L::kNearestHead}, three_faces(), 2,
-                        three_likeness(), heads),
+                        three_likeness(), heads, tags),
             "mob_0001\non ann\nnear mob_smith_01, 1.50 mm\nnear bob, 2.35 mm");
-  EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 0, three_likeness(), heads),
+  EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 0, three_likeness(), heads, tags),
             "family smith\nmob_smith_01");
   // Lines stay where they are where there is nothing to say.
-  EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 2, three_likeness(), heads),
+  EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 2, three_likeness(), heads, tags),
             "\nmob_0001");
+  std::vector<CastFace> dressed = three_faces();
+  dressed[1].attachments = {"bob", "round"};
+  EXPECT_EQ(sheet_label({L::kTags, L::kAttachments}, dressed, 1, three_likeness(), heads, tags),
+            "female, old\nbob, round");
 }
 
 // With bands a child has more parts than there are regions: names beyond the last region's were read.
@@ -88,10 +93,10 @@ TEST(SheetLabel, SaysTheSameOfARunAndOfItsPlan) {
   std::vector<CastFace> crowd = three_faces();
   crowd[2].notes.nearest->head_mm = 32.31499996;
   const std::string of_run =
-      sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(), {"ann", "bob"});
+      sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(), {"ann", "bob"}, {});
   crowd[2].notes.nearest->head_mm = 32.315;
-  EXPECT_EQ(of_run,
-            sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(), {"ann", "bob"}));
+  EXPECT_EQ(of_run, sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(),
+                                {"ann", "bob"}, {}));
 }
 
 TEST(LikenessFile, ReadsBackWhatWasWritten) {

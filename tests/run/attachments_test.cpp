@@ -157,6 +157,23 @@ TEST_F(AttachmentsOfACrowd, ChangeNothingElseOfAPlan) {
   EXPECT_THAT(testing::read_text(folder_.out() / "config.yaml"), Not(HasSubstr("attachments")));
 }
 
+TEST_F(AttachmentsOfACrowd, AreCountedInTheReport) {
+  run({"attachments.none={}", "attachments.quotas={glasses: 0.5}"});
+  const auto counted =
+      testing::read_json(folder_.out() / "report.json").at("casting").at("attachments");
+  std::size_t rods = 0, sampled = 0;
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const std::vector<std::string> worn = line.at("attachments");
+    const bool has_rod = std::find(worn.begin(), worn.end(), "rod") != worn.end();
+    rods += has_rod ? 1 : 0;
+    sampled += has_rod && !line.at("index").is_null() ? 1 : 0;
+  }
+  EXPECT_EQ(sampled, 3U) << "half of six";
+  EXPECT_EQ(counted.at("quotas").at("glasses").at("faces"), 3);
+  EXPECT_EQ(counted.at("kinds").at("glasses").at("items").at("rod"), rods);
+  EXPECT_EQ(counted.at("kinds").at("hair").at("faces"), 7);
+}
+
 TEST_F(AttachmentsOfACrowd, AreTheSameInALargerCrowdAndWithAnyThreads) {
   run();
   const auto small = testing::crowd_files(folder_.out() / "meshes");

@@ -3,70 +3,216 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
+#include "crowdface/cast/quotas.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+using Items = std::vector<const AttachmentItem*>;
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// One of a kind, or none. \param drawn  two numbers from 0 to 1
-std::size_t draw_one(const AttachmentDraw& draw, const std::string& kind,
-                     const std::vector<std::string>& tags, const std::array<double, 2>& drawn) {
-  const auto none = draw.none.find(kind);
-  if (none != draw.none.end() && drawn[0] < none->second) return kNone;
-  const auto may_wear = [&](const AttachmentItem& item) {
-    return item.kind == kind && std::all_of(item.tags.begin(), item.tags.end(),
-                                            [&](const auto& tag) { return contains(tags, tag); });
-  };
-  double sum = 0;
-  for (const AttachmentItem& item : draw.items) sum += may_wear(item) ? item.share : 0;
-  double left = drawn[1] * sum;
-  std::size_t last = kNone;
-  for (std::size_t i = 0; i < draw.items.size(); ++i) {
-    if (!may_wear(draw.items[i]) || draw.items[i].share <= 0) continue;
-    last = i;
-    if (left < draw.items[i].share) return i;
-    left -= draw.items[i].share;
-  }
-  return last;
+template <class Wanted>
+Items those(const Items& items, const Wanted& wanted) {
+  Items found;
+  std::copy_if(items.begin(), items.end(), std::back_inserter(found),
+               [&](const AttachmentItem* item) { return wanted(*item); });
+  return found;
 }
+
+/// Only those, if there are any. \return whether there are.
+template <class Wanted>
+bool narrow(Items& items, const Wanted& wanted) {
+  Items found = those(items, wanted);
+  if (found.empty()) return false;
+  items = std::move(found);
+  return true;
+}
+
+/// \param drawn  from 0 to 1
+const AttachmentItem* one_of(const Items& items, double drawn) {
+  double sum = 0;
+  for (const AttachmentItem* item : items) sum += item->share;
+  double left = drawn * sum;
+  for (const AttachmentItem* item : items) {
+    if (left < item->share) return item;
+    left -= item->share;
+  }
+  return items.back();
+}
+
+/// The quotas of one kind.
+struct KindQuotas {
+  std::vector<std::string> words;
+  std::vector<double> shares;
+  std::map<int, std::vector<int>> schedules;  ///< of the sampled faces of each group
+
+  bool of_kind(const std::string& kind) const { return contains(words, kind); }
+};
+
+class Drawing {
+ public:
+  Drawing(const AttachmentDraw& draw, const std::vector<int>& groups) : draw_(draw) {
+    for (const AttachmentItem& item : draw.items) {
+      if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
+    }
+    for (const int group : groups) places_.emplace_back(group, sizes_[group]++);
+    for (const auto& quota : draw.quotas) {
+      const std::string& word = quota.first;
+      const auto first = std::find_if(draw.items.begin(), draw.items.end(),
+                                      [&](const auto& item) { return is_called(item, word); });
+      if (first == draw.items.end()) continue;
+      quotas_[first->kind].words.push_back(word);
+      quotas_[first->kind].shares.push_back(quota.second);
+    }
+    for (auto& [kind, quotas] : quotas_) {
+      for (const auto& [group, faces] : sizes_) {
+        quotas.schedules[group] = scatter_quotas(quotas.shares, faces, draw.seed,
+                                                 concat("attachment quotas/", kind, '/', group));
+      }
+    }
+  }
+
+  std::vector<std::string> of(const CastFace& face) {
+    Items worn;
+    for (const std::string& kind : kinds_) {
+      const AttachmentItem* one = draw_one(kind, face, worn);
+      if (one != nullptr) worn.push_back(one);
+    }
+    std::vector<std::string> names = without_excluded(worn);
+    worn_[face.id] = those(worn, [&](const auto& item) { return contains(names, item.name); });
+    if (face.family) {
+      for (const AttachmentItem* item : worn_[face.id]) {
+        if (!item->colour.empty()) families_.try_emplace({*face.family, item->kind}, item->colour);
+      }
+    }
+    return names;
+  }
+
+ private:
+  Items wearable(const std::string& kind, const CastFace& face) const {
+    const std::vector<std::string>& tags = draw_.tags[static_cast<std::size_t>(face.recipe.target)];
+    Items items;
+    for (const AttachmentItem& item : draw_.items) {
+      const bool may = std::all_of(item.tags.begin(), item.tags.end(),
+                                   [&](const std::string& tag) { return contains(tags, tag); });
+      if (item.kind == kind && item.share > 0 && may) items.push_back(&item);
+    }
+    return items;
+  }
+
+  const AttachmentItem* draw_one(const std::string& kind, const CastFace& face,
+                                 const Items& worn) const {
+    Items items = wearable(kind, face);
+    if (items.empty()) return nullptr;
+    const std::string purpose =
+        face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
+    const auto drawn = random_pair({draw_.seed, face.index.value_or(0), purpose});
+    if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
+    match_colours(kind, face, worn, items);
+    return one_of(items, drawn[1]);
+  }
+
+  /// Leaves what quotas allow. \return whether the face wears any.
+  bool serve_quotas(const std::string& kind, const CastFace& face, double drawn,
+                    Items& items) const {
+    const auto none = draw_.none.find(kind);
+    const bool bare = none != draw_.none.end() && drawn < none->second;
+    const auto found = quotas_.find(kind);
+    if (found == quotas_.end()) return !bare;
+    const KindQuotas& quotas = found->second;
+    if (!face.index) return quotas.of_kind(kind) ? drawn < quotas.shares[0] : !bare;
+    const int asked = asked_at(*face.index, quotas);
+    if (quotas.of_kind(kind)) return asked >= 0;
+    if (asked >= 0) {
+      const std::string& word = quotas.words[static_cast<std::size_t>(asked)];
+      if (narrow(items, [&](const auto& item) { return is_called(item, word); })) return true;
+    }
+    narrow(items, [&](const AttachmentItem& item) {
+      return std::none_of(quotas.words.begin(), quotas.words.end(),
+                          [&](const std::string& word) { return is_called(item, word); });
+    });
+    return !bare;
+  }
+
+  int asked_at(std::uint64_t index, const KindQuotas& quotas) const {
+    if (index > places_.size()) return -1;
+    const auto& [group, place] = places_[index - 1];
+    return quotas.schedules.at(group)[place];
+  }
+
+  /// Leaves what goes with what the face wears already, or else what runs in its family.
+  void match_colours(const std::string& kind, const CastFace& face, const Items& worn,
+                     Items& items) const {
+    const auto take = [&](const std::string& colour) {
+      return !colour.empty() &&
+             narrow(items, [&](const AttachmentItem& item) { return item.colour == colour; });
+    };
+    if (std::any_of(worn.begin(), worn.end(), [&](const auto* item) { return take(item->colour); }))
+      return;
+    if (face.parents.empty()) {
+      const auto found = face.family ? families_.find({*face.family, kind}) : families_.end();
+      if (found != families_.end()) take(found->second);
+      return;
+    }
+    std::vector<std::string> parents = face.parents;
+    const std::string purpose = concat("attachment/", kind, "/parent/", face.id);
+    if (random_unit({draw_.seed, 0, purpose}) < 0.5) std::reverse(parents.begin(), parents.end());
+    for (const std::string& parent : parents) {
+      const auto found = worn_.find(parent);
+      if (found == worn_.end()) continue;
+      const Items own = those(found->second, [&](const auto& item) { return item.kind == kind; });
+      if (!own.empty() && take(own[0]->colour)) return;
+    }
+  }
+
+  /// Names in the order of the items, of which each in turn takes away what it excludes.
+  std::vector<std::string> without_excluded(const Items& worn) const {
+    std::vector<bool> left(draw_.items.size(), false);
+    for (const AttachmentItem* item : worn) {
+      left[static_cast<std::size_t>(item - draw_.items.data())] = true;
+    }
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (!left[i]) continue;
+      for (std::size_t j = 0; j < left.size(); ++j) {
+        const std::vector<std::string>& excluded = draw_.items[i].excludes;
+        const bool taken =
+            contains(excluded, draw_.items[j].name) || contains(excluded, draw_.items[j].kind);
+        if (i != j && taken) left[j] = false;
+      }
+    }
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (left[i]) names.push_back(draw_.items[i].name);
+    }
+    return names;
+  }
+
+  const AttachmentDraw& draw_;
+  std::vector<std::string> kinds_;  ///< as items first have them
+  std::map<std::string, KindQuotas> quotas_;
+  std::vector<std::pair<int, std::uint64_t>> places_;  ///< of sampled faces: group, and which of it
+  std::map<int, std::uint64_t> sizes_;                 ///< of groups
+  std::map<std::string, Items> worn_;                  ///< by face
+  std::map<std::pair<std::string, std::string>, std::string> families_;  ///< colours by kinds
+};
 
 }  // namespace
 
-std::vector<std::string> draw_attachments(const AttachmentDraw& draw, const CastFace& face) {
-  const std::vector<std::string>& tags = draw.tags[static_cast<std::size_t>(face.recipe.target)];
-  std::vector<std::string> kinds;
-  std::vector<bool> worn(draw.items.size(), false);
-  for (const AttachmentItem& item : draw.items) {
-    if (contains(kinds, item.kind)) continue;
-    kinds.push_back(item.kind);
-    const std::string purpose = face.index ? concat("attachment/", item.kind)
-                                           : concat("attachment/", item.kind, '/', face.id);
-    const std::size_t one =
-        draw_one(draw, item.kind, tags, random_pair({draw.seed, face.index.value_or(0), purpose}));
-    if (one != kNone) worn[one] = true;
-  }
-  for (std::size_t i = 0; i < worn.size(); ++i) {
-    if (!worn[i]) continue;
-    for (std::size_t j = 0; j < worn.size(); ++j) {
-      const std::vector<std::string>& excluded = draw.items[i].excludes;
-      const bool taken =
-          contains(excluded, draw.items[j].name) || contains(excluded, draw.items[j].kind);
-      if (i != j && taken) worn[j] = false;
-    }
-  }
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < worn.size(); ++i) {
-    if (worn[i]) names.push_back(draw.items[i].name);
-  }
-  return names;
+bool is_called(const AttachmentItem& item, const std::string& word) {
+  return item.kind == word || item.name == word || item.colour == word;
+}
+
+void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
+                      std::vector<CastFace>& crowd) {
+  Drawing drawing(draw, groups);
+  for (CastFace& face : crowd) face.attachments = drawing.of(face);
 }
 
 }  // namespace crowdface

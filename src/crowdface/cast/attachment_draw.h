@@ -16,6 +16,7 @@ struct AttachmentItem {
   std::vector<std::string> tags;      ///< only for faces whose target has all of these
   double share = 1;                   ///< against the others of its kind
   std::vector<std::string> excludes;  ///< names and kinds of what it does not go with
+  std::string colour = {};            ///< what goes together in one face and runs in families
 };
 
 /// All that may sit on the faces of a crowd.
@@ -24,11 +25,25 @@ struct AttachmentDraw {
   std::vector<AttachmentItem> items;
   std::map<std::string, double> none;          ///< by kind: the share of faces without one
   std::vector<std::vector<std::string>> tags;  ///< #heads
+  /// By kind, name or colour: the share of sampled faces that wear one, in each group apart. A kind has its
+  /// own or those of some of its names and colours.
+  std::map<std::string, double> quotas = {};
 };
 
-/// The attachments of a face, by name, in the order of the items: of each kind at most one, drawn by the
-/// face's own index, or its id if it is not sampled, and by the kind, so that nothing else about the
-/// crowd or the other kinds matters. Then each in turn takes away what it excludes.
-std::vector<std::string> draw_attachments(const AttachmentDraw& draw, const CastFace& face);
+/// What an attachment counts for: its kind, name and colour.
+bool is_called(const AttachmentItem& item, const std::string& word);
+
+/// Gives each face of a crowd its attachments, by name, in the order of the items: of each kind at most one,
+/// drawn by the face's own index, or its id if it is not sampled, and by the kind, so that nothing else about
+/// the crowd or the other kinds matters; but
+/// - of what has a colour one that what is drawn already has, or else that of a parent or of the family,
+///   is taken where the face may wear some,
+/// - quotas serve the m-th sampled face of a group whatever else is drawn; one that may not wear what
+///   a quota asks for goes as if it were not asked.
+/// Then each in turn takes away what it excludes.
+/// \param crowd   in the order of the plan.
+/// \param groups  of sampled faces 1, 2, …: quota or group, or −1; empty: they are of none.
+void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
+                      std::vector<CastFace>& crowd);
 
 }  // namespace crowdface

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/random.h"
+#include "crowdface/core/text.h"
+
 namespace crowdface {
 namespace {
 
@@ -64,6 +67,35 @@ std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t
     schedule[n - 1] = next;
     ++served[static_cast<std::size_t>(next)];
     ++all_served;
+  }
+  return schedule;
+}
+
+std::vector<int> scatter_quotas(const std::vector<double>& shares, std::uint64_t count,
+                                std::uint64_t seed, const std::string& purpose) {
+  struct Next {
+    std::uint64_t served = 0, place = 0, due = 0;
+  };
+  const auto next_after = [&](std::size_t j, std::uint64_t served) -> Next {
+    if (shares[j] <= 0) return {served, UINT64_MAX, UINT64_MAX};
+    const std::uint64_t before = served == 0 ? 0 : deadline(shares[j], served);
+    const std::uint64_t due = deadline(shares[j], served + 1);
+    const double drawn = random_pair({seed, served, concat(purpose, '/', j)})[0];
+    const auto steps = static_cast<std::uint64_t>(drawn * static_cast<double>(due - before));
+    return {served, before + 1 + steps, due};
+  };
+  std::vector<Next> next;
+  for (std::size_t j = 0; j < shares.size(); ++j) next.push_back(next_after(j, 0));
+  std::vector<int> schedule(count, -1);
+  for (std::uint64_t n = 1; n <= count; ++n) {
+    std::size_t first = shares.size();
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+      if (next[j].place > n) continue;
+      if (first == shares.size() || next[j].due < next[first].due) first = j;
+    }
+    if (first == shares.size()) continue;
+    schedule[n - 1] = static_cast<int>(first);
+    next[first] = next_after(first, next[first].served + 1);
   }
   return schedule;
 }

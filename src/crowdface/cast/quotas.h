@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "crowdface/cast/diversity.h"
@@ -15,6 +16,12 @@ namespace crowdface {
 /// As late as possible, earliest deadline first (Liu & Layland 1973): the m-th face of a quota is
 /// due at face ⌈m/q⌉, and a place goes to a quota only if one would otherwise come too late.
 std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t count);
+
+/// Like schedule_quotas, but where in its stretch between two deadlines a quota is served is drawn, and a
+/// quota may get one more than ⌊q·n⌋ of the first n. Where two fall on one face the other gets the next one that is free.
+/// \param shares  add up to at most 1. \param purpose  of the draws; see random_pair.
+std::vector<int> scatter_quotas(const std::vector<double>& shares, std::uint64_t count,
+                                std::uint64_t seed, const std::string& purpose);
 
 /// The targets that faces of no quota may have, then those of each quota; those of a band have the first.
 using TargetsOfQuota = std::vector<std::vector<WeightedHead>>;

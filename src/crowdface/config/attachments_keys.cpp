@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section `attachments`.
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/config_writer.h"
@@ -84,6 +86,10 @@ const Keys<Attachment>& item_keys() {
   excludes.write = [write = excludes.write](const Attachment& item, const ConfigWriting& writing) {
     return item.excludes.empty() ? "" : write(item, writing);
   };
+  Key<Attachment> colour = of_item("colour", &AttachmentItem::colour, name());
+  colour.write = [](const Attachment& item, const ConfigWriting&) {
+    return item.colour.empty() ? "" : write_scalar(item.colour);
+  };
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
@@ -91,6 +97,7 @@ const Keys<Attachment>& item_keys() {
       {"tags", read_tags, write_tags},
       word_key("moves", &Attachment::moves),
       of_item("share", &AttachmentItem::share, number(0, kMostShare)),
+      colour,
       excludes};
   return keys;
 }
@@ -133,7 +140,7 @@ void read_items(const YamlNode& node, Attachments& attachments, ConfigDraft& dra
 std::string write_items(const Attachments& attachments, const ConfigWriting& writing) {
   std::vector<std::string> items;
   for (const Attachment& item : attachments.items) {
-    items.push_back(block_map(write_keys(item_keys(), item, writing)));
+    items.push_back(flow_map(write_keys(item_keys(), item, writing)));
   }
   return block_list(items);
 }
@@ -162,10 +169,62 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   }
 }
 
-std::string write_none(const Attachments& attachments, const ConfigWriting& writing) {
+/// The kind that a quota of this word is of: that of the first item which is called so.
+const Attachment* first_called(const Attachments& attachments, const std::string& word) {
+  const auto found = std::find_if(attachments.items.begin(), attachments.items.end(),
+                                  [&](const Attachment& item) { return is_called(item, word); });
+  return found == attachments.items.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> words_of_items(const Attachments& attachments) {
+  std::vector<std::string> words = kinds_of(attachments);
+  for (const Attachment& item : attachments.items) {
+    words.push_back(item.name);
+    if (!item.colour.empty()) words.push_back(item.colour);
+  }
+  return words;
+}
+
+void read_quotas(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+  constexpr double kRounding = 1e-9;
+  draft.complaints.expect_map(node,
+                              "a mapping from kinds, names or colours to shares, {glasses: 0.33}");
+  std::map<std::string, double> totals;  // by kind
+  std::set<std::string> alone;           // kinds with a quota of their own
+  for (const YamlEntry& entry : node.entries) {
+    const auto share = number(0, 1).read(entry.value, draft);
+    if (!share) continue;
+    const Attachment* item = first_called(attachments, entry.key);
+    if (item == nullptr) {
+      draft.complaints.about(
+          entry.value, concat("no attachment is of the kind, name or colour ", quoted(entry.key),
+                              suggestion(entry.key, words_of_items(attachments))));
+      continue;
+    }
+    const bool is_first = !totals.contains(item->kind);
+    if (attachments.none.contains(item->kind) && entry.key == item->kind) {
+      draft.complaints.about(
+          entry.value, concat("attachments.none speaks of ", entry.key, " too: give one of them"));
+    } else if (!is_first && (entry.key == item->kind || alone.contains(item->kind))) {
+      draft.complaints.about(entry.value,
+                             concat("a kind has a quota of its own, or its names and colours have "
+                                    "some, not both: ",
+                                    item->kind));
+    } else if ((totals[item->kind] += *share) > 1 + kRounding) {
+      draft.complaints.about(
+          entry.value, concat("the quotas of the kind ", item->kind, " add up to more than 1"));
+    } else {
+      attachments.quotas[entry.key] = *share;
+    }
+    if (entry.key == item->kind) alone.insert(item->kind);
+  }
+}
+
+std::string write_shares(const std::map<std::string, double>& shares,
+                         const ConfigWriting& writing) {
   std::vector<std::string> entries;
-  for (const auto& [kind, share] : attachments.none) {
-    entries.push_back(entry(write_scalar(kind), number(0, 1).write(share, writing)));
+  for (const auto& [word, share] : shares) {
+    entries.push_back(entry(write_scalar(word), number(0, 1).write(share, writing)));
   }
   return entries.empty() ? "" : flow_map(entries);
 }
@@ -175,7 +234,13 @@ const Keys<Attachments>& attachments_keys() {
       {"fitted_to", read_fitted_to, write_fitted_to},
       {"items", read_items, write_items,
        "a list of attachments, [{name: bob, kind: hair, file: bob.obj}]"},
-      {"none", read_none, write_none}};
+      {"none", read_none,
+       [](const Attachments& attachments, const ConfigWriting& writing) {
+         return write_shares(attachments.none, writing);
+       }},
+      {"quotas", read_quotas, [](const Attachments& attachments, const ConfigWriting& writing) {
+         return write_shares(attachments.quotas, writing);
+       }}};
   return keys;
 }
 
@@ -206,6 +271,12 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
   if (const YamlEntry* items = node.find("items")) {
     check_excluded(items->value, config.attachments, draft);
   }
+}
+
+std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
+  if (facts.attachments.empty()) return std::nullopt;
+  return StarterLines{facts.attachments, "",
+                      "What faces wear, as it lies beside the heads (docs/attachments.md)."};
 }
 
 std::string write_attachments(const Config& config, const ConfigWriting& writing) {

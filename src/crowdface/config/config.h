@@ -74,7 +74,16 @@ struct SurfaceChoice {
 };
 
 /// What stands under a picture, a line each.
-enum class SheetLabel { kId, kFamily, kGroup, kTarget, kNearest, kNearestHead };
+enum class SheetLabel {
+  kId,
+  kFamily,
+  kGroup,
+  kTarget,
+  kNearest,
+  kNearestHead,
+  kTags,
+  kAttachments
+};
 /// How the faces follow each other on contact sheets.
 enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
 enum class SheetFormat { kPng, kExr, kPdf };
@@ -150,7 +159,8 @@ struct Config {
     std::optional<Eigen::Index> head;
     std::filesystem::path file;
     std::vector<Attachment> items;
-    std::map<std::string, double> none;  ///< by kind: the share of faces without one
+    std::map<std::string, double> none;    ///< by kind: the share of faces without one
+    std::map<std::string, double> quotas;  ///< by kind, name or colour: of those who wear one
   } attachments;
 
   struct Textures {

@@ -112,6 +112,20 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
   }
 }
 
+std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
+  const auto tagged = [&](const std::string& tag) {
+    return std::any_of(facts.tags.begin(), facts.tags.end(), [&](const auto& head) {
+      return std::find(head.second.begin(), head.second.end(), tag) != head.second.end();
+    });
+  };
+  if (facts.attachments.empty() || !tagged("female") || !tagged("male")) return std::nullopt;
+  return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
+                                  "{name: men, share: 0.5, tags: [male]}"}),
+                      "",
+                      "Hair and beards go by the tags of the head that a face is built on, its "
+                      "features by all\nheads that lend to it: women and men apart."};
+}
+
 std::string write_groups(const Config& config, const ConfigWriting& writing) {
   if (config.groups.empty()) return "";
   std::vector<std::string> items;

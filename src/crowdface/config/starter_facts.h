@@ -26,6 +26,7 @@ struct StarterFacts {
   std::vector<std::string> regions = {"top", "middle",
                                       "bottom"};  ///< what the mask's bands are called
   std::vector<std::pair<std::string, std::vector<std::string>>> tags = {};  ///< heads and theirs
+  std::string attachments = {};  ///< that section, from starter_attachments; empty: there is none
 };
 
 }  // namespace crowdface

@@ -65,7 +65,8 @@ std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFac
 
 std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
                         std::size_t face, const Likeness& likeness,
-                        const std::vector<std::string>& heads) {
+                        const std::vector<std::string>& heads,
+                        const std::vector<std::vector<std::string>>& tags) {
   const CastFace& labelled = crowd[face];
   const auto line = [&](SheetLabel label) -> std::string {
     switch (label) {
@@ -86,6 +87,10 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
         if (!labelled.notes.nearest) return {};
         return concat("near ", heads[static_cast<std::size_t>(labelled.notes.nearest->head)], ", ",
                       format_fixed(rounded(labelled.notes.nearest->head_mm), 2), " mm");
+      case SheetLabel::kTags:
+        return join(tags[static_cast<std::size_t>(labelled.recipe.target)]);
+      case SheetLabel::kAttachments:
+        return join(labelled.attachments);
     }
     return {};
   };

@@ -16,9 +16,11 @@ std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFac
                                      const Likeness& likeness);
 
 /// What stands under a face, a line for each label.
+/// \param heads, tags  of each head.
 std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
                         std::size_t face, const Likeness& likeness,
-                        const std::vector<std::string>& heads);
+                        const std::vector<std::string>& heads,
+                        const std::vector<std::vector<std::string>>& tags);
 
 /// What stands under a child on its family's sheet: its id, how much of the form is its mother's, and
 /// which regions each parent gave. A region of which each gave bands is told by band.

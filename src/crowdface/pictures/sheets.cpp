@@ -64,7 +64,8 @@ class CrowdSheets {
 
   SheetCell cell(std::size_t face) const {
     SheetCell cell{read_render(directory_.render(crowd_[face].id)),
-                   sheet_label(sheet_.labels, crowd_, face, likeness_, config_.faces.names)};
+                   sheet_label(sheet_.labels, crowd_, face, likeness_, config_.faces.names,
+                               config_.faces.tags)};
     if (sheet_.compare.with == Config::Comparison::With::kNothing) return cell;
     const ComparedFace compared = compared_.compare(face);
     const VertexColours colours = heat_colours(compared.mm, sheet_.compare.scale_mm);
@@ -223,7 +224,7 @@ class CrowdSheets {
     const CastFace& face = crowd_[member];
     if (face.parents.empty()) {
       return sheet_label({SheetLabel::kId, SheetLabel::kNearest}, crowd_, member, likeness_,
-                         config_.faces.names);
+                         config_.faces.names, config_.faces.tags);
     }
     return inheritance_label(face, config_.plan_names());
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/capacity_forecast.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
@@ -96,12 +95,6 @@ std::vector<FamilyReport> report_families(const Config& config, const CrowdCast&
     reports.push_back(std::move(report));
   }
   return reports;
-}
-
-AttachmentDraw attachment_draw(const Config& config) {
-  AttachmentDraw draw{config.crowd.seed, {}, config.attachments.none, config.faces.tags};
-  for (const Config::Attachment& item : config.attachments.items) draw.items.push_back(item);
-  return draw;
 }
 
 std::string asked_of(const Config& config, Reason reason) {
@@ -283,6 +276,13 @@ Casting casting_of(const Config& config, const Inputs& inputs,
           config.groups};
 }
 
+AttachmentDraw attachment_draw(const Config& config) {
+  AttachmentDraw draw{
+      config.crowd.seed, {}, config.attachments.none, config.faces.tags, config.attachments.quotas};
+  for (const Config::Attachment& item : config.attachments.items) draw.items.push_back(item);
+  return draw;
+}
+
 std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast) {
   constexpr double kLeastShare = 0.5;
   std::vector<std::string> warnings;
@@ -343,8 +343,7 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
   if (!config.attachments.items.empty()) {
-    const AttachmentDraw draw = attachment_draw(config);
-    for (CastFace& face : result.crowd) face.attachments = draw_attachments(draw, face);
+    draw_attachments(attachment_draw(config), crowd.kinds, result.crowd);
   }
   for (FamilyCast& family : crowd.families) {
     result.founders.push_back({family.name, std::move(family.founder)});

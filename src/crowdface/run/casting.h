@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_statistics.h"
 #include "crowdface/run/pipeline.h"
@@ -59,6 +60,9 @@ struct Cast {
   std::vector<CastFace> rejected;        ///< by reviews
   std::vector<FaceSpace::Point> points;  ///< of each face of the crowd
 };
+
+/// What may sit on the faces of a config's crowd.
+AttachmentDraw attachment_draw(const Config& config);
 
 /// A warning for each quota whose faces have most of their detail from heads that do not count for it.
 std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/casting_report.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "crowdface/cast/attachment_draw.h"
 #include "crowdface/config/words.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
@@ -71,6 +75,45 @@ Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
   return json;
 }
 
+/// How many faces are built on heads of each tag.
+Json tags_to_json(const Config& config, const Cast& cast) {
+  Json json = Json::object();
+  for (const CastFace& face : cast.crowd) {
+    for (const std::string& tag : config.faces.tags[static_cast<std::size_t>(face.recipe.target)]) {
+      json[tag] = json.value(tag, 0U) + 1U;
+    }
+  }
+  return json;
+}
+
+/// How many faces wear what: by kind, name and colour, and what quotas asked of the sampled ones.
+Json attachments_to_json(const Config::Attachments& attachments, const Cast& cast) {
+  const auto wears = [&](const CastFace& face, const std::string& word) {
+    return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {
+      return is_called(item, word) && std::find(face.attachments.begin(), face.attachments.end(),
+                                                item.name) != face.attachments.end();
+    });
+  };
+  const auto count = [&](const std::string& word) {
+    return std::count_if(cast.crowd.begin(), cast.crowd.end(),
+                         [&](const CastFace& face) { return wears(face, word); });
+  };
+  Json json = {{"kinds", Json::object()}, {"colours", Json::object()}, {"quotas", Json::object()}};
+  for (const Config::Attachment& item : attachments.items) {
+    Json& kind = json["kinds"][item.kind];
+    kind["faces"] = count(item.kind);
+    kind["items"][item.name] = count(item.name);
+    if (!item.colour.empty()) json["colours"][item.colour] = count(item.colour);
+  }
+  for (const auto& [word, share] : attachments.quotas) {
+    const auto faces = std::count_if(
+        cast.crowd.begin(), cast.crowd.end(),
+        [&, &asked = word](const CastFace& face) { return face.index && wears(face, asked); });
+    json["quotas"][word] = {{"share", share}, {"faces", faces}};
+  }
+  return json;
+}
+
 Json rejections_to_json(const Rejections& rejections) {
   Json json = Json::object();
   for (std::size_t r = 0; r < kReasonCount; ++r) {
@@ -117,6 +160,10 @@ Json casting_to_json(const Config& config, const Cast& cast) {
   json["distances"] = distances_to_json(config.region_names(), cast.distances);
   json["quotas"] = quotas_to_json(config.diversity.quotas, cast);
   if (!config.groups.empty()) json["groups"] = groups_to_json(config.groups, cast);
+  if (Json tags = tags_to_json(config, cast); !tags.empty()) json["tags"] = std::move(tags);
+  if (!config.attachments.items.empty()) {
+    json["attachments"] = attachments_to_json(config.attachments, cast);
+  }
   json["families"] = families_to_json(cast);
   json["thrown_away"] = rejections_to_json(cast.rejections);
   return json;
