@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <sstream>
 #include <system_error>
 
 #include "crowdface/config/input_files.h"
@@ -122,24 +121,27 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   return seen;
 }
 
-/// The section that lies beside heads which came with hair and the like, its files named from the
-/// config's folder on; empty: there is none.
-std::string attachments_beside(const fs::path& heads, const fs::path& from_config) {
+/// The section that lies beside heads which came with hair and the like, as the config in a folder has
+/// it; empty: there is none. \throws InvalidInput if it is not as docs/config.md says.
+std::string attachments_beside(const fs::path& heads, const fs::path& config_folder,
+                               const StarterFacts& facts) {
   const fs::path file = heads / "attachments/attachments.yaml";
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return {};
-  std::istringstream lines(read_file(file));
-  const std::string folder = (from_config / "").generic_string();
-  std::string section = "\n";
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with('#')) continue;
-    for (const std::string_view key : {"fitted_to: ", "file: "}) {
-      const std::size_t at = line.find(concat(key, "attachments/"));
-      if (at != std::string::npos) line.insert(at + key.size(), folder);
-    }
-    section += line + '\n';
+  Complaints complaints;
+  const auto root = read_yaml(file.string(), complaints);
+  const YamlEntry* section = root ? root->find("attachments") : nullptr;
+  std::string text;
+  if (section != nullptr) {
+    text = starter_attachments(section->value, facts, fs::absolute(heads).lexically_normal(),
+                               config_folder, complaints);
+  } else if (complaints.empty()) {
+    throw InvalidInput(concat(file.string(), ": expected the section attachments, found none"));
   }
-  return section;
+  Problems problems;
+  complaints.tell(problems);
+  problems.throw_if_any();
+  return text;
 }
 
 void refuse_existing(const fs::path& file, bool force) {
@@ -189,18 +191,19 @@ void init(const Options& options) {
     facts.mask = proposed.masks[0].filename().string();
     facts.regions = {"brow", "nose", "mouth"};
   }
+  facts.attachments = attachments_beside(heads, here, facts);
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
-  const std::string attachments = attachments_beside(heads, facts.heads);
-  write_file(file, starter_config(facts) + attachments);
+  write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
                   name_of(facts.units), " because the first head is ",
                   format_fixed(facts.head_height, 2), " units tall; they look along ",
                   name_of(facts.front), " with ", name_of(facts.up),
                   " up. Check that, then: crowdface check ", out.string()));
-  if (!attachments.empty()) {
+  if (!facts.attachments.empty()) {
     log_info(
-        "faces wear what lies in the heads' folder attachments; hair goes by the tags of a face's "
-        "target, so keep women and men in groups of their own");
+        "faces wear what lies in the heads' folder attachments, women and men in groups of their "
+        "own, "
+        "where heads are tagged so");
   }
   if (!facts.mask.empty()) {
     log_info(concat("regions ", join(facts.regions), ": ",

@@ -97,9 +97,12 @@ Picture shrunk(Picture picture, int most_texels) {
   return small;
 }
 
-/// Keeps what is lighter and darker in hair, and gives it the lightness of grey hair on the whole.
-void make_grey(Picture& picture) {
+/// Keeps what is lighter and darker in hair, and gives it the lightness of grey or brown hair on the
+/// whole.
+void dye(Picture& picture, const std::string& colour) {
   constexpr std::array<double, 3> kGrey = {0.28, 0.275, 0.27};  // linear light
+  constexpr std::array<double, 3> kBrown = {0.1, 0.058, 0.036};
+  const std::array<double, 3>& dyed = colour == "grey" ? kGrey : kBrown;
   const std::vector<float>& light = light_of_srgb8_values();
   const auto lightness = [&](const std::array<std::uint8_t, 4>& texel) {
     return 0.2126 * double{light[texel[0]]} + 0.7152 * double{light[texel[1]]} +
@@ -114,7 +117,7 @@ void make_grey(Picture& picture) {
   const double mean = sum / weight;
   for (auto& texel : picture.texels) {
     const double factor = std::min(2.0, 0.4 + 0.6 * lightness(texel) / mean);
-    for (std::size_t c = 0; c < 3; ++c) texel[c] = srgb8_of_light(kGrey[c] * factor);
+    for (std::size_t c = 0; c < 3; ++c) texel[c] = srgb8_of_light(dyed[c] * factor);
   }
 }
 
@@ -180,7 +183,8 @@ std::string item_line(const MakeHumanAttachment& item) {
   return concat("    - {name: ", item.name, ", kind: ", item.kind, ", file: attachments/",
                 item.name, ".obj", item.tags.empty() ? "" : ", tags: [", join(item.tags),
                 item.tags.empty() ? "" : "]",
-                item.share == 1 ? "" : concat(", share: ", item.share), ", moves: bend}\n");
+                item.share == 1 ? "" : concat(", share: ", item.share),
+                item.colour.empty() ? "" : concat(", colour: ", item.colour), ", moves: bend}\n");
 }
 
 }  // namespace
@@ -236,10 +240,11 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
       licence_line("Teeth", parts_.teeth_licence) + licence_line("Tongue", parts_.tongue_licence);
   std::string section =
       "# For a config beside the heads; crowdface init takes it over. Tags as in "
-      "tags.yaml.\nattachments:\n  fitted_to: attachments/base.obj\n  items:\n";
+      "tags.yaml.\nattachments:\n  fitted_to: attachments/base.obj\n";
+  std::string items;
   base.path = attachments / "base.obj";
   files.push_back(std::move(base));
-  std::vector<std::string> without;
+  std::set<std::string> kinds;
   for (const MakeHumanAttachment& item : makehuman_attachments(package_)) {
     const auto may_wear = [&](const std::set<std::string>& tags) {
       return std::ranges::all_of(item.tags,
@@ -253,12 +258,13 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
       continue;
     }
     add_attachment(attachments, item, mesh, files);
-    section += item_line(item);
-    if (item.kind != "brow") without.push_back(item.kind == "hair" ? "hair: 0.04" : "beard: 0.75");
-    if (!item.grey) licences += licence_line(item.name, mesh.licence);
+    items += item_line(item);
+    kinds.insert(item.kind);
+    if (!item.dyed) licences += licence_line(item.name, mesh.licence);
   }
-  without.erase(std::unique(without.begin(), without.end()), without.end());
-  section += concat("  none: {", join(without), "}\n");
+  section += items.empty() ? "  items: []\n" : concat("  items:\n", items);
+  if (kinds.contains("hair")) section += "  none: {hair: 0.04}\n";
+  if (kinds.contains("beard")) section += "  quotas: {beard: 0.25}\n";
   files.push_back(text_file(attachments / "attachments.yaml", std::move(section)));
   files.push_back(text_file(folder / "licences.txt", std::move(licences)));
 }
@@ -280,12 +286,12 @@ void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttac
   files.push_back(text_file(
       folder / concat(item.name, ".mtl"),
       concat("newmtl ", item.name, "\nKd 1 1 1\nmap_Kd ", picture, "\nmap_d ", picture, '\n')));
-  files.push_back(
-      {folder / picture, [from = mesh.pictures[0].path, grey = item.grey, most = most_texels_] {
-         Picture shown = read_picture(from);
-         if (grey) make_grey(shown);
-         return encoded(shrunk(std::move(shown), most));
-       }});
+  files.push_back({folder / picture, [from = mesh.pictures[0].path,
+                                      colour = item.dyed ? item.colour : "", most = most_texels_] {
+                     Picture shown = read_picture(from);
+                     if (!colour.empty()) dye(shown, colour);
+                     return encoded(shrunk(std::move(shown), most));
+                   }});
 }
 
 }  // namespace crowdface::cli

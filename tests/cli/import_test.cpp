@@ -79,6 +79,26 @@ TEST(Import, MakeHumanHeadsAreDressed) {
   const fs::path config = folder / "crowd.yaml";
   crowdface(0, {"init", (folder / "heads").string(), "-o", config.string()}, {"attachments"});
   crowdface(0, {"check", config.string()}, {"is fine", "attachments eyebrow001"});
+  // Ready for "24 dressed people, half of them women": nothing need be written by hand.
+  const std::string ready = read(config);
+  EXPECT_THAT(ready, ::testing::HasSubstr("fitted_to: heads/attachments/base.obj\n"));
+  EXPECT_THAT(ready, ::testing::HasSubstr("- {name: women, share: 0.5, tags: [female]}\n"));
+  EXPECT_THAT(ready, ::testing::HasSubstr("quotas: {beard: 0.25}"));
+  EXPECT_THAT(ready, ::testing::HasSubstr("name: moustache_brown, kind: beard, "));
+  const std::string tags = read(folder / "heads/tags.yaml");
+  // What no head may wear is left out: of heads that are men alone the women's hair.
+  folder.write("heads/tags.yaml",
+               "faces: {tags: {makehuman_01: [male], makehuman_02: [male], makehuman_03: [male]}}");
+  crowdface(0, {"init", (folder / "heads").string(), "-o", config.string(), "--force"});
+  EXPECT_THAT(read(config), ::testing::Not(::testing::HasSubstr("long01")));
+  EXPECT_THAT(read(config), ::testing::Not(::testing::HasSubstr("groups:")));
+  crowdface(0, {"check", config.string()}, {"is fine"});
+  const std::string wearables = read(folder / "heads/attachments/attachments.yaml");
+  folder.write("heads/attachments/attachments.yaml", "attachments: {items: [{name: a}]}");
+  crowdface(64, {"init", (folder / "heads").string(), "-o", config.string(), "--force"},
+            {"attachments.yaml:1:", "kind: missing"});
+  folder.write("heads/attachments/attachments.yaml", wearables);
+  folder.write("heads/tags.yaml", tags);
   // A second run finds all as it should be and writes what is missing; what was changed is not lost.
   fs::remove(folder / "heads/attachments/base.obj");
   import(0, "heads", {"--dress"});
@@ -89,6 +109,12 @@ TEST(Import, MakeHumanHeadsAreDressed) {
   EXPECT_EQ(read_obj(folder / "fine/attachments/base.obj").topology.vertex_count,
             read_obj(folder / "fine/makehuman_03.obj").topology.vertex_count);
   import(64, "other", {"--textures", "512"}, {"--dress"});
+  crowdface(0,
+            {"import", "makehuman", "--data", (folder / "package").string(), "-o",
+             (folder / "none").string(), "--count", "0", "--dress"},
+            {"0 heads"});
+  EXPECT_THAT(read(folder / "none/attachments/attachments.yaml"),
+              ::testing::HasSubstr("items: []\n"));
 }
 
 TEST(Import, IctHeadsKeepTheirFileAndTiles) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/starter_config.h"
 
+#include <algorithm>
+
 #include "crowdface/config/config_keys.h"
 
 namespace crowdface {
@@ -14,6 +16,38 @@ std::string starter_config(const StarterFacts& facts) {
     if (lines) text += concat(starter_lines(key.name, *lines), '\n');
   }
   return text;
+}
+
+std::string starter_attachments(const YamlNode& section, const StarterFacts& facts,
+                                const std::filesystem::path& heads,
+                                const std::filesystem::path& config_folder,
+                                Complaints& complaints) {
+  ConfigDraft draft(complaints);
+  draft.folder = heads;
+  draft.config.faces.names = facts.names;
+  draft.heads_known = true;
+  draft.tags_known = false;  // of what nobody may wear nothing is said: it is left out
+  read_attachments(section, draft.config, draft);
+  const auto may_wear = [](const std::vector<std::string>& tags, const auto& item) {
+    return std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
+      return std::find(tags.begin(), tags.end(), tag) != tags.end();
+    });
+  };
+  Config::Attachments& attachments = draft.config.attachments;
+  std::erase_if(attachments.items, [&](const Config::Attachment& item) {
+    return !item.tags.empty() &&
+           std::none_of(facts.tags.begin(), facts.tags.end(),
+                        [&](const auto& head) { return may_wear(head.second, item); });
+  });
+  const auto is_nobodys = [&](const std::string& word) {
+    return std::none_of(attachments.items.begin(), attachments.items.end(),
+                        [&](const auto& item) { return is_called(item, word); });
+  };
+  const auto speaks_of_nobody = [&](const auto& share) { return is_nobodys(share.first); };
+  std::erase_if(attachments.none, speaks_of_nobody);
+  std::erase_if(attachments.quotas, speaks_of_nobody);
+  for (Config::Attachment& item : attachments.items) std::erase_if(item.excludes, is_nobodys);
+  return write_attachments(draft.config, {draft.config, config_folder});
 }
 
 }  // namespace crowdface

@@ -114,35 +114,37 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 }
 
 struct Wearable {
-  std::string_view folder, kind, tags;
+  std::string_view folder, kind, tags, colour;
   double share = 1;
-  bool greys = false;  ///< the old wear it grey, too
+  bool greys = false;   ///< the old wear it grey, too
+  bool browns = false;  ///< it comes in brown, too
 };
 // The tags of sex are the package's own for hair; those of brows go by their thickness.
-constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "male"},
-                                                     {"eyebrow002", "brow", "female"},
-                                                     {"eyebrow003", "brow", "male"},
-                                                     {"eyebrow004", "brow", "male"},
-                                                     {"eyebrow005", "brow", "female"},
-                                                     {"eyebrow006", "brow", "female"},
-                                                     {"eyebrow007", "brow", "female"},
-                                                     {"eyebrow008", "brow", "male"},
-                                                     {"eyebrow009", "brow", "male", 0.4},
-                                                     {"eyebrow010", "brow", "female"},
-                                                     {"eyebrow011", "brow", ""},
-                                                     {"eyebrow012", "brow", "male", 0.4},
-                                                     {"afro01", "hair", "african", 3},
-                                                     {"bob01", "hair", "female", 0.5},
-                                                     {"bob02", "hair", "female caucasian", 0.5},
-                                                     {"Braid01", "hair", "female"},
-                                                     {"long01", "hair", "female"},
-                                                     {"ponytail01", "hair", "female", 1, true},
-                                                     {"short01", "hair", "male", 1, true},
-                                                     {"short02", "hair", "male", 1, true},
-                                                     {"short03", "hair", "female", 0.5, true},
-                                                     {"short04", "hair", "male", 1, true},
-                                                     {"Full_beard", "beard", "male", 1, true},
-                                                     {"Moustache", "beard", "male", 1, true}});
+constexpr auto kWearables =
+    std::to_array<Wearable>({{"eyebrow001", "brow", "male", ""},
+                             {"eyebrow002", "brow", "female", ""},
+                             {"eyebrow003", "brow", "male", ""},
+                             {"eyebrow004", "brow", "male", ""},
+                             {"eyebrow005", "brow", "female", ""},
+                             {"eyebrow006", "brow", "female", ""},
+                             {"eyebrow007", "brow", "female", ""},
+                             {"eyebrow008", "brow", "male", ""},
+                             {"eyebrow009", "brow", "male", "", 0.4},
+                             {"eyebrow010", "brow", "female", ""},
+                             {"eyebrow011", "brow", "", ""},
+                             {"eyebrow012", "brow", "male", "", 0.4},
+                             {"afro01", "hair", "african", "black", 3},
+                             {"bob01", "hair", "female", "black", 0.5},
+                             {"bob02", "hair", "female caucasian", "blond", 0.5},
+                             {"Braid01", "hair", "female", "black"},
+                             {"long01", "hair", "female", "brown"},
+                             {"ponytail01", "hair", "female", "brown", 1, true},
+                             {"short01", "hair", "male", "black", 1, true},
+                             {"short02", "hair", "male", "brown", 1, true},
+                             {"short03", "hair", "female", "brown", 0.5, true},
+                             {"short04", "hair", "male", "black", 1, true},
+                             {"Full_beard", "beard", "male", "black", 1, true, true},
+                             {"Moustache", "beard", "male", "black", 1, true, true}});
 constexpr double kGreyShare = 4;
 
 }  // namespace
@@ -155,15 +157,22 @@ std::vector<MakeHumanAttachment> makehuman_attachments(const fs::path& package) 
                              std::string(wearable.kind),
                              proxy(package, brow ? "eyebrows" : "hair", wearable.folder),
                              words_of(std::string(wearable.tags)),
+                             std::string(wearable.colour),
                              false,
                              wearable.share};
     out.push_back(item);
+    const auto add_dyed = [&](const std::string& colour) {
+      MakeHumanAttachment dyed = item;
+      dyed.name += concat("_", colour);
+      dyed.colour = colour;
+      dyed.dyed = true;
+      out.push_back(std::move(dyed));
+    };
+    if (wearable.browns) add_dyed("brown");
     if (!wearable.greys) continue;
-    item.name += "_grey";
-    item.tags.emplace_back("old");
-    item.grey = true;
-    item.share *= kGreyShare;
-    out.push_back(std::move(item));
+    add_dyed("grey");
+    out.back().tags.emplace_back("old");
+    out.back().share *= kGreyShare;
   }
   return out;
 }

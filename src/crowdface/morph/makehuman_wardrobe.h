@@ -51,7 +51,8 @@ struct MakeHumanAttachment {
   std::string name, kind;
   std::filesystem::path file;     ///< in the package
   std::vector<std::string> tags;  ///< of the heads that may wear it
-  bool grey = false;              ///< its picture made grey
+  std::string colour;             ///< of hair and beards; empty: of brows
+  bool dyed = false;              ///< its picture is given that colour
   double share = 1;
 };
 
