@@ -20,6 +20,7 @@ using Vector = Eigen::Vector3f;
 constexpr float kSkyReach = 0.55F;    // how far ambient occlusion looks
 constexpr float kClearance = 2e-4F;   // rays start this far above the surface
 constexpr float kThickness = 0.012F;  // how deep light soaks in: softens where shadows begin
+constexpr float kThrough = 0.8F;      // of the light on its other side a thin surface lets through
 
 constexpr float kSameNormal = 0.985F;  // cosine: 10 degrees
 constexpr float kSameAlbedo = 0.03F;
@@ -318,26 +319,54 @@ class Tile {
   /// Directions are cosine-weighted.
   void ask_sky() {
     std::vector<Ray> rays;
-    std::vector<Openness*> asking;
+    std::vector<Meeting*> asking;
     for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
       const Vector& normal = meeting.surface.normal;
       const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
       rays.push_back({meeting.start, around(normal, disc) + height * normal, 0, kSkyReach});
       rays.back().lot = lot;
-      asking.push_back(&meeting.sky);
+      asking.push_back(&meeting);
     });
-    trace(rays, asking);
+    const std::vector<bool> blocked = are_blocked(rays);
+    for (std::size_t r = 0; r < rays.size(); ++r)
+      asking[r]->sky.add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
+    add_light_through(rays, asking, blocked);
+  }
+
+  /// What is thin and lies in the dark on the side that is seen, such as the inside of a lock at the edge of a
+  /// head of hair, gets some of the light that falls on its other side.
+  void add_light_through(const std::vector<Ray>& rays, const std::vector<Meeting*>& asking,
+                         const std::vector<bool>& blocked) {
+    std::vector<Ray> behind;
+    std::vector<Meeting*> thin;
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      const Meeting& meeting = *asking[r];
+      if (!blocked[r] || meeting.surface.kind != SurfaceKind::kWorn) continue;
+      const Vector across = (meeting.start - meeting.point).normalized();
+      behind.push_back(rays[r]);
+      behind.back().origin = 2 * meeting.point - meeting.start;
+      behind.back().direction -= 2 * rays[r].direction.dot(across) * across;
+      thin.push_back(asking[r]);
+    }
+    const std::vector<bool> dark = are_blocked(behind);
+    for (std::size_t r = 0; r < behind.size(); ++r) {
+      if (!dark[r]) thin[r]->sky.open += kThrough;
+    }
   }
 
   void trace(const std::vector<Ray>& rays, const std::vector<Openness*>& asking) {
-    std::vector<bool> blocked = stage_.scene.occluded(rays);
-    if (stage_.worn != nullptr) {
-      const std::vector<bool> more = stage_.worn->scene().occluded(rays);
-      for (std::size_t r = 0; r < rays.size(); ++r) blocked[r] = blocked[r] || more[r];
-    }
+    const std::vector<bool> blocked = are_blocked(rays);
     for (std::size_t r = 0; r < rays.size(); ++r) {
       asking[r]->add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
     }
+  }
+
+  std::vector<bool> are_blocked(const std::vector<Ray>& rays) const {
+    std::vector<bool> blocked = stage_.scene.occluded(rays);
+    if (stage_.worn == nullptr) return blocked;
+    const std::vector<bool> more = stage_.worn->scene().occluded(rays);
+    for (std::size_t r = 0; r < rays.size(); ++r) blocked[r] = blocked[r] || more[r];
+    return blocked;
   }
 
   void summarize() {
