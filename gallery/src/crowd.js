@@ -79,9 +79,9 @@ const orders = {
     (a.family ?? '\uffff').localeCompare(b.family ?? '\uffff') || a.order - b.order,
 };
 
-/// What is asked for, word by word: each word must occur in the id, family, group, target, tags or note.
+/// What is asked for, word by word: each word must occur in the id, family, group, target, tags, attachments or note.
 function matches(face, words, mark) {
-  const text = [face.id, face.family, face.group, face.target, ...face.tags, face.note, mark?.note]
+  const text = [face.id, face.family, face.group, face.target, ...face.tags, ...(face.attachments ?? []), face.note, mark?.note]
     .filter(Boolean).join(' ').toLowerCase();
   return words.every((word) => text.includes(word));
 }

@@ -183,6 +183,7 @@ export class FacePage {
       ['Target', face.mixture ? Object.entries(face.mixture).sort((a, b) => b[1] - a[1])
         .map(([head, share]) => `${head} ${short(100 * share, 0)} %`).join(', ') : face.target],
       face.tags.length > 0 ? ['Tags', face.tags.join(', ')] : null,
+      face.attachments?.length > 0 ? ['Wears', face.attachments.join(', ')] : null,
       face.group ? ['Group', face.group] : null,
       face.family ? ['Family', face.family] : null,
       face.age ? ['Age', short(face.age)] : null,

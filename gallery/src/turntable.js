@@ -2,16 +2,11 @@
 // Reduced meshes in 3D. All faces of a crowd share one set of triangles, so a face is points and
 // normals; where it stood before, the camera stays, so that two faces compare.
 import { BufferAttribute, BufferGeometry, Mesh } from 'three';
+import { bytesOf } from './bytes.js';
 import { loadScript } from './dom.js';
 import { normalsOf } from './normals.js';
 import { linearColours, paintEyes, skinMaterial, Stage } from './stage.js';
-
-function bytesOf(base64) {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i += 1) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
+import { pointsOf, Worn } from './worn.js';
 
 /// Points: three whole numbers of 16 bits each, steps from the frame's low corner; then normals,
 /// two numbers each on the unfolded octahedron (Meyer et al. 2010, "On floating-point normal
@@ -86,7 +81,8 @@ export class Turntable extends Stage {
         Float32Array.from(places, (value) => value / mesh.eyes.steps - 4), mesh.eyes);
     }
     this.object = new Mesh(geometry, material);
-    this.group.add(this.object);
+    this.worn = new Worn();
+    this.group.add(this.object, this.worn.node);
     if (mesh.widest) {
       const [atRest, open] = [bytesOf(mesh.widest.at_rest), bytesOf(mesh.widest.open)];
       this.opened = Float32Array.from(open, (light, v) => light / Math.max(atRest[v], 1));
@@ -100,12 +96,22 @@ export class Turntable extends Stage {
   async show(path, name) {
     await this.prepare();
     await loadScript(path);
+    const worn = await this.attachments(name);
     const { points, normals, colours } = unpackFace(window.crowdface.faces[name], this.mesh);
     const moves = window.crowdface.moves[name];
     this.face = { points, normals, shapes: moves ? unpackMoves(moves, this.mesh) : [] };
     this.face.colours = colours ?? this.colours;
     this.shown = name;
+    this.worn.show(worn);
     this.act(this.values);
+  }
+
+  /// What a face wears: [parts, points] each.
+  attachments(name) {
+    return Promise.all(Object.entries(window.crowdface.worn[name]).map(async ([item, packed]) => {
+      await loadScript(`data/attachments/${item}.js`);
+      return [await this.worn.prepare(item, () => window.crowdface.attachments[item]), pointsOf(packed, this.mesh)];
+    }));
   }
 
   /// \param values  a share of each expression shape; none: at rest.

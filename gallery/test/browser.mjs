@@ -7,6 +7,7 @@ import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { openPage } from './open_page.mjs';
+import { wornPixels } from './worn_pixels.mjs';
 
 const [folder, reviewFile, pictures] = process.argv.slice(2);
 if (!reviewFile) throw new Error('usage: node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES]');
@@ -99,6 +100,10 @@ const front = await shades();
 assert.ok(front.colours > 50, `the 3D view shows ${front.colours} colours`);
 assert.ok(!(await page.locator('main.face').innerText()).includes('[object'), 'raw objects on the page');
 await take('face');
+// What the face wears: red on the left, and where its picture has a hole nothing.
+const card = await page.evaluate(`(${wornPixels})(window.crowdface.page.face.turntable)`);
+assert.ok(card.left > 100 && card.red > 0.9 * card.left && card.right < 0.3 * card.left, JSON.stringify(card));
+assert.match(await page.locator('main.face').innerText(), /Wears\s+card/);
 // An expression: its slider moves what the shape moves, with its shading, and nothing else.
 const geometry = () => page.evaluate(() => {
   const { position, normal } = window.crowdface.page.face.turntable.object.geometry.attributes;

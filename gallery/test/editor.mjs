@@ -6,6 +6,7 @@
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { openPage } from './open_page.mjs';
+import { wornPixels } from './worn_pixels.mjs';
 
 const [address, resultFile, pictures] = process.argv.slice(2);
 if (!resultFile) throw new Error('usage: node editor.mjs ADDRESS RESULT_JSON [PICTURES]');
@@ -51,6 +52,15 @@ const job = await editor('({regions: editor.job.regions.map((r) => r.name), head
 const [region] = job.regions;
 assert.match(await page.locator('.measures').innerText(), /nearest head \d/);
 await take('opened');
+
+// What the face wears stands on it once the program has told where, and can be chosen.
+await page.waitForFunction(() => window.crowdface.editor.view.worn.node.children.length === 1);
+const card = await page.evaluate(`(${wornPixels})(window.crowdface.editor.view)`);
+assert.ok(card.left > 100 && card.red > 0.9 * card.left && card.right < 0.3 * card.left, JSON.stringify(card));
+await page.getByLabel('What the face wears: hat').selectOption('none');
+await page.waitForFunction(() => window.crowdface.editor.view.worn.node.children.length === 0);
+await page.getByLabel('What the face wears: hat').selectOption('card');
+await page.waitForFunction(() => window.crowdface.editor.view.worn.node.children.length === 1);
 
 // The preview is the program's face, but for what only the program does to eyes and lips.
 async function previewError() {
@@ -220,17 +230,17 @@ await drag(canvas, -120, 10);
 assert.ok(Math.abs(await editor('editor.view.angle()')) > 10);
 await page.mouse.wheel(0, -300);
 await page.keyboard.press('w');
-await page.locator('.viewbar select').selectOption('distance');
+await page.getByLabel('What the face shows').selectOption('distance');
 const drawnFrames = await frames();
 await page.waitForTimeout(300);
 await take('distance');
 assert.ok((await frames()) >= drawnFrames);
 await page.keyboard.press('w');
-await page.locator('.viewbar select').selectOption('regions');
+await page.getByLabel('What the face shows').selectOption('regions');
 await page.waitForTimeout(200);
 await take('regions');
 if (job.textures) {
-  await page.locator('.viewbar select').selectOption('texture');
+  await page.getByLabel('What the face shows').selectOption('texture');
   await page.waitForFunction(() => window.crowdface.editor.view.material.map !== null);
   await page.waitForTimeout(300);
   await take('texture');

@@ -8,11 +8,13 @@ set -euo pipefail
 . "$(dirname "$0")/page.sh"
 
 "$program" synth -o "$folder/heads" --count 5 --vertices 20000 --textures 256 --seed 2 --quiet
+write_card
 cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 4}
 faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
 regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
+attachments: {items: [{name: card, kind: hat, file: card.obj, moves: rigid}]}
 blending: {contacts: none} # as the preview, which is compared with the whole
 recipes: # a comment
   - {id: by_hand, target: synth_01, regions: {all: {position: [0.2, 0.3], smoothness: 0.5}}}

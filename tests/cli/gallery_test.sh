@@ -11,6 +11,7 @@ set -euo pipefail
 mkdir -p "$folder/template/shapes"
 cp "$folder/heads/synth_01.obj" "$folder/template/neutral.obj"
 awk '/^v / && $3 > 1 && $3 < 5 && $4 > 6 { $3 += 0.5 } { print }' "$folder/template/neutral.obj" >"$folder/template/shapes/browUp.obj"
+write_card
 cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 7}
@@ -18,6 +19,7 @@ faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
 regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
 recipes: [{id: by_hand, target: synth_01, regions: {all: {weights: {synth_02: 1}}}}]
 families: [{name: smith, members: 2, target: synth_03, max_distance: 4 mm}]
+attachments: {items: [{name: card, kind: hat, file: card.obj, moves: rigid}]}
 shapes: {neutral: template/neutral.obj, directory: template/shapes}
 output: {directory: out, meshes: [points], contact_sheet: {cell: 96, views: [front, profile]}}
 YAML

@@ -45,7 +45,7 @@ serve() {
 
 # browse SCRIPT.mjs ARGUMENTS…: one of gallery/test, in the browser.
 browse() {
-  for script in open_page.mjs "$1"; do  # to where their modules are, whole at any moment
+  for script in open_page.mjs worn_pixels.mjs "$1"; do  # to where their modules are, whole at any moment
     cp "$root/gallery/test/$script" "$root/build/gallery/$$.$script"
     mv "$root/build/gallery/$$.$script" "$root/build/gallery/$script"
   done
@@ -53,4 +53,22 @@ browse() {
     [ ! -f "$folder/server.log" ] || tail -n 20 "$folder/server.log"
     exit 1
   }
+}
+
+# write_card: FOLDER/card.obj, a card before the foreheads of synthetic heads, red on the left and not there on the right.
+write_card() {
+  base64 -d >"$folder/card.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAQAAAACCAYAAAB/qH1jAAAAE0lEQVR42mN4JiLyH4QZYABdAACr0Ag1VhJR4gAAAABJRU5ErkJggg==
+  echo 'newmtl card
+map_Kd card.png' >"$folder/card.mtl"
+  echo 'mtllib card.mtl
+v -4 5 12
+v 4 5 12
+v 4 9 12
+v -4 9 12
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl card
+f 1/1 2/2 3/3 4/4' >"$folder/card.obj"
 }

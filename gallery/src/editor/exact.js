@@ -10,16 +10,16 @@ export class Exact {
     Object.assign(this, { show, fail, waiting, turn: 0, page: crypto.randomUUID() });
   }
 
-  /// \param document  what stands on the page; \param recipe  the same as the program reads it.
-  ask(document, recipe) {
+  /// \param document  what stands on the page; \param asked  the same as the program reads it.
+  ask(document, asked) {
     clearTimeout(this.timer);
     this.running?.abort();
     this.running = null;
     this.waiting(true);
-    this.timer = setTimeout(() => this.send(document, recipe), rest);
+    this.timer = setTimeout(() => this.send(document, asked), rest);
   }
 
-  async send(document, recipe) {
+  async send(document, asked) {
     this.turn += 1;
     const { turn } = this;
     const running = new AbortController();
@@ -27,7 +27,7 @@ export class Exact {
     const began = performance.now();
     try {
       const face = await postForBinary('face', {
-        recipe, measure: true, page: this.page, turn,
+        ...asked, measure: true, page: this.page, turn,
       }, running.signal);
       if (turn !== this.turn || this.running !== running) return;
       this.running = null;

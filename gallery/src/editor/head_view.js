@@ -9,6 +9,7 @@ import { linearColours, paintEyes, skinMaterial, Stage } from '../stage.js';
 import { CardBlend, fitsOnCard } from './card_blend.js';
 import { Draft } from './draft.js';
 import { ProcessorBlend } from './processor_blend.js';
+import { Worn } from '../worn.js';
 import { layoutOf, texelOf } from './surface.js';
 
 const shows = ['surface', 'texture', 'distance', 'regions'];
@@ -96,7 +97,8 @@ export class HeadView extends Stage {
     this.lines = new Mesh(this.geometry, lines);
     this.lines.frustumCulled = false;
     this.lines.visible = false;
-    this.group.add(this.object, this.lines);
+    this.worn = new Worn();
+    this.group.add(this.object, this.lines, this.worn.node);
     this.stand({ up: job.up, front: job.front, box: [mesh.low, mesh.high] });
     this.take(this.blender);
     this.fullRatio = Math.min(devicePixelRatio, 2);

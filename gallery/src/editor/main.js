@@ -30,7 +30,9 @@ class Editor extends ProgramPage {
     this.linked = new Set(state?.linked ?? []);
     this.locked = new Set(state?.locked ?? []);
     [this.band] = bandNames(job); // the one that panel and plane show
-    this.look = { show: 'surface', wireframe: false, ...state?.look };
+    this.look = { show: 'surface', wireframe: false, wears: {}, ...state?.look };
+    this.look.wears = Object.fromEntries(Object.entries(this.look.wears)
+      .filter(([kind, choice]) => choice === 'none' || job.attachments[kind]?.includes(choice)));
     this.passing = null; // a document that is shown while something is dragged
     this.comparing = null; // which kept state is shown
     this.comparedWith = this.kept.length - 1;
@@ -165,7 +167,8 @@ class Editor extends ProgramPage {
     this.view.blend(...this.coefficientsOf(document));
     if (this.exactOf !== document) {
       this.exactOf = null;
-      this.exact.ask(document, wire(this.job, document));
+      this.view.worn.node.visible = false;
+      this.exact.ask(document, { recipe: wire(this.job, document), face: document.face, wears: this.look.wears });
     }
   }
 
@@ -182,6 +185,25 @@ class Editor extends ProgramPage {
     this.view.blend(...this.coefficientsOf(document), face);
     this.exactFace = face;
     this.tell(face);
+    this.attempt(() => this.showWorn(face));
+  }
+
+  /// What the program has put on the face, at its places.
+  async showWorn(face) {
+    const all = await Promise.all(face.worn.map(async (name) =>
+      [await this.view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]]));
+    if (this.exactFace !== face || !this.exactOf) return;
+    this.view.worn.show(all);
+    this.view.worn.node.visible = !this.painting?.on;
+    this.view.draw();
+  }
+
+  /// \param choice  draw, none or a name.
+  wear(kind, choice) {
+    this.look.wears = { ...this.look.wears, [kind]: choice };
+    this.exactOf = null;
+    this.refresh();
+    this.remember();
   }
 
   tell(face) {
@@ -336,6 +358,7 @@ class Editor extends ProgramPage {
     const [lists, shares] = this.coefficientsOf(document);
     const other = shares.join() !== this.shares;
     if (other) this.view.blender.unsettle();
+    if (document !== this.exactOf) this.view.worn.node.visible = false;
     this.view.blender.blend(lists, shares);
     const picture = this.view.picture();
     if (other) this.shares = null;

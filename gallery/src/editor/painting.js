@@ -80,6 +80,7 @@ export class Painting {
     this.node.hidden = !on;
     this.editor.setShow(on ? 'regions' : 'surface');
     this.showRing(null);
+    this.editor.view.worn.node.visible = !on; // it would lie before the skin
     if (on) this.node.scrollIntoView({ block: 'nearest' });
   }
 

@@ -97,6 +97,11 @@ export function viewBar(editor) {
   const paint = el('button', {
     hidden: true, title: 'Paint the regions’ masks (M)', onclick: () => editor.painting.setOn(!editor.painting.on),
   }, 'Paint masks');
+  const wears = Object.entries(job.attachments).map(([kind, names]) => [kind, el('select', {
+    'aria-label': `What the face wears: ${kind}`, title: `What the face wears: ${kind}`,
+    onchange: (event) => editor.wear(kind, event.target.value),
+  }, el('option', { value: 'draw' }, `${kind}: drawn`), el('option', { value: 'none' }, `${kind}: none`),
+  names.map((name) => el('option', { value: name }, name)))]);
   const scale = el('div', { class: 'scale', hidden: true }, el('i', {}), el('span', {}, '0'),
     el('span', {}, `${view.showMm} mm`));
   scale.firstChild.style.background = `linear-gradient(90deg, ${distanceColours.join(', ')})`;
@@ -104,9 +109,10 @@ export function viewBar(editor) {
     node: el('div', { class: 'viewbar' },
       el('div', { class: 'group', role: 'group', 'aria-label': 'Standard views' },
         views.map(([name, text]) => el('button', { onclick: () => view.view(name) }, text))),
-      show, wire, paint, scale),
+      show, wears.map(([, select]) => select), wire, paint, scale),
     show() {
       show.value = editor.look.show;
+      for (const [kind, select] of wears) select.value = editor.look.wears[kind] ?? 'draw';
       wire.classList.toggle('on', editor.look.wireframe);
       wire.setAttribute('aria-pressed', String(editor.look.wireframe));
       scale.hidden = editor.look.show !== 'distance';

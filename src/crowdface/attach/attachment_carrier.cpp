@@ -13,6 +13,10 @@ AttachmentCarrier::AttachmentCarrier(const FittedSkin& skin, const Topology& top
   }
 }
 
+std::size_t AttachmentCarrier::memory_bytes() const {
+  return gaps_->memory_bytes() + (bend_ ? bend_->memory_bytes() : 0);
+}
+
 Positions AttachmentCarrier::carry(const Positions& face, const Positions& normals) const {
   if (seat_) return seat_->seat(face, normals);
   Positions points = bend_->bend(face);

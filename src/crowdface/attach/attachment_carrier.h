@@ -28,6 +28,7 @@ class AttachmentCarrier {
   Positions carry(const Positions& face, const Positions& normals) const;
 
   const SkinGaps& gaps() const { return *gaps_; }
+  std::size_t memory_bytes() const;
 
  private:
   std::unique_ptr<const SkinGaps> gaps_;

@@ -44,6 +44,11 @@ SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Posit
   for (std::uint32_t p = 0; p < heights_.size(); ++p) neighbours_.add_group(adjacency.of(p));
 }
 
+std::size_t SkinGaps::memory_bytes() const {
+  return heights_.size() * (sizeof(double) + sizeof(std::uint32_t)) +
+         neighbours_.items.size() * sizeof(std::uint32_t);
+}
+
 double SkinGaps::least_height(std::uint32_t point) const {
   return std::min(heights_[point], kLeastMm * skin_.mm());
 }

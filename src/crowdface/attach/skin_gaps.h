@@ -34,6 +34,7 @@ class SkinGaps {
 
   /// The gap of each point on the fitted mesh, #P; far from the skin it is not known and infinite.
   const std::vector<double>& heights() const { return heights_; }
+  std::size_t memory_bytes() const;
   /// The gap of each point beside a face, likewise.
   std::vector<double> heights(const Positions& face, const Positions& normals,
                               const Positions& points) const;

@@ -67,6 +67,14 @@ SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
   });
 }
 
+std::size_t SmoothBend::memory_bytes() const {
+  std::size_t bytes = shares_.items.size() * sizeof(Share);
+  for (const FittedSkin::Patch& place : places_) {
+    bytes += sizeof(place) + place.vertices.size() * (sizeof(std::uint32_t) + sizeof(double));
+  }
+  return bytes;
+}
+
 Positions SmoothBend::bend(const Positions& face) const {
   std::vector<RigidMotion> motions(places_.size());
   parallel_for_each(places_.size(), kPlacesPerBlock, [&](std::size_t n) {

@@ -24,6 +24,7 @@ class SmoothBend {
   Positions bend(const Positions& face) const;
 
   std::size_t places() const { return places_.size(); }
+  std::size_t memory_bytes() const;
 
  private:
   struct Share {

@@ -19,9 +19,9 @@ inline constexpr int kFaceFilesVersion = 12;
 inline constexpr int kShapesVersion =
     3;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
-inline constexpr int kAttachmentsVersion = 1;  ///< attachments of a face of the same positions
+inline constexpr int kAttachmentsVersion = 2;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
 inline constexpr int kTextureVersion = 1;      ///< textures of faces' own
-inline constexpr int kSheetVersion = 9;  ///< contact sheets and the gallery, of the same pictures
+inline constexpr int kSheetVersion = 10;  ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

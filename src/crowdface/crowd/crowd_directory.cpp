@@ -44,6 +44,7 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
           directory.reviews(),
           directory.gallery(),
           data,
+          data / "attachments",
           data / "faces",
           data / "heads"};
 }
@@ -85,7 +86,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   remove_files(directory.blended(), has_ending(".jpg"));
   for (const fs::path& folder :
        {directory.gallery_face("").parent_path(), directory.gallery_head("").parent_path(),
-        directory.gallery() / "data"}) {
+        directory.gallery_attachment("").parent_path(), directory.gallery() / "data"}) {
     remove_files(folder, has_ending(".js"));
   }
   for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);

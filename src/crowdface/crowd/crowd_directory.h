@@ -82,6 +82,9 @@ struct CrowdDirectory {
   std::filesystem::path gallery_head(const std::string& name) const {
     return gallery() / "data/heads" / (name + ".js");
   }
+  std::filesystem::path gallery_attachment(const std::string& name) const {
+    return gallery() / "data/attachments" / (name + ".js");
+  }
   /// The name that the ledger has for a file of the crowd.
   std::string relative(const std::filesystem::path& file) const {
     return file.lexically_relative(root).generic_string();

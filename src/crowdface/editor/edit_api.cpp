@@ -30,12 +30,14 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       open_again_(std::move(open_again)),
       page_(gallery_page_folder(), "editor"),
       pictures_(session.job()),
+      worn_(session.job(), session.crowd()),
       painting_(session, folder.path() / "strokes.jsonl") {}
 
 const std::vector<EditApi::Route>& EditApi::routes() {
   static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
                                             {"GET", "api/mesh", &EditApi::mesh},
                                             {"GET", "api/heads/", &EditApi::head},
+                                            {"GET", "api/attachments/", &EditApi::attachment},
                                             {"POST", "api/face", &EditApi::face},
                                             {"POST", "api/draw", &EditApi::draw},
                                             {"GET", "api/state", &EditApi::state},
@@ -70,6 +72,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
 HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
   Json json = session_.description();
   json["can_edit_config"] = may_edit_config_;
+  json["attachments"] = worn_.kinds();
   return json_answer(json);
 }
 
@@ -93,6 +96,12 @@ HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
   auto texture = session_.textures().picture(head);
   if (!texture) return refusal(404, "the head has no texture");
   return {200, "image/jpeg", std::move(*texture)};
+}
+
+HttpAnswer EditApi::attachment(const HttpRequest&, const std::string& rest) {
+  auto look = worn_.look(rest);
+  if (!look) return refusal(404, "there is no such attachment");
+  return {200, "application/json", std::move(*look)};
 }
 
 CastFace EditApi::face_of(const Json& body, const std::string& key) const {
@@ -162,6 +171,16 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   const std::vector<float> normals = session_.normals(positions);
   answer.add("positions", std::span(points));
   answer.add("normals", std::span(normals));
+  const Json chosen = body.contains("wears") ? body["wears"] : Json::object();
+  if (!chosen.is_object()) throw UsageError("wears: expected a mapping from kinds");
+  const std::string opened =
+      body.contains("face") && body["face"].is_string() ? body["face"].get<std::string>() : "";
+  answer.head["worn"] = Json::array();
+  for (const WornAttachment& one : worn_.worn_by(face, opened, chosen, positions)) {
+    const std::vector<float> places = worn_.points(one);
+    answer.head["worn"].push_back(one.item->name);
+    answer.add(concat("worn ", one.item->name), std::span(places));
+  }
   answer.head["ms"] =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (body.contains("measure") && body["measure"] == true) {

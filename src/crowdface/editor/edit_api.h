@@ -14,6 +14,7 @@
 
 #include "crowdface/editor/edit_pictures.h"
 #include "crowdface/editor/edit_session.h"
+#include "crowdface/editor/edit_worn.h"
 #include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/generate_run.h"
 #include "crowdface/editor/region_painting.h"
@@ -48,6 +49,7 @@ class EditApi {
   HttpAnswer mesh(const HttpRequest& request, const std::string& rest);
   HttpAnswer head(const HttpRequest& request, const std::string& rest);
   HttpAnswer face(const HttpRequest& request, const std::string& rest);
+  HttpAnswer attachment(const HttpRequest& request, const std::string& rest);
 
   HttpAnswer draw(const HttpRequest& request, const std::string& rest);
   HttpAnswer state(const HttpRequest& request, const std::string& rest);
@@ -85,6 +87,7 @@ class EditApi {
   std::function<void()> open_again_;
   PageFiles page_;
   EditPictures pictures_;
+  EditWorn worn_;
   RegionPainting painting_;               ///< under `building_`
   std::mutex building_;                   ///< one face at a time, by all cores
   std::atomic<std::uint32_t> draws_ = 0;  ///< attempts so far, so that each draw is another

@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// A mesh that may sit on heads, and the files that say what it is made of.
 struct Attachment {
-  std::string name;
+  std::string name, kind;
   AttachmentMove moves = AttachmentMove::kBend;
   ObjFile file;
   MaterialFiles materials;

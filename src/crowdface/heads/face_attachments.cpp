@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/face_attachments.h"
 
+#include <algorithm>
+#include <map>
+#include <string>
+
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/units.h"
 
@@ -34,6 +38,25 @@ std::vector<WornAttachment> FaceAttachments::worn_by(const CastFace& face,
     worn.push_back({&item, carriers_[i]->carry(positions, normals)});
   }
   return worn;
+}
+
+std::size_t FaceAttachments::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& carrier : carriers_) bytes += carrier->memory_bytes();
+  return bytes;
+}
+
+/// One of each kind is no more than all that there are.
+std::size_t FaceAttachments::worn_bytes() const {
+  constexpr std::size_t kCopies = 3;  // bent, pushed off the skin, before that
+  std::map<std::string, std::size_t> largest;
+  for (const Attachment& item : inputs_.attachments.items) {
+    std::size_t& most = largest[item.kind];
+    most = std::max(most, static_cast<std::size_t>(item.file.positions.size()) * sizeof(double));
+  }
+  std::size_t bytes = 0;
+  for (const auto& [kind, most] : largest) bytes += kCopies * most;
+  return bytes;
 }
 
 }  // namespace crowdface

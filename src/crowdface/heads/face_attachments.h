@@ -27,6 +27,10 @@ class FaceAttachments {
   /// \param positions  of the face, #V by 3.
   std::vector<WornAttachment> worn_by(const CastFace& face, const Positions& positions) const;
 
+  /// What this object takes, and what the attachments of one face take at most.
+  std::size_t memory_bytes() const;
+  std::size_t worn_bytes() const;
+
  private:
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< none: there are no attachments

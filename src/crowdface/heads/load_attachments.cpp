@@ -40,7 +40,7 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
 }
 
 Attachment read_item(const Config::Attachment& asked) {
-  Attachment item{asked.name, asked.moves, read_obj(asked.file), {}};
+  Attachment item{asked.name, asked.kind, asked.moves, read_obj(asked.file), {}};
   item.materials = find_material_files(item.file.path, item.file.material_libraries);
   return item;
 }

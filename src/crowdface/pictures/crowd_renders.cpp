@@ -38,7 +38,7 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
       textures_(inputs.textures),
       textured_(sheet.texture != SheetTexture::kNo),
       most_texels_(shown_texels(sheet)),
-      worn_surfaces_(inputs, most_texels_, textured_) {}
+      worn_surfaces_(most_texels_, textured_) {}
 
 void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
   make_directories(directory.renders());
@@ -62,7 +62,7 @@ WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::
                           std::nullopt};
   if (gallery_ != nullptr) {
     written.preview =
-        put(directory.gallery_face(id), gallery_->face_script(id, single, moves, painted));
+        put(directory.gallery_face(id), gallery_->face_script(id, single, moves, painted, worn));
   }
   return written;
 }

@@ -35,6 +35,8 @@ class CrowdRenders {
   /// Whether `write` needs a face's shapes.
   bool show_shapes() const { return gallery_ != nullptr; }
 
+  const WornSurfaces& worn_surfaces() const { return worn_surfaces_; }
+
   /// The folders that `write` needs.
   void make_folders(const CrowdDirectory& directory) const;
   /// Writes a face's picture, and what the gallery shows of it.

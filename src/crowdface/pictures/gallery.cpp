@@ -52,6 +52,13 @@ std::vector<const Positions*> positions_of(const FaceSet& faces) {
   return heads;
 }
 
+/// Around the heads and what is fitted to them: long hair goes beyond a head's box.
+PackingFrame frame_of(const Inputs& inputs) {
+  std::vector<const Positions*> all = positions_of(inputs.faces);
+  for (const Attachment& item : inputs.attachments.items) all.push_back(&item.file.positions);
+  return PackingFrame::around(all);
+}
+
 Json axis_to_json(Axis axis) {
   Json json = {0, 0, 0};
   json[static_cast<std::size_t>(axis.index)] = axis.sign;
@@ -184,7 +191,7 @@ Digest gallery_page_digest(const Config& config) {
 }
 
 GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
-    : config_(config), inputs_(inputs), around_(inputs.faces.topology) {
+    : config_(config), inputs_(inputs), around_(inputs.faces.topology), frame_(frame_of(inputs)) {
   const FaceSet& faces = inputs.faces;
   const Surfaces surfaces = surfaces_of(config, inputs);
   std::vector<bool> drawn;
@@ -201,7 +208,6 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
       mesh_.vertices, Eigen::placeholders::all);
   corner_ = find_corners(faces);
   const std::vector<const Positions*> heads = positions_of(faces);
-  frame_ = PackingFrame::around(heads);
   low_ = heads.front()->colwise().minCoeff().transpose();
   high_ = heads.front()->colwise().maxCoeff().transpose();
   for (const Positions* head : heads) {
@@ -330,22 +336,44 @@ std::string GalleryMeshes::shared_script() const {
 
 std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions,
                                        std::span<const Displacements> moves,
-                                       const TextureCoat* coat) const {
+                                       const TextureCoat* coat,
+                                       const std::vector<WornAttachment>& worn) const {
   std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions);
   if (coat != nullptr) bytes += shades(textured(*coat));
-  const std::string shapes =
-      shown_.empty() ? std::string() : concat(",\"", base64(packed_shapes(moves)), '"');
-  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), '"', shapes, ");\n");
+  std::string more;
+  if (!shown_.empty()) more = concat(",\"", base64(packed_shapes(moves)), '"');
+  if (!worn.empty()) {
+    Json packed;
+    for (const WornAttachment& one : worn)
+      packed[one.item->name] = attachments_.packed(one, frame_);
+    more += concat(shown_.empty() ? ",null," : ",", packed.dump());
+  }
+  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), '"', more, ");\n");
+}
+
+std::string GalleryMeshes::attachment_script(const std::string& name,
+                                             const WornSurfaces& surfaces) const {
+  const Attachment& item = inputs_.attachments.at(name);
+  return concat("crowdface.setAttachment(", Json(name).dump(), ',',
+                attachments_.look(item, surfaces.at(item)), ");\n");
 }
 
 void write_gallery(const CrowdDirectory& directory, const Config& config, const fs::path& page,
                    const GalleryMeshes& meshes, const FaceShapes& shapes,
-                   const std::vector<CastFace>& crowd, const Digest& settings,
-                   const CrowdLikeness& likeness) {
+                   const WornSurfaces& surfaces, const std::vector<CastFace>& crowd,
+                   const Digest& settings, const CrowdLikeness& likeness) {
   make_directories(directory.gallery_head("").parent_path());
-  std::set<std::string> ids;
-  for (const CastFace& face : crowd) ids.insert(face.id);
+  std::set<std::string> ids, worn;
+  for (const CastFace& face : crowd) {
+    ids.insert(face.id);
+    worn.insert(face.attachments.begin(), face.attachments.end());
+  }
   remove_others(directory.gallery_face("").parent_path(), ids);
+  remove_others(directory.gallery_attachment("").parent_path(), worn);
+  if (!worn.empty()) make_directories(directory.gallery_attachment("").parent_path());
+  for (const std::string& name : worn) {
+    write_file(directory.gallery_attachment(name), meshes.attachment_script(name, surfaces));
+  }
   for (std::size_t h = 0; h < meshes.heads().size(); ++h) {
     const Head& head = meshes.heads()[h];
     const std::optional<TextureCoat> coat = meshes.coat_of(static_cast<Index>(h));

@@ -10,8 +10,11 @@
 #include "crowdface/config/config.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/likeness_file.h"
+#include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/pictures/shown_attachments.h"
+#include "crowdface/pictures/worn_surfaces.h"
 #include "crowdface/preview/packed_face.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
@@ -50,8 +53,12 @@ class GalleryMeshes {
   /// data/faces/NAME.js or data/heads/NAME.js.
   /// \param moves  the face's displacements in each shape.
   /// \param coat   the face's textures, or null: it has the colours that all share.
+  /// \param worn   its attachments.
   std::string face_script(const std::string& name, const Positions& positions,
-                          std::span<const Displacements> moves, const TextureCoat* coat) const;
+                          std::span<const Displacements> moves, const TextureCoat* coat,
+                          const std::vector<WornAttachment>& worn = {}) const;
+  /// data/attachments/NAME.js
+  std::string attachment_script(const std::string& name, const WornSurfaces& surfaces) const;
 
   const std::vector<Head>& heads() const { return inputs_.faces.heads; }
   const ShapeSet& shapes() const { return inputs_.shapes; }
@@ -71,6 +78,7 @@ class GalleryMeshes {
   ReducedMesh mesh_;
   FacesAround around_;
   PackingFrame frame_;
+  ShownAttachments attachments_;
   VertexColours colours_;       ///< of the surfaces themselves, one a vertex of the reduced mesh
   std::vector<float> open_;     ///< how much light arrives there, on the mean head
   std::vector<Corner> corner_;  ///< where each lies in a texture
@@ -89,7 +97,8 @@ class GalleryMeshes {
 /// Everything of the gallery but its faces' scripts: the page, the crowd's recipes, the heads.
 void write_gallery(const CrowdDirectory& directory, const Config& config,
                    const std::filesystem::path& page, const GalleryMeshes& meshes,
-                   const FaceShapes& shapes, const std::vector<CastFace>& crowd,
-                   const Digest& settings, const CrowdLikeness& likeness);
+                   const FaceShapes& shapes, const WornSurfaces& surfaces,
+                   const std::vector<CastFace>& crowd, const Digest& settings,
+                   const CrowdLikeness& likeness);
 
 }  // namespace crowdface

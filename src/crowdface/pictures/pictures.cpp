@@ -89,7 +89,8 @@ WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
   for (const CastFace& face : crowd) ids.push_back(face.id);
   write_file(directory_.likeness(), format_likeness(likeness, config_.plan_names(), ids));
   if (page_) {
-    write_gallery(directory_, config_, *page_, *gallery_, shapes_, crowd, settings_, likeness);
+    write_gallery(directory_, config_, *page_, *gallery_, shapes_, renders_.worn_surfaces(), crowd,
+                  settings_, likeness);
     log_info(concat("gallery: ", (directory_.gallery() / "index.html").string()));
   }
   return write_sheets(config_, sheet_, inputs_, directory_, renders_, shapes_, crowd,
@@ -110,6 +111,7 @@ std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory
   add(directory.gallery(), is_gallery_page_file);
   add(directory.gallery() / "data", has_ending(".js"));
   add(directory.gallery_head("").parent_path(), has_ending(".js"));
+  add(directory.gallery_attachment("").parent_path(), has_ending(".js"));
   std::sort(files.begin(), files.end());
   return files;
 }

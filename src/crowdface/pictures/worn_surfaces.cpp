@@ -7,7 +7,6 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
-#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/light_of_image.h"
 #include "crowdface/io/image.h"
@@ -102,20 +101,34 @@ std::unique_ptr<const WornSurface> surface_of(const Attachment& item, int most_p
 
 }  // namespace
 
-WornSurfaces::WornSurfaces(const Inputs& inputs, int most_px, bool textured) {
-  const std::vector<Attachment>& items = inputs.attachments.items;
-  std::vector<std::unique_ptr<const WornSurface>> surfaces(items.size());
-  parallel_for_each(items.size(),
-                    [&](std::size_t i) { surfaces[i] = surface_of(items[i], most_px, textured); });
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    surfaces_.emplace(&items[i], std::move(surfaces[i]));
+const WornSurface& WornSurfaces::at(const Attachment& item) const {
+  return surfaces_.get(&item, [&] { return surface_of(item, most_px_, textured_); });
+}
+
+std::uint64_t worn_picture_bytes(const Attachment& item, int most_px) {
+  std::uint64_t bytes = 0;
+  const auto add = [&](const std::filesystem::path& picture, std::uint64_t textures) {
+    if (picture.empty()) return;
+    try {
+      const ImageSize size = read_image_size(picture, {.jpeg = true});
+      const int block = (std::max(size.width, size.height) + most_px - 1) / most_px;
+      bytes += textures * sizeof(Light) * static_cast<std::uint64_t>(size.width / block + 1) *
+               static_cast<std::uint64_t>(size.height / block + 1);
+    } catch (const Error&) {
+      return;  // pictures will do without it
+    }
+  };
+  for (const SurfaceMaterial& material : read_surface_materials(item.materials)) {
+    add(material.colour_map, material.opacity_map.empty() ? 2 : 1);
+    add(material.opacity_map, 1);
   }
+  return bytes;
 }
 
 std::vector<WornMesh> WornSurfaces::meshes(const std::vector<WornAttachment>& worn) const {
   std::vector<WornMesh> meshes;
   for (const WornAttachment& one : worn) {
-    meshes.push_back({surfaces_.at(one.item).get(), &one.positions});
+    meshes.push_back({&at(*one.item), &one.positions});
   }
   return meshes;
 }

@@ -51,17 +51,23 @@ PackingFrame PackingFrame::around(std::span<const Positions* const> heads) {
   return {box.center() - Eigen::Vector3d::Constant(half), 2 * half / kSteps};
 }
 
-std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
-                      const PackingFrame& frame, const Positions& positions) {
-  require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
-          topology.vertex_count, " vertices");
+std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFrame& frame,
+                        const Positions& positions) {
   std::string bytes;
-  bytes.reserve(10 * mesh.vertices.size());
-  for (const std::uint32_t vertex : mesh.vertices) {
+  bytes.reserve(10 * vertices.size());  // with normals
+  for (const std::uint32_t vertex : vertices) {
     for (int axis = 0; axis < 3; ++axis) {
       append(bytes, (positions(vertex, axis) - frame.low[axis]) / frame.step);
     }
   }
+  return bytes;
+}
+
+std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
+                      const PackingFrame& frame, const Positions& positions) {
+  require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
+          topology.vertex_count, " vertices");
+  std::string bytes = pack_points(mesh.vertices, frame, positions);
   for (const std::uint32_t vertex : mesh.vertices) {
     const Eigen::Vector2d square = unfolded(normal_at(topology, positions, around.of(vertex)));
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);

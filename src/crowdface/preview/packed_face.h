@@ -27,6 +27,11 @@ struct PackingFrame {
 std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
                       const PackingFrame& frame, const Positions& positions);
 
+/// The first part of that alone: the positions of some vertices.
+/// \param vertices  rows of `positions`.
+std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFrame& frame,
+                        const Positions& positions);
+
 /// Bytes as text (RFC 4648).
 std::string base64(std::string_view bytes);
 

@@ -34,6 +34,7 @@ class WornSurface {
   const Topology& topology() const { return topology_; }
   const NormalFans& fans() const { return fans_; }
   const std::vector<Quad>& quads() const { return quads_; }
+  const std::vector<WornMaterial>& materials() const { return materials_; }
 
   /// The colour, and how much of the surface there is, at a place of a quad.
   Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <set>
+#include <string>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -69,6 +70,21 @@ std::uint64_t level_bytes(const Prepared& prepared) {
   std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
     if (!levels.mapped) bytes += levels.fields.size_bytes();
+  }
+  return bytes;
+}
+
+/// What attachments take that somebody wears: as they were read, and in pictures.
+std::uint64_t worn_bytes(const Config& config, const Inputs& inputs,
+                         const std::vector<CastFace>& crowd) {
+  std::set<std::string> worn;
+  for (const CastFace& face : crowd) worn.insert(face.attachments.begin(), face.attachments.end());
+  std::uint64_t bytes = 0;
+  for (const std::string& name : worn) {
+    const Attachment& item = inputs.attachments.at(name);
+    bytes += static_cast<std::uint64_t>(item.file.topology.vertex_count) * kMeshBytesAVertex;
+    if (!config.output.contact_sheet) continue;
+    bytes += worn_picture_bytes(item, shown_texels(*config.output.contact_sheet));
   }
   return bytes;
 }
@@ -233,6 +249,10 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     check_.emplace(skin_check(config, inputs, targets));
     standing += check_->memory_bytes();
     of_thread += check_->compare_bytes();
+  }
+  if (attachments_ != nullptr) {
+    standing += attachments_->memory_bytes() + worn_bytes(config, inputs, crowd);
+    of_thread += attachments_->worn_bytes();
   }
   standing += static_cast<std::uint64_t>(thread_count()) * of_thread;
   at_once_ = faces_at_once(standing, builder.bytes(1), memory);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/preview_mesh.h"
+#include "crowdface/preview/preview_mesh.h"
 
 #include <algorithm>
 #include <array>

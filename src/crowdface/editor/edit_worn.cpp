@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/edit_worn.h"
+
+#include <algorithm>
+
+#include "crowdface/cast/attachment_draw.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/run/casting.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kTexels = 1024;
+
+}  // namespace
+
+EditWorn::EditWorn(const Job& job, const std::vector<CastFace>* crowd)
+    : job_(job),
+      crowd_(crowd),
+      bound_(std::async(std::launch::async,
+                        [this] {
+                          return std::make_unique<const FaceAttachments>(job_.config, job_.inputs);
+                        })
+                 .share()),
+      surfaces_(kTexels, true) {}
+
+Json EditWorn::kinds() const {
+  Json kinds = Json::object();
+  for (const Attachment& item : job_.inputs.attachments.items) {
+    kinds[item.kind].push_back(item.name);
+  }
+  return kinds;
+}
+
+std::optional<std::string> EditWorn::look(const std::string& name) const {
+  for (const Attachment& item : job_.inputs.attachments.items) {
+    if (item.name == name) return shown_.look(item, surfaces_.at(item));
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> EditWorn::drawn_for(const CastFace& face,
+                                             const std::string& opened) const {
+  if (crowd_ != nullptr) {
+    const auto found = std::find_if(crowd_->begin(), crowd_->end(),
+                                    [&](const CastFace& other) { return other.id == opened; });
+    if (found != crowd_->end()) return found->attachments;
+  }
+  std::vector<CastFace> alone = {face};
+  draw_attachments(attachment_draw(job_.config), {}, alone);
+  return alone[0].attachments;
+}
+
+std::vector<WornAttachment> EditWorn::worn_by(const CastFace& face, const std::string& opened,
+                                              const Json& chosen,
+                                              const Positions& positions) const {
+  const std::vector<Attachment>& items = job_.inputs.attachments.items;
+  if (items.empty()) return {};
+  const std::vector<std::string> drawn = drawn_for(face, opened);
+  const Json known = kinds();
+  for (const auto& [kind, choice] : chosen.items()) {
+    const std::string name = choice.is_string() ? choice.get<std::string>() : "";
+    const bool is_word = name == "draw" || name == "none";
+    if (known.contains(kind) &&
+        (is_word || std::find(known[kind].begin(), known[kind].end(), name) != known[kind].end())) {
+      continue;
+    }
+    throw UsageError(concat("wears: expected kinds with draw, none or a name, found ",
+                            quoted(concat(kind, ": ", name))));
+  }
+  CastFace dressed = face;
+  dressed.attachments.clear();
+  for (const Attachment& item : items) {
+    const std::string choice = chosen.value(item.kind, std::string("draw"));
+    const bool wears = choice == "draw"
+                           ? std::find(drawn.begin(), drawn.end(), item.name) != drawn.end()
+                           : choice == item.name;
+    if (wears) dressed.attachments.push_back(item.name);
+  }
+  return bound_.get()->worn_by(dressed, positions);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/shown_attachments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/render/shading.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Of all materials together; a vertex is 8 bytes of text a face.
+constexpr std::size_t kMostTriangles = 12'000;
+constexpr int kMostTexels = 512;
+
+std::string little_endian_floats(std::span<const float> values) {
+  std::vector<std::uint32_t> words(values.size());
+  std::memcpy(words.data(), values.data(), values.size_bytes());
+  return little_endian(words);
+}
+
+Texture small_texture(const Texture& texture) {
+  return shrunk_texture(texture.width, texture.height, kMostTexels,
+                        [&](int y, std::span<Light> texels) {
+                          const auto first = texture.texels.begin() + y * texture.width;
+                          std::copy_n(first, texture.width, texels.begin());
+                        });
+}
+
+std::string address_of(std::string_view type, std::string_view bytes) {
+  return concat("data:image/", type, ";base64,", base64(bytes));
+}
+
+std::string colour_picture(const Texture& texture) {
+  const Texture small = small_texture(texture);
+  std::vector<std::uint8_t> pixels;
+  for (const Light& light : small.texels) {
+    const auto colour = to_srgb8(light);
+    pixels.insert(pixels.end(), colour.begin(), colour.end());
+  }
+  return address_of("jpeg", encode_jpeg(small.width, small.height, pixels));
+}
+
+std::string opacity_picture(const Texture& texture) {
+  const Texture small = small_texture(texture);
+  std::vector<std::uint8_t> pixels;
+  for (const Light& there : small.texels) {
+    pixels.push_back(
+        static_cast<std::uint8_t>(std::lround(255 * std::clamp(there[0], 0.0F, 1.0F))));
+  }
+  return address_of("png", encode_png(small.width, small.height, 1, pixels));
+}
+
+Json part_to_json(const PreviewMesh& mesh, const WornMaterial& material) {
+  Json json;
+  json["vertices"] = mesh.vertices.size();
+  json["triangles"] = base64(little_endian(mesh.triangles));
+  json["twins"] = base64(little_endian(mesh.twins));
+  if (!mesh.uvs.empty()) json["uvs"] = base64(little_endian_floats(mesh.uvs));
+  json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
+  json["share"] = material.share;
+  if (mesh.uvs.empty()) return json;
+  if (material.texture) json["picture"] = colour_picture(*material.texture);
+  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity);
+  return json;
+}
+
+}  // namespace
+
+const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) const {
+  return parts_.get(&item, [&] {
+    const ObjFile& file = item.file;
+    const FaceMaterials named = face_materials(file.materials, file.topology.face_count());
+    auto parts = std::make_unique<Parts>();
+    const std::size_t materials = std::max<std::size_t>(1, named.names.size());
+    for (std::uint32_t m = 0; m < materials; ++m) {
+      std::vector<bool> drawn;
+      for (const std::uint32_t of_face : named.of_face) drawn.push_back(of_face == m);
+      const auto faces = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), true));
+      const std::size_t most = kMostTriangles * faces / std::max<std::size_t>(1, drawn.size());
+      parts->push_back(preview_mesh(file.topology, file.uvs, file.positions, drawn,
+                                    std::max<std::size_t>(1, most / 2)));
+    }
+    return parts;
+  });
+}
+
+std::string ShownAttachments::look(const Attachment& item, const WornSurface& surface) const {
+  const Parts& meshes = parts(item);
+  Json json = Json::array();
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    json.push_back(part_to_json(meshes[m], surface.materials()[m]));
+  }
+  return json.dump();
+}
+
+std::string ShownAttachments::packed(const WornAttachment& worn, const PackingFrame& frame) const {
+  std::string bytes;
+  for (const PreviewMesh& part : parts(*worn.item)) {
+    bytes += pack_points(part.vertices, frame, worn.positions);
+  }
+  return base64(bytes);
+}
+
+std::vector<float> ShownAttachments::points(const WornAttachment& worn) const {
+  std::vector<float> points;
+  for (const PreviewMesh& part : parts(*worn.item)) {
+    for (const std::uint32_t v : part.vertices) {
+      for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(worn.positions(v, c)));
+    }
+  }
+  return points;
+}
+
+}  // namespace crowdface
