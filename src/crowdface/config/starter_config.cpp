@@ -28,6 +28,7 @@ std::string starter_attachments(const YamlNode& section, const StarterFacts& fac
   draft.heads_known = true;
   draft.tags_known = false;  // of what nobody may wear nothing is said: it is left out
   read_attachments(section, draft.config, draft);
+  if (!complaints.empty()) return {};
   const auto may_wear = [](const std::vector<std::string>& tags, const auto& item) {
     return std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
       return std::find(tags.begin(), tags.end(), tag) != tags.end();

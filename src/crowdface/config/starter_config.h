@@ -14,7 +14,7 @@ namespace crowdface {
 std::string starter_config(const StarterFacts& facts);
 
 /// The section `attachments` of a file that lies beside heads, without what none of them may wear, its
-/// files named from where the config will be written. Empty if nothing is left.
+/// files named from where the config will be written. Empty if nothing is left, or after a complaint.
 /// \param section  what stands under `attachments`; files in it relative to `heads`.
 /// \param facts    names and tags of the heads.
 /// \param heads, config_folder  absolute.
