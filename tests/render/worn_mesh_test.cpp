@@ -114,25 +114,30 @@ TEST(WornMesh, CastsShadowsButThroughItsHoles) {
   EXPECT_LT(darkest(scene.render(black(0)), bare), 1);
 }
 
-/// A card seen through a hole in another right before it, which keeps the light off it: what falls on its
-/// other side comes through, unless something lies there too.
+/// A card seen through a hole in another before it, which keeps the light off it: what falls on its other
+/// side comes through, unless something lies there, too.
 TEST(WornMesh, LetsLightThroughWhereItIsDark) {
-  const auto seen = [](double off_the_wall) {
-    Scene scene;
-    Positions shade_points = 1.5 * scene.card_points;
-    scene.card_points.col(2).setConstant(off_the_wall);
-    shade_points.col(2).setConstant(off_the_wall + 0.6);
-    Texture hole{15, 15, std::vector<Light>(225, Light::Ones())};
-    for (const std::size_t t : {97, 96, 98, 112, 111, 113, 127, 126, 128})
-      hole.texels[t] = Light::Zero();
-    WornMaterial shading = black(1);
-    shading.opacity = std::make_shared<const Texture>(hole);
-    const WornSurface card(scene.card, scene.uvs, {WornMaterial()}, {0});
-    const WornSurface shade(scene.card, scene.uvs, {shading}, {0});
-    const Rgb8Image image = scene.wearing({{&card, &scene.card_points}, {&shade, &shade_points}});
-    return static_cast<int>(image.at(32, 32)[0]);
+  const Scene scene;
+  const auto at = [&](double scale, double z) {
+    Positions points = scale * scene.card_points;
+    points.col(2).setConstant(z);
+    return points;
   };
-  EXPECT_GT(seen(1.5), seen(0.01) + 10);
+  const Positions card_points = at(1, 1.5), shade_points = at(1.5, 2.1),
+                  behind_points = at(1, 1.49);
+  Texture hole{15, 15, std::vector<Light>(225, Light::Ones())};
+  for (const std::size_t t : {96, 97, 98, 111, 112, 113, 126, 127, 128}) {
+    hole.texels[t] = Light::Zero();
+  }
+  WornMaterial shading = black(1);
+  shading.opacity = std::make_shared<const Texture>(hole);
+  const WornSurface card(scene.card, scene.uvs, {WornMaterial()}, {0});
+  const WornSurface shade(scene.card, scene.uvs, {shading}, {0});
+  const WornSurface behind(scene.card, scene.uvs, {black(1)}, {0});
+  std::vector<WornMesh> worn = {{&card, &card_points}, {&shade, &shade_points}};
+  const int through = scene.wearing(worn).at(32, 32)[0];
+  worn.push_back({&behind, &behind_points});
+  EXPECT_GT(through, scene.wearing(worn).at(32, 32)[0] + 5);
 }
 
 TEST(WornMesh, IsTheSamePictureEachTime) {
