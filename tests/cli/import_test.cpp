@@ -60,11 +60,11 @@ TEST(Import, MakeHumanHeadsAreDressed) {
     std::vector<std::string> arguments = {"import",  "makehuman",
                                           "--data",  (folder / "package").string(),
                                           "-o",      (folder / out).string(),
-                                          "--count", "3"};
+                                          "--count", "4"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     crowdface(code, arguments, says);
   };
-  import(0, "heads", {"--dress"}, {"3 heads", "licences.txt"});
+  import(0, "heads", {"--dress"}, {"4 heads", "licences.txt"});
   EXPECT_THAT(read(folder / "heads/makehuman_01.obj"),
               ::testing::HasSubstr("\nmtllib makehuman_01.mtl\n"));
   EXPECT_THAT(read(folder / "heads/makehuman_01.mtl"),

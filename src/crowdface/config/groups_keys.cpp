@@ -113,12 +113,12 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
-  const auto tagged = [&](const std::string& tag) {
-    return std::any_of(facts.tags.begin(), facts.tags.end(), [&](const auto& head) {
-      return std::find(head.second.begin(), head.second.end(), tag) != head.second.end();
-    });
+  const auto mixes = [&](const std::string& tag) {  // one head alone gives one face
+    return std::count_if(facts.tags.begin(), facts.tags.end(), [&](const auto& head) {
+             return std::find(head.second.begin(), head.second.end(), tag) != head.second.end();
+           }) > 1;
   };
-  if (facts.attachments.empty() || !tagged("female") || !tagged("male")) return std::nullopt;
+  if (facts.attachments.empty() || !mixes("female") || !mixes("male")) return std::nullopt;
   return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
                                   "{name: men, share: 0.5, tags: [male]}"}),
                       "",

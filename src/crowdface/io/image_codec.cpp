@@ -22,12 +22,16 @@ constexpr const char* kFunction = "crowdface_image_codec";
 // Only what a signal handler may call.
 [[noreturn]] void end_without_libraries(int /*signal*/) {
   constexpr std::string_view kText =
-      "error: the libraries that images need (OpenImageIO) cannot be started: out of memory?\n";
+      "error: the libraries that images need (OpenImageIO) cannot be started: out of memory, or of "
+      "threads?\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText.data(), kText.size());
   ::_exit(static_cast<int>(ExitCode::kIoError));
 }
 
-/// While it lives, a library that ends the program because it gets no memory to start does so in our words.
+constexpr unsigned kLongestStart = 60;  ///< seconds
+
+/// While it lives, a library that ends the program because it gets no memory to start does so in our words;
+/// likewise one that waits for ever, as a logger among them does for a thread that could not start.
 class StartOfLibraries {
  public:
   StartOfLibraries() {
@@ -36,8 +40,10 @@ class StartOfLibraries {
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
       ::sigaction(kSignals[i], &action, &before_[i]);
     }
+    ::alarm(kLongestStart);
   }
   ~StartOfLibraries() {
+    ::alarm(0);
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
       ::sigaction(kSignals[i], &before_[i], nullptr);
     }
@@ -46,7 +52,7 @@ class StartOfLibraries {
   StartOfLibraries& operator=(const StartOfLibraries&) = delete;
 
  private:
-  static constexpr std::array kSignals = {SIGABRT, SIGSEGV, SIGTRAP};
+  static constexpr std::array kSignals = {SIGABRT, SIGALRM, SIGSEGV, SIGTRAP};
   std::array<struct sigaction, kSignals.size()> before_ = {};
 };
 
