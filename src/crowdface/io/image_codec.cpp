@@ -3,6 +3,7 @@
 
 #include <array>
 #include <csignal>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -41,8 +42,10 @@ class StartOfLibraries {
       ::sigaction(kSignals[i], &action, &before_[i]);
     }
     ::alarm(kLongestStart);
+    end_before_ = std::set_terminate([] { end_without_libraries(0); });
   }
   ~StartOfLibraries() {
+    std::set_terminate(end_before_);
     ::alarm(0);
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
       ::sigaction(kSignals[i], &before_[i], nullptr);
@@ -54,6 +57,7 @@ class StartOfLibraries {
  private:
   static constexpr std::array kSignals = {SIGABRT, SIGALRM, SIGSEGV, SIGTRAP};
   std::array<struct sigaction, kSignals.size()> before_ = {};
+  std::terminate_handler end_before_ = nullptr;
 };
 
 void* open_library(const std::string& name, int flags) {
