@@ -11,7 +11,7 @@ scripts/build.sh release crowdface
 start=$SECONDS
 crowdface=build/release/bin/crowdface
 # --force: after a change of the program or of configs/demo.yaml the demo's own folders are filled anew.
-"$crowdface" synth -o out/demo_heads --count 12 --vertices 20000 --seed 1 --textures 1024 --tags --hair --force
+"$crowdface" synth -o out/demo_heads --count 12 --vertices 20000 --seed 1 --textures 1024 --hair --force
 "$crowdface" generate configs/demo.yaml --force
 
 echo

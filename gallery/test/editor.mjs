@@ -85,6 +85,23 @@ async function previewError() {
 // Drag a controller: the face follows while the button is down.
 const first = await points();
 const before = await recipe();
+// Distances follow while it is dragged, before the program's own face comes.
+const faces = [];
+await page.route('**/api/face', (route) => { faces.push(route); });
+const told = await page.locator('.measures').innerText();
+const handle = await page.locator(`.handle[data-region="${region}"]`).boundingBox();
+await page.mouse.move(handle.x + handle.width / 2, handle.y + handle.height / 2);
+await page.mouse.down();
+await page.mouse.move(handle.x + 40, handle.y - 30, { steps: 4 });
+await page.waitForFunction((before) => document.querySelector('.measures').innerText.match(/nearest head [\d.]+/)[0] !==
+  before.match(/nearest head [\d.]+/)[0], told);
+await page.mouse.up();
+await page.unroute('**/api/face');
+await Promise.all(faces.map((route) => route.continue().catch(() => {})));
+await settled();
+await page.keyboard.press('Control+z');
+await settled();
+
 const during = await drag(page.locator(`.handle[data-region="${region}"]`), 70, 45);
 assert.ok(farthest(first, during) > 0.01 / job.mm, 'the face follows the mouse');
 assert.equal(await steps(), 1, 'one drag is one step');

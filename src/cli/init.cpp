@@ -141,6 +141,10 @@ std::string attachments_beside(const fs::path& heads, const fs::path& config_fol
   Problems problems;
   complaints.tell(problems);
   problems.throw_if_any();
+  if (text.empty()) {
+    log_warning(concat(file.string(),
+                       ": no head has the tags of anything there, so faces wear nothing"));
+  }
   return text;
 }
 

@@ -109,7 +109,7 @@ void synth(const Options& options) {
                      }});
   }
   if (options.hair) hair.add_files(directory, heads, materials, files);
-  if (options.tags) {
+  if (options.tags || options.hair) {  // who wears which hair goes by the heads' tags
     files.push_back(text_file(directory / "tags.yaml",
                               format_tags(tagged, concat("Synthetic heads of seed ", seed))));
   }
@@ -133,7 +133,7 @@ void declare(CLI::App& command, Options& options) {
              "Give each head hair and paint it, pictures of this side in texels: NAME_albedo.png, "
              "NAME.mtl");
   command.add_flag("--hair", options.hair,
-                   "With --textures: hair as meshes of its own, to DIR/attachments");
+                   "With --textures: hair as meshes of its own, to DIR/attachments, and --tags");
   command.add_flag("--skin-only", options.skin_only,
                    "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
   command.add_flag("--tags", options.tags,

@@ -87,9 +87,14 @@ TEST(Synth, HairOfItsOwnIsWhatAConfigTakes) {
   const TemporaryFolder folder;
   const std::string heads = (folder / "heads").string();
   crowdface(0, {"synth", "-o", heads, "--count", "3", "--vertices", "5000", "--textures", "64",
-                "--tags", "--hair"});
+                "--hair"});
   EXPECT_THAT(read_text(folder / "heads/tags.yaml"), HasSubstr("_hair"));
   EXPECT_TRUE(fs::exists(folder / "heads/attachments/base.obj"));
+  fs::rename(folder / "heads/tags.yaml", folder / "tags.yaml");
+  crowdface(0, {"init", heads, "-o", (folder / "untagged.yaml").string()},
+            {"attachments.yaml", "wear nothing"});
+  EXPECT_THAT(read_text(folder / "untagged.yaml"), Not(HasSubstr("kind: hair")));
+  fs::rename(folder / "tags.yaml", folder / "heads/tags.yaml");
   crowdface(0, {"init", heads, "-o", (folder / "crowd.yaml").string()});
   EXPECT_THAT(read_text(folder / "crowd.yaml"), HasSubstr("kind: hair"));
   const fs::path out = folder / "out";

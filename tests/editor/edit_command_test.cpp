@@ -163,6 +163,10 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
     const Json first = crowd["faces"][1];
     const auto face = post("api/face", {{"recipe", first}, {"measure", true}});
     EXPECT_EQ(face->status, 200);
+    const Json measured = Json::parse(post("api/measures", {{"recipe", first}})->body);
+    EXPECT_GT(measured["nearest_head"]["mm"], 0);
+    EXPECT_TRUE(measured["nearest_face"].is_object());
+    EXPECT_EQ(post("api/measures", {{"recipe", "none"}})->status, 400);
     EXPECT_EQ(post("api/save", {{"recipe", first}, {"format", "obj"}})->status, 200);
     const std::string id = first["id"];
     EXPECT_EQ(read_text(edited(id + ".obj")), read_text(folder_.out() / "meshes" / (id + ".obj")));

@@ -245,7 +245,11 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   json["regions"]["top"] = {
       {"weights", {{"head_0", 1}}}, {"smoothness", 0.9}, {"extrapolation", 4}};
   const CastFace wild = editor.face(json);
-  EXPECT_THAT(editor.session->measure(wild, editor.session->build(wild.recipe)).warnings,
+  const FaceMeasures whole = editor.session->measure(wild, editor.session->build(wild.recipe));
+  EXPECT_THAT(whole.warnings, ::testing::Contains(::testing::HasSubstr("believability.")));
+  const FaceMeasures without_mesh = editor.session->measure(wild);
+  EXPECT_EQ(without_mesh.head_mm, whole.head_mm);
+  EXPECT_THAT(without_mesh.warnings,
               ::testing::Contains(::testing::HasSubstr("believability.")));
 }
 

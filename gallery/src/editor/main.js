@@ -6,6 +6,7 @@ import { el, short } from '../dom.js';
 import { History } from '../history.js';
 import { showGenerate, showPutBack } from './dialogs.js';
 import { Exact } from './exact.js';
+import { LiveMeasures } from './live_measures.js';
 import { HeadView } from './head_view.js';
 import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
@@ -42,7 +43,11 @@ class Editor extends ProgramPage {
     this.exact = new Exact({
       show: (face, document) => this.showExact(face, document),
       fail: (error) => this.say(error.message, true),
-      waiting: (waits) => this.status?.classList.toggle('waits', waits),
+      waiting: (waits) => this.status?.classList.toggle('waits', waits && !this.passing),
+    });
+    this.measures = new LiveMeasures({
+      show: (measures) => { if (this.exactOf !== this.document) this.tell(measures); },
+      fail: (error) => this.say(error.message, true),
     });
     this.build();
     this.history.listeners.push(() => this.stepped());
@@ -168,7 +173,9 @@ class Editor extends ProgramPage {
     if (this.exactOf !== document) {
       this.exactOf = null;
       this.view.worn.node.visible = false;
-      this.exact.ask(document, { recipe: wire(this.job, document), face: document.face, wears: this.look.wears });
+      const recipe = wire(this.job, document);
+      if (this.passing) this.measures.ask(recipe);
+      this.exact.ask(document, { recipe, face: document.face, wears: this.look.wears });
     }
   }
 
@@ -216,7 +223,7 @@ class Editor extends ProgramPage {
       mirrored ? el('span', { class: 'mirrored' }, 'mirrored') : null,
       distance('nearest head', face.nearest_head, face.nearest_head?.name, limits.head_mm),
       distance('nearest face', face.nearest_face, face.nearest_face?.id, limits.face_mm),
-      el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
+      face.ms === undefined ? null : el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
       ...(face.warnings ?? []).map((text) => el('p', { class: 'warning' }, text)),
     ].filter(Boolean));
   }

@@ -39,6 +39,7 @@ const std::vector<EditApi::Route>& EditApi::routes() {
                                             {"GET", "api/heads/", &EditApi::head},
                                             {"GET", "api/attachments/", &EditApi::attachment},
                                             {"POST", "api/face", &EditApi::face},
+                                            {"POST", "api/measures", &EditApi::measures},
                                             {"POST", "api/draw", &EditApi::draw},
                                             {"GET", "api/state", &EditApi::state},
                                             {"PUT", "api/state", &EditApi::keep_state},
@@ -153,6 +154,24 @@ bool EditApi::overtaken(const std::string& page, std::uint64_t turn) {
   return newest != turns_.end() && turn < newest->second;
 }
 
+Json EditApi::told(const FaceMeasures& measures) const {
+  const auto& names = session_.job().names.heads;
+  Json json;
+  json["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.head)]},
+                          {"mm", measures.head_mm}};
+  json["nearest_face"] = nullptr;
+  if (measures.face) {
+    json["nearest_face"] = {{"id", (*session_.crowd())[*measures.face].id},
+                            {"mm", measures.face_mm}};
+  }
+  json["warnings"] = measures.warnings;
+  return json;
+}
+
+HttpAnswer EditApi::measures(const HttpRequest& request, const std::string&) {
+  return json_answer(told(session_.measure(face_of(body_of(request)))));
+}
+
 HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   constexpr double kMostTurns = 1e15;
   const Json body = body_of(request);
@@ -184,16 +203,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.head["ms"] =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (body.contains("measure") && body["measure"] == true) {
-    const FaceMeasures measures = session_.measure(face, positions);
-    const auto& names = session_.job().names.heads;
-    answer.head["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.head)]},
-                                   {"mm", measures.head_mm}};
-    answer.head["nearest_face"] = nullptr;
-    if (measures.face) {
-      answer.head["nearest_face"] = {{"id", (*session_.crowd())[*measures.face].id},
-                                     {"mm", measures.face_mm}};
-    }
-    answer.head["warnings"] = measures.warnings;
+    answer.head.update(told(session_.measure(face, positions)));
   }
   return binary_answer(answer.bytes());
 }

@@ -49,6 +49,7 @@ class EditApi {
   HttpAnswer mesh(const HttpRequest& request, const std::string& rest);
   HttpAnswer head(const HttpRequest& request, const std::string& rest);
   HttpAnswer face(const HttpRequest& request, const std::string& rest);
+  HttpAnswer measures(const HttpRequest& request, const std::string& rest);
   HttpAnswer attachment(const HttpRequest& request, const std::string& rest);
 
   HttpAnswer draw(const HttpRequest& request, const std::string& rest);
@@ -77,6 +78,7 @@ class EditApi {
   // What a request's body holds. \throws UsageError with the key's name.
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
   CastFace face_of(const Json& body, const std::string& key = "recipe") const;
+  Json told(const FaceMeasures& measures) const;
   void note_turn(const std::string& page, std::uint64_t turn);
   bool overtaken(const std::string& page, std::uint64_t turn);
 

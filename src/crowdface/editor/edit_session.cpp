@@ -120,7 +120,7 @@ void EditSession::use_masks(const RegionWeights& masks) {
   kept_ = {};
 }
 
-FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face) const {
+FaceMeasures EditSession::measure(const CastFace& recipe) const {
   const Judging& judging = judging_.get();
   const FaceJudge& judge = judging.judge;
   const FaceSpace::Point point = judge.space().point(recipe.recipe);
@@ -148,6 +148,11 @@ FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face)
   if (const auto why = judge.closely(recipe.recipe)) {
     measures.warnings.push_back(sentence(*why, job_.config));
   }
+  return measures;
+}
+
+FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face) const {
+  FaceMeasures measures = measure(recipe);
   if (job_.config.believability.check &&
       builder_.wider_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
     measures.warnings.push_back(sentence(Reason::kGap, job_.config));

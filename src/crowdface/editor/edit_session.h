@@ -64,6 +64,8 @@ class EditSession {
 
   /// Every point of a face, as it would be saved. Quick where the face before it differs in few regions.
   Positions build(const Recipe& recipe) const;
+  /// Takes no mesh, and tells no gaps between parts.
+  FaceMeasures measure(const CastFace& recipe) const;
   /// \param face  what `build` gave
   FaceMeasures measure(const CastFace& recipe, const Positions& face) const;
   /// See draw_faces.
