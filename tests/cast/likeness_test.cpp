@@ -48,6 +48,51 @@ TEST(Likeness, NeighboursAreThoseOfASearchThroughAll) {
   }
 }
 
+/// In more dimensions than boxes have, some twice, and with factors that make other faces of them.
+std::vector<FaceSpace::Point> points_of_many_dimensions(std::uint64_t count) {
+  std::vector<FaceSpace::Point> points;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    FaceSpace::Point point{Eigen::VectorXf(12), Eigen::VectorXf(12)};
+    for (std::uint64_t d = 0; d < 12; ++d) {
+      const auto [x, y] = random_pair({5, i / 2, "place", 0}, static_cast<std::uint32_t>(d));
+      point.as_built[static_cast<Index>(d)] = static_cast<float>(x);
+      point.unit[static_cast<Index>(d)] = static_cast<float>(i % 3 == 0 ? x : y);
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+// The order was once found by distances from each face to all.
+TEST(Likeness, OrderIsThatOfASearchThroughAll) {
+  const auto points = points_of_many_dimensions(400);
+  const Likeness likeness = find_likeness(points, 6);
+  std::vector<bool> met(points.size(), false);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const std::size_t at = likeness.order[i];
+    met[at] = true;
+    std::size_t next = points.size();
+    for (std::size_t other = 0; other < points.size(); ++other) {
+      if (met[other]) continue;
+      if (next == points.size() || FaceSpace::distance(points[at], points[other]) <
+                                       FaceSpace::distance(points[at], points[next])) {
+        next = other;
+      }
+    }
+    ASSERT_EQ(likeness.order[i + 1], next) << "after " << i;
+  }
+  for (std::size_t face = 0; face < points.size(); ++face) {
+    std::vector<std::pair<double, std::size_t>> all;
+    for (std::size_t other = 0; other < points.size(); ++other) {
+      if (other != face) all.emplace_back(FaceSpace::distance(points[face], points[other]), other);
+    }
+    std::sort(all.begin(), all.end());
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_EQ(likeness.near[face][k].face, all[k].second) << face << ", number " << k;
+    }
+  }
+}
+
 TEST(Likeness, OrderNamesEveryFaceOnce) {
   Likeness likeness = find_likeness(random_points(211), 1);
   std::sort(likeness.order.begin(), likeness.order.end());

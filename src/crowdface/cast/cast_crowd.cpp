@@ -2,6 +2,7 @@
 #include "crowdface/cast/cast_crowd.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "crowdface/cast/apply_review.h"
 #include "crowdface/cast/face_search.h"
@@ -52,7 +53,8 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
 
 CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJoined& joined) {
   CrowdCast result;
-  CrowdSoFar crowd(judge.space().dimensions());
+  auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
+  CrowdSoFar& crowd = *so_far;
   for (const HandRecipe& hand : casting.recipes) {
     CastFace face = draw_hand_recipe(casting, hand);
     FaceSpace::Point point = judge.space().point(face.recipe);
@@ -78,8 +80,9 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJ
   } else {
     cast_first_fit(casting, judge, kinds, kinship, crowd, joined, result);
   }
-  result.crowd = crowd.faces();
-  result.points = crowd.points();
+  result.crowd = crowd.take_faces();
+  result.points = crowd.take_points();
+  so_far.reset();  // its index is as large as the points
   if (result.shortfall) return result;
   find_nearest(judge, result);
   for (const Review& review : casting.reviews) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "crowdface/cast/cast_face.h"
@@ -26,6 +27,9 @@ class CrowdSoFar {
   Index first_sampled() const { return first_sampled_; }
   const std::vector<CastFace>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }
+  /// Gives the faces, and where they lie, away; nothing may be asked afterwards.
+  std::vector<CastFace> take_faces() { return std::move(faces_); }
+  std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
   const FacePointIndex& index() const { return index_; }
 
  private:

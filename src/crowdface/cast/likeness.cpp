@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "crowdface/cast/likeness_tree.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 
 namespace crowdface {
@@ -10,45 +12,22 @@ namespace {
 
 constexpr std::size_t kBlock = 64;
 
-std::vector<double> distances_from(const std::vector<FaceSpace::Point>& points, std::size_t face) {
+/// The face farthest from the first; of equally far ones the first.
+std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
   std::vector<double> mm(points.size());
   parallel_for_each(points.size(), 16 * kBlock, [&](std::size_t other) {
-    mm[other] = FaceSpace::distance(points[face], points[other]);
+    mm[other] = FaceSpace::distance(points[0], points[other]);
   });
-  return mm;
+  return static_cast<std::size_t>(std::max_element(mm.begin(), mm.end()) - mm.begin());
 }
 
-std::vector<Neighbour> nearest_of(const std::vector<FaceSpace::Point>& points, std::size_t face,
-                                  std::size_t count) {
-  std::vector<Neighbour> near;
-  for (std::size_t other = 0; other < points.size(); ++other) {
-    if (other == face) continue;
-    const double mm = FaceSpace::distance(points[face], points[other]);
-    if (near.size() == count && mm >= near.back().mm) continue;
-    const auto at = std::upper_bound(near.begin(), near.end(), mm,
-                                     [](double value, const Neighbour& n) { return value < n.mm; });
-    near.insert(at, {other, mm});
-    if (near.size() > count) near.pop_back();
-  }
-  return near;
-}
-
-std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points) {
-  std::vector<std::size_t> order;
-  std::vector<bool> met(points.size(), false);
-  const std::vector<double> from_first = distances_from(points, 0);
-  auto at = static_cast<std::size_t>(std::max_element(from_first.begin(), from_first.end()) -
-                                     from_first.begin());
+std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points, LikenessTree& tree) {
+  std::vector<std::size_t> order = {farthest_from_first(points)};
   while (true) {
-    met[at] = true;
-    order.push_back(at);
+    throw_if_interrupted();
+    tree.remove(order.back());
     if (order.size() == points.size()) return order;
-    const std::vector<double> mm = distances_from(points, at);
-    std::size_t next = points.size();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!met[i] && (next == points.size() || mm[i] < mm[next])) next = i;
-    }
-    at = next;
+    order.push_back(tree.nearest(order.back(), 1).front().face);
   }
 }
 
@@ -57,12 +36,14 @@ std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points) {
 Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbours) {
   Likeness likeness;
   if (points.empty()) return likeness;
-  likeness.order = walk(points);
+  LikenessTree tree(points);
   likeness.near.resize(points.size());
-  if (neighbours == 0) return likeness;
-  parallel_for_each(points.size(), kBlock, [&](std::size_t face) {
-    likeness.near[face] = nearest_of(points, face, neighbours);
-  });
+  if (neighbours > 0) {
+    parallel_for_each(points.size(), kBlock, [&](std::size_t face) {
+      likeness.near[face] = tree.nearest(face, neighbours);
+    });
+  }
+  likeness.order = walk(points, tree);
   return likeness;
 }
 

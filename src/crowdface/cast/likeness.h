@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "crowdface/cast/face_space.h"
+#include "crowdface/cast/neighbour.h"
 
 namespace crowdface {
-
-/// Another face and how far it is.
-struct Neighbour {
-  std::size_t face = 0;
-  double mm = 0;
-};
 
 /// Who looks like whom in a whole crowd, whatever the order it was cast in.
 struct Likeness {
@@ -22,7 +17,7 @@ struct Likeness {
 
 /// The order is a walk that always goes on to the nearest face that is left, from the face farthest
 /// from the first: two faces that are each other's nearest always stand side by side. Of equally near
-/// faces the first counts. Time grows with the square of the number of faces.
+/// faces the first counts. \throws Interrupted.
 /// \param neighbours  how many to keep for each face.
 Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbours);
 

@@ -42,15 +42,20 @@ std::optional<LedgerEntry::File> file_of(const Json& json) {
   return LedgerEntry::File{*name, {bytes->get<std::uint64_t>(), *hash}};
 }
 
-/// How many files stand in each folder of the crowd, as JSON; "." are those in none.
-std::string count_files(const std::vector<LedgerEntry>& entries) {
-  std::map<std::string, std::size_t> counts;
-  for (const LedgerEntry& entry : entries) {
-    for (const LedgerEntry::File& file : entry.files) {
-      const std::size_t slash = file.name.find('/');
-      ++counts[slash == file.name.npos ? "." : file.name.substr(0, slash)];
-    }
+/// How many files stand in each folder of the crowd; "." are those in none.
+using FileCounts = std::map<std::string, std::size_t>;
+
+void add_counts(const LedgerEntry& entry, FileCounts& counts) {
+  for (const LedgerEntry::File& file : entry.files) {
+    const std::size_t slash = file.name.find('/');
+    ++counts[slash == file.name.npos ? "." : file.name.substr(0, slash)];
   }
+}
+
+/// The same as JSON.
+std::string count_files(const std::vector<LedgerEntry>& entries) {
+  FileCounts counts;
+  for (const LedgerEntry& entry : entries) add_counts(entry, counts);
   return Json(counts).dump();
 }
 
@@ -245,10 +250,13 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
 }
 
 void Ledger::settle() {
-  std::vector<LedgerEntry> in_order;
-  for (const auto& [item, entry] : done_) in_order.push_back(entry);
-  std::string text = format_all(in_order);
-  text += format_all({{kEndItem, hash_bytes(text), {}, count_files(in_order)}});
+  std::string text;
+  FileCounts counts;
+  for (const auto& [item, entry] : done_) {
+    text += format_ledger_line(entry) + '\n';
+    add_counts(entry, counts);
+  }
+  text += format_all({{kEndItem, hash_bytes(text), {}, Json(counts).dump()}});
   if (settled_ != text) write_file(own_, text);
   for (const fs::path& other : others_) {
     std::error_code error;

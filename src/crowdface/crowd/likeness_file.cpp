@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/crowd/likeness_file.h"
 
-#include <stdexcept>
+#include <array>
+#include <map>
 #include <unordered_map>
 
 #include <nlohmann/json.hpp>
@@ -10,11 +11,75 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Takes the file's values as they come; stops at the first that does not belong there.
+class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  explicit LikenessReader(const std::vector<std::string>& ids) {
+    for (std::size_t i = 0; i < ids.size(); ++i) rows_.emplace(ids[i], i);
+    likeness.near.resize(ids.size());
+  }
+
+  std::map<std::string, std::vector<double>> anchors;
+  Likeness likeness;
+  std::size_t named = 0;  ///< faces whose neighbours stand there
+
+  bool start_object(std::size_t) override { return ++depth_ <= kDeepest; }
+  bool start_array(std::size_t) override { return ++depth_ <= kDeepest; }
+  bool end_object() override { return depth_-- > 0; }
+  bool end_array() override { return depth_-- > 0; }
+  bool key(std::string& key) override {
+    if (depth_ < 1) return false;
+    keys_[depth_ - 1] = key;
+    if (depth_ != 2 || keys_[0] != "nearest") return true;
+    ++named;
+    return rows_.contains(key);
+  }
+  bool string(std::string& value) override {
+    const auto row = rows_.find(value);
+    if (depth_ != 2 || keys_[0] != "order" || row == rows_.end()) return false;
+    likeness.order.push_back(row->second);
+    return true;
+  }
+  bool number_float(double value, const std::string&) override {
+    if (depth_ != kDeepest) return false;
+    if (keys_[0] == "heads") {
+      anchors[keys_[1]].push_back(value);
+      return true;
+    }
+    const auto face = rows_.find(keys_[1]), other = rows_.find(keys_[2]);
+    if (keys_[0] != "nearest" || face == rows_.end() || other == rows_.end()) return false;
+    likeness.near[face->second].push_back({other->second, value});
+    return true;
+  }
+  bool number_integer(std::int64_t value) override {
+    return number_float(static_cast<double>(value), {});
+  }
+  bool number_unsigned(std::uint64_t value) override {
+    return number_float(static_cast<double>(value), {});
+  }
+  bool null() override { return false; }
+  bool boolean(bool) override { return false; }
+  bool binary(nlohmann::json::binary_t&) override { return false; }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override {
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kDeepest = 3;
+
+  std::unordered_map<std::string, std::size_t> rows_;
+  std::size_t depth_ = 0;
+  std::array<std::string, kDeepest> keys_;  ///< of the objects around a value
+};
+
+}  // namespace
 
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points) {
@@ -28,44 +93,47 @@ CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
 
 std::string format_likeness(const CrowdLikeness& likeness, const PlanNames& names,
                             const std::vector<std::string>& ids) {
-  Json json;
-  json["heads"] = Json::object();
+  Json heads = {{"heads", Json::object()}};
   for (std::size_t h = 0; h < names.heads.size(); ++h) {
-    json["heads"][names.heads[h]] = {likeness.anchors[h].x(), likeness.anchors[h].y()};
+    heads["heads"][names.heads[h]] = {likeness.anchors[h].x(), likeness.anchors[h].y()};
   }
-  json["order"] = Json::array();
-  for (const std::size_t face : likeness.likeness.order) json["order"].push_back(ids[face]);
-  json["nearest"] = Json::object();
+  // What is said of faces goes into the text one by one: a value would look through all keys for each.
+  std::string text = heads.dump(1);
+  text.resize(text.size() - std::string_view("\n}").size());
+  text += ",\n \"order\": [";
+  std::size_t written = 0;
+  for (const std::size_t face : likeness.likeness.order) {
+    text += concat(written++ > 0 ? ",\n  " : "\n  ", Json(ids[face]).dump());
+  }
+  text += written > 0 ? "\n ],\n \"nearest\": {" : "],\n \"nearest\": {";
   for (std::size_t face = 0; face < ids.size(); ++face) {
-    Json& near = json["nearest"][ids[face]] = Json::object();
-    for (const Neighbour& other : likeness.likeness.near[face]) {
-      near[ids[other.face]] = other.mm;
+    text += concat(face > 0 ? ",\n  " : "\n  ", Json(ids[face]).dump(), ": {");
+    const std::vector<Neighbour>& near = likeness.likeness.near[face];
+    for (std::size_t n = 0; n < near.size(); ++n) {
+      text += concat(n > 0 ? ",\n   " : "\n   ", Json(ids[near[n].face]).dump(), ": ",
+                     Json(near[n].mm).dump());
     }
+    text += near.empty() ? "}" : "\n  }";
   }
-  return concat(json.dump(1), "\n");
+  return text + (ids.empty() ? "}\n}\n" : "\n }\n}\n");
 }
 
 CrowdLikeness read_likeness(const std::filesystem::path& path, const PlanNames& names,
                             const std::vector<std::string>& ids) {
-  std::unordered_map<std::string, std::size_t> rows;
-  for (std::size_t i = 0; i < ids.size(); ++i) rows.emplace(ids[i], i);
-  const Json json = parse_shallow_json(read_file(path));
+  const MappedFile file(path);
+  LikenessReader reader(ids);
   CrowdLikeness result;
-  try {
+  if (nlohmann::json::sax_parse(file.bytes(), &reader)) {
     for (const std::string& head : names.heads) {
-      const Json& anchor = json.at("heads").at(head);
-      result.anchors.emplace_back(anchor.at(0).get<double>(), anchor.at(1).get<double>());
+      const auto anchor = reader.anchors.find(head);
+      if (anchor == reader.anchors.end() || anchor->second.size() != 2) break;
+      result.anchors.emplace_back(anchor->second[0], anchor->second[1]);
     }
-    for (const Json& id : json.at("order")) result.likeness.order.push_back(rows.at(id));
-    for (const std::string& id : ids) {
-      std::vector<Neighbour>& near = result.likeness.near.emplace_back();
-      for (const auto& [other, mm] : json.at("nearest").at(id).items()) {
-        near.push_back({rows.at(other), mm.get<double>()});
-      }
+    result.likeness = std::move(reader.likeness);
+    if (result.anchors.size() == names.heads.size() && reader.named == ids.size() &&
+        result.likeness.order.size() == ids.size()) {
+      return result;
     }
-    if (result.likeness.order.size() == ids.size()) return result;
-  } catch (const Json::exception&) {    // of another shape
-  } catch (const std::out_of_range&) {  // names another crowd's face
   }
   throw InvalidInput(concat(path.string(), ": expected the likeness of the faces in plan.jsonl, ",
                             "found something else; crowdface generate writes it anew"));

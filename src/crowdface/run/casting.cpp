@@ -348,7 +348,10 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   for (FamilyCast& family : crowd.families) {
     result.founders.push_back({family.name, std::move(family.founder)});
   }
-  result.points = std::move(crowd.points);
+  // Of a million faces they take a gigabyte.
+  if (config.output.contact_sheet || !config.groups.empty()) {
+    result.points = std::move(crowd.points);
+  }
   result.kinds = std::move(crowd.kinds);
   result.rejected = std::move(crowd.rejected);
   result.rejections = crowd.rejections;

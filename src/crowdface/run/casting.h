@@ -57,8 +57,9 @@ struct Cast {
   CrowdDistances distances;
   std::vector<FamilyReport> families;
   std::vector<FamilyFounder> founders;
-  std::vector<CastFace> rejected;        ///< by reviews
-  std::vector<FaceSpace::Point> points;  ///< of each face of the crowd
+  std::vector<CastFace> rejected;  ///< by reviews
+  std::vector<FaceSpace::Point>
+      points;  ///< of each face of the crowd; none if there are neither sheets nor groups
 };
 
 /// What may sit on the faces of a config's crowd.

@@ -127,36 +127,41 @@ std::string report_key(MeshFormat format) {
   return format == MeshFormat::kObj ? "mesh" : std::string(name_of(format));
 }
 
-Json faces_to_json(const Cast& cast, const std::vector<FaceFiles>& files) {
-  Json faces = Json::array();
-  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
-    Json face = {{"id", cast.crowd[i].id}};
-    for (const MeshFile& mesh : files[i].meshes) {
-      const MeshName& name = mesh.name;
-      const std::string file =
-          name.level > 0 || !name.shape.empty() ? file_end(name).substr(1) : "";
-      if (name.level > 0) {
-        face["lods"][file] = mesh.digest.hex();
-      } else if (name.is_attachment) {
-        face["attachments"][file] = mesh.digest.hex();
-      } else if (name.shape == kFollowingPoints) {
-        face["following_points"] = mesh.digest.hex();
-      } else if (name.shape.empty()) {
-        face[report_key(name.format)] = mesh.digest.hex();
-      } else {
-        face["shapes"][file] = mesh.digest.hex();
-      }
+Json face_to_json(const std::string& id, const FaceFiles& files) {
+  Json face = {{"id", id}};
+  for (const MeshFile& mesh : files.meshes) {
+    const MeshName& name = mesh.name;
+    const std::string file = name.level > 0 || !name.shape.empty() ? file_end(name).substr(1) : "";
+    if (name.level > 0) {
+      face["lods"][file] = mesh.digest.hex();
+    } else if (name.is_attachment) {
+      face["attachments"][file] = mesh.digest.hex();
+    } else if (name.shape == kFollowingPoints) {
+      face["following_points"] = mesh.digest.hex();
+    } else if (name.shape.empty()) {
+      face[report_key(name.format)] = mesh.digest.hex();
+    } else {
+      face["shapes"][file] = mesh.digest.hex();
     }
-    if (files[i].skin) {
-      const SkinDefects& skin = *files[i].skin;
-      face["skin"] = {
-          {"triangles", skin.local.compared},       {"flipped", skin.local.flipped},
-          {"stretch", rounded(skin.local.stretch)}, {"intersecting", skin.intersecting},
-          {"wider_mm", rounded(skin.wider_mm)},     {"exposed_mm2", rounded(skin.exposed_mm2)}};
-    }
-    faces.push_back(std::move(face));
   }
-  return faces;
+  if (files.skin) {
+    const SkinDefects& skin = *files.skin;
+    face["skin"] = {
+        {"triangles", skin.local.compared},       {"flipped", skin.local.flipped},
+        {"stretch", rounded(skin.local.stretch)}, {"intersecting", skin.intersecting},
+        {"wider_mm", rounded(skin.wider_mm)},     {"exposed_mm2", rounded(skin.exposed_mm2)}};
+  }
+  return face;
+}
+
+/// Two blanks a level, as the whole report has.
+std::string indented(const Json& json, std::size_t levels) {
+  std::string text;
+  for (const char c : json.dump(2, ' ', false, Json::error_handler_t::replace)) {
+    text += c;
+    if (c == '\n') text.append(2 * levels, ' ');
+  }
+  return text;
 }
 
 }  // namespace
@@ -182,9 +187,16 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["distances"] = distances_to_json(cast.distances);
   report["casting"] = casting_to_json(job.config, cast);
   report["warnings"] = warnings;
-  report["faces"] = faces_to_json(cast, files);
   // Warnings may name files whose names are not UTF-8.
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace);
+  // The faces follow one by one: as values they would take three times their text.
+  text.resize(text.size() - std::string_view("\n}").size());
+  text += ",\n  \"faces\": [";
+  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
+    text +=
+        concat(i > 0 ? ",\n    " : "\n    ", indented(face_to_json(cast.crowd[i].id, files[i]), 2));
+  }
+  return text + (cast.crowd.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
 std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
