@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The crowd as the page knows it: faces with what is derived from their recipes, filters and orders.
 
-/// \param data  data/crowd.js: name, seed, regions, bands, shapes (if there are any), heads, faces (the plan's lines), near, likeness.
-export function readCrowd(data) {
-  const heads = new Map(data.heads.map((head) => [head.name, head]));
-  const faces = data.faces.map((recipe, order) => ({
+import { loadScript } from './dom.js';
+
+function facesOf(data, heads) {
+  return data.faces.map((recipe, order) => ({
     ...recipe,
     order,
     tags: heads.get(recipe.target)?.tags ?? [],
@@ -12,8 +12,73 @@ export function readCrowd(data) {
     byHand: recipe.index === null && recipe.family === null,
     near: (data.near[order] ?? []).map(([other, mm]) => ({ id: data.faces[other].id, mm })),
     likeness: data.likeness[order] ?? order,
+    folder: '',
     picture: data.pictures ? `../renders/${encodeURIComponent(recipe.id)}.png` : null,
   }));
+}
+
+/// The subfolder of a face by the number that its id ends with, as the program has it.
+export function folderOf(id, facesPerFolder) {
+  const number = Number(id.match(/\d{0,15}$/)[0] || '0');
+  return `${String(Math.floor(number / facesPerFolder)).padStart(3, '0')}/`;
+}
+
+/// A face of a large crowd: what all are filtered and ordered by. Its recipe comes with loadFace.
+class LightFace {
+  constructor(data, order, target) {
+    const { columns } = data;
+    this.order = order;
+    this.id = columns.id[order];
+    this.target = target.name;
+    this.tags = target.tags;
+    this.attempt = columns.attempt[order];
+    this.family = columns.family?.[order] ?? null;
+    this.group = columns.group?.[order] ?? null;
+    this.near = [];
+    this.nearMm = columns.near_mm[order];
+    this.headMm = columns.head_mm[order];
+    this.likeness = data.likeness[order];
+    if (columns.attachments) this.attachments = columns.attachments[order];
+    this.crowd = data;
+  }
+
+  get byHand() { return Boolean(this.crowd.columns.by_hand[this.order]); }
+  get parents() { return this.crowd.columns.parents[this.order]; }
+  get note() { return this.crowd.columns.note[this.order]; }
+  get regions() { return this.recipe?.regions ?? this.crowd.on_plane[this.order]; }
+  get folder() { return folderOf(this.id, this.crowd.faces_per_page); }
+  get picture() {
+    return this.crowd.pictures ? `../renders/${this.folder}${encodeURIComponent(this.id)}.png` : null;
+  }
+}
+for (const name of ['nearest', 'mixture', 'age', 'asymmetry', 'mirrored', 'mother_share', 'inherits']) {
+  Object.defineProperty(LightFace.prototype, name, { get() { return this.recipe?.[name]; } });
+}
+
+/// Whether all that is known of a face is there.
+export const isLoaded = (face) => !(face instanceof LightFace) || Boolean(face.recipe);
+
+/// Loads the page of recipes that a face of a large crowd stands on.
+export async function loadFace(crowd, face) {
+  if (isLoaded(face)) return;
+  const length = crowd.faces_per_page;
+  const number = Math.floor(face.order / length);
+  await loadScript(`data/pages/${String(number).padStart(3, '0')}.js`);
+  const page = window.crowdface.pages[number];
+  page.faces.forEach((recipe, at) => {
+    const one = crowd.faces[number * length + at];
+    one.recipe = recipe;
+    one.near = page.near[at].map(([other, mm]) => ({ id: crowd.faces[other].id, mm }));
+  });
+}
+
+/// \param data  data/crowd.js: name, seed, regions, bands, shapes (if there are any), heads, faces (the plan's lines), near, likeness;
+///   of a large crowd columns and faces_per_page in place of faces and near.
+export function readCrowd(data) {
+  const heads = new Map(data.heads.map((head) => [head.name, head]));
+  const faces = data.columns
+    ? data.columns.target.map((target, order) => new LightFace(data, order, data.heads[target]))
+    : facesOf(data, heads);
   const present = (values) => [...new Set(values)].sort();
   return {
     ...data,
@@ -29,7 +94,8 @@ export function readCrowd(data) {
     bands: data.bands ?? [],
     shapes: data.shapes ?? [],
     locks: [...(data.regions.length > 1 ? data.regions : []), ...(data.bands ?? [])],
-    tags: present(faces.flatMap((face) => face.tags)),
+    tags: present(data.columns ? data.heads.flatMap((head) => head.tags) : faces.flatMap((face) => face.tags)),
+    onPlane: data.columns ? Object.keys(data.on_plane).map((order) => faces[order]) : faces,
   };
 }
 
@@ -63,15 +129,20 @@ export function relativesOf(crowd, face) {
 
 /// How near the nearest other face of the whole crowd is.
 export function nearestMm(face) {
-  return face.near.length > 0 ? face.near[0].mm : face.nearest?.crowd_mm ?? Infinity;
+  return face.near.length > 0 ? face.near[0].mm : face.nearMm ?? face.nearest?.crowd_mm ?? Infinity;
 }
+
+/// How near the nearest head is.
+const headMm = (face) => face.headMm ?? face.nearest?.face_mm ?? Infinity;
+
+const byId = new Intl.Collator('en', { numeric: true });
 
 const orders = {
   plan: (a, b) => a.order - b.order,
-  id: (a, b) => a.id.localeCompare(b.id, 'en', { numeric: true }),
+  id: (a, b) => byId.compare(a.id, b.id),
   distance: (a, b) => nearestMm(a) - nearestMm(b) || a.order - b.order,
   far: (a, b) => nearestMm(b) - nearestMm(a) || a.order - b.order,
-  head: (a, b) => (a.nearest?.face_mm ?? Infinity) - (b.nearest?.face_mm ?? Infinity),
+  head: (a, b) => headMm(a) - headMm(b),
   likeness: (a, b) => a.likeness - b.likeness,
   group: (a, b) =>
     (a.group ?? '\uffff').localeCompare(b.group ?? '\uffff') || a.order - b.order,
@@ -81,6 +152,7 @@ const orders = {
 
 /// What is asked for, word by word: each word must occur in the id, family, group, target, tags, attachments or note.
 function matches(face, words, mark) {
+  if (words.length === 0) return true;
   const text = [face.id, face.family, face.group, face.target, ...face.tags, ...(face.attachments ?? []), face.note, mark?.note]
     .filter(Boolean).join(' ').toLowerCase();
   return words.every((word) => text.includes(word));

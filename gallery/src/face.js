@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { el, short } from './dom.js';
-import { bandsOf, locksAll, relativesOf } from './crowd.js';
+import { bandsOf, isLoaded, loadFace, locksAll, relativesOf } from './crowd.js';
 import { picture } from './grid.js';
 import { Turntable } from './turntable.js';
 
@@ -37,9 +37,18 @@ export class FacePage {
   }
 
   /// \param faces  that the arrows walk through.
-  show(face, faces) {
+  async show(face, faces) {
     this.face = face;
     this.faces = faces;
+    if (!isLoaded(face)) {
+      try {
+        await loadFace(this.crowd, face);
+      } catch (error) {
+        if (this.face === face) this.say(`Nothing is known of it: ${error.message}.`);
+        return;
+      }
+      if (this.face !== face) return;
+    }
     this.title.textContent = face.id;
     const at = faces.indexOf(face);
     this.place.textContent = at >= 0 ? `${at + 1} of ${faces.length}` : '';
@@ -73,9 +82,10 @@ export class FacePage {
   /// Shows the face, its target or its nearest neighbour from the same side.
   async compare(what) {
     const { face } = this;
-    const near = face.near[0]?.id;
+    const near = this.crowd.byId.get(face.near[0]?.id);
     const subjects = {
-      face: ['data/faces/', face.id], target: ['data/heads/', face.target, `head ${face.target}`], near: ['data/faces/', near],
+      face: [`data/faces/${face.folder}`, face.id], target: ['data/heads/', face.target, `head ${face.target}`],
+      near: [`data/faces/${near?.folder ?? ''}`, near?.id],
     };
     const [folder, file, name = file] = subjects[what];
     this.compared = what;

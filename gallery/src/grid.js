@@ -14,15 +14,49 @@ export function picture(subject, name) {
   return el('div', { class: 'portrait' }, image);
 }
 
-/// All faces as cells, made once and put in order again and again.
+/// Faces as cells, a page of them at a time: of a crowd that is not large all on one.
 export class Grid {
   /// \param open, select  are called with a face.
   constructor(crowd, review, { open, select }) {
-    this.review = review;
-    this.node = el('div', { class: 'grid', role: 'list' });
-    this.cells = new Map(crowd.faces.map((face) => [face.id, this.cell(face, open, select)]));
+    Object.assign(this, { review, open, select_: select });
+    this.length = crowd.faces_per_page ?? Infinity;
+    this.page = 0;
+    this.cells = new Map(); // of the page that is shown; without pages of all faces
+    this.grid = el('div', { class: 'grid', role: 'list' });
+    this.place = el('span', {});
+    const turn = (by, text, title) => el('button', { onclick: () => this.turn(this.page + by), title }, text);
+    this.before = turn(-1, '‹ Earlier', 'The page before');
+    this.after = turn(1, 'Later ›', 'The next page');
+    this.pages = el('nav', { class: 'pages', hidden: true }, this.before, this.place, this.after);
+    this.node = el('div', {}, this.pages, this.grid);
     this.faces = [];
-    for (const face of crowd.faces) this.showMark(face);
+  }
+
+  cellOf(face) {
+    if (!this.cells.has(face.id)) {
+      this.cells.set(face.id, this.cell(face, this.open, this.select_));
+      this.showMark(face);
+    }
+    return this.cells.get(face.id);
+  }
+
+  /// Shows a page of the faces, from 0.
+  turn(page) {
+    const pages = Math.max(1, Math.ceil(this.faces.length / this.length));
+    this.page = Math.max(0, Math.min(pages - 1, page));
+    const first = pages > 1 ? this.page * this.length : 0;
+    const shown = pages > 1 ? this.faces.slice(first, first + this.length) : this.faces;
+    if (this.length < Infinity) this.cells.clear();
+    this.pages.hidden = pages === 1;
+    this.place.textContent = `${first + 1} to ${first + shown.length} of ${this.faces.length}`;
+    this.before.disabled = this.page === 0;
+    this.after.disabled = this.page === pages - 1;
+    this.grid.replaceChildren(
+      ...(shown.length > 0
+        ? shown.map((face) => this.cellOf(face))
+        : [el('p', { class: 'nothing' }, 'No face passes these filters.')]));
+    if (this.selected) this.cells.get(this.selected.id)?.classList.add('selected');
+    if (pages > 1) this.node.parentNode?.scrollTo(0, 0);
   }
 
   cell(face, open, select) {
@@ -49,14 +83,14 @@ export class Grid {
 
   show(faces) {
     this.faces = faces;
-    this.node.replaceChildren(
-      ...(faces.length > 0
-        ? faces.map((face) => this.cells.get(face.id))
-        : [el('p', { class: 'nothing' }, 'No face passes these filters.')]));
+    this.turn(0);
   }
 
   select(face) {
-    this.node.querySelector('.selected')?.classList.remove('selected');
+    this.grid.querySelector('.selected')?.classList.remove('selected');
+    this.selected = face;
+    const at = face && this.length < Infinity ? this.faces.indexOf(face) : -1;
+    if (at >= 0 && Math.floor(at / this.length) !== this.page) this.turn(Math.floor(at / this.length));
     const cell = face && this.cells.get(face.id);
     cell?.classList.add('selected');
     cell?.scrollIntoView({ block: 'nearest' });
@@ -64,6 +98,7 @@ export class Grid {
 
   showMark(face) {
     const cell = this.cells.get(face.id);
+    if (!cell) return;
     const mark = this.review.of(face);
     cell.classList.toggle('keep', mark?.verdict === 'keep');
     cell.classList.toggle('reject', mark?.verdict === 'reject');
@@ -76,7 +111,7 @@ export class Grid {
 
   /// How many cells stand side by side, for the arrow keys.
   columns() {
-    const cells = [...this.node.children];
+    const cells = [...this.grid.children];
     const next = cells.findIndex((cell) => cell.offsetTop > cells[0].offsetTop);
     return next > 0 ? next : Math.max(1, cells.length);
   }

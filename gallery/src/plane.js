@@ -57,14 +57,16 @@ export class Plane {
 
   build() {
     const { at } = planeFrame(this.crowd.heads.map((head) => head.anchor).concat(
-      this.crowd.faces.flatMap((face) => Object.values(face.regions)
+      this.crowd.onPlane.flatMap((face) => Object.values(face.regions)
         .flatMap((region) => bandsOf(this.crowd, region).map(([, numbers]) => numbers.position)).filter(Boolean))));
     const choose = el('select', { onchange: () => this.recolour(choose.value) },
       el('option', { value: 'target' }, 'target'), el('option', { value: 'family' }, 'family'),
       el('option', { value: 'mark' }, 'mark'));
     const regions = this.crowd.regions.length > 0 ? this.crowd.regions : ['all'];
     this.node.append(
-      el('div', { class: 'planebar' }, el('label', {}, 'Colour by ', choose), this.legend),
+      el('div', { class: 'planebar' }, el('label', {}, 'Colour by ', choose), this.legend,
+        this.crowd.onPlane.length < this.crowd.faces.length
+          ? el('span', { class: 'muted' }, `${this.crowd.onPlane.length} of ${this.crowd.faces.length} faces, evenly from the plan`) : null),
       el('div', { class: 'panels' }, regions.flatMap((name) => (this.crowd.bands.length > 0
         ? this.crowd.bands.map((band) => this.panel(name, at, band)) : [this.panel(name, at)]))), this.tip);
     this.recolour('target');
@@ -73,7 +75,7 @@ export class Plane {
   panel(name, at, band = '') {
     const dots = el('g', {});
     let missing = 0;
-    for (const face of this.crowd.faces) {
+    for (const face of this.crowd.onPlane) {
       const region = face.regions[name];
       const position = region && new Map(bandsOf(this.crowd, region)).get(band).position;
       if (!position) {
@@ -109,7 +111,7 @@ export class Plane {
     const entries = by === 'mark' ? Object.entries(markColours) : names.map((n) => [n, colour(n)]);
     this.legend.replaceChildren(...entries.map(([name, value]) =>
       el('span', {}, el('i', { style: `background:${value}` }), name)));
-    for (const face of this.crowd.faces) this.showMark(face);
+    for (const face of this.crowd.onPlane) this.showMark(face);
   }
 
   showMark(face) {

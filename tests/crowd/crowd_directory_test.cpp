@@ -22,6 +22,19 @@ TEST(CrowdDirectory, SheetsCountFromOneWithThreeDigits) {
   EXPECT_EQ(directory.sheet(1234), "/crowd/sheets/sheet_1234.png");
 }
 
+TEST(CrowdDirectory, AFaceLiesWhereTheNumberAtItsIdsEndSays) {
+  const CrowdDirectory flat{"/crowd"}, numbered{"/crowd", 1000};
+  EXPECT_EQ(flat.mesh("mob_012345", MeshFormat::kObj), "/crowd/meshes/mob_012345.obj");
+  EXPECT_EQ(numbered.mesh("mob_012345", MeshFormat::kObj), "/crowd/meshes/012/mob_012345.obj");
+  EXPECT_EQ(numbered.render("mob_000999"), "/crowd/renders/000/mob_000999.png");
+  EXPECT_EQ(numbered.gallery_face("mob_1000000"), "/crowd/gallery/data/faces/1000/mob_1000000.js");
+  EXPECT_EQ(numbered.folder_of("anna"), "000");
+  EXPECT_EQ(numbered.folder_of("4711"), "004");
+  EXPECT_EQ(numbered.folder_of("smith_2b"), "000");
+  EXPECT_EQ(numbered.folder_of("x99999999999999999999"), "999999999999");
+  EXPECT_EQ(numbered.sheet(12'345), "/crowd/sheets/012/sheet_12345.png");
+}
+
 TEST(CrowdDirectory, RefusalNamesTheKeyThatDiffers) {
   const testing::TemporaryFolder folder;
   const CrowdDirectory directory{folder / "crowd"};

@@ -218,6 +218,8 @@ struct Config {
     Subdivision subdivision = Subdivision::kNone;  ///< what USD meshes say of themselves
     std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
     Gallery gallery = Gallery::kAuto;
+    /// Numbered subfolders of meshes, renders, … hold so many; none, 0: all in one folder.
+    std::optional<std::uint64_t> faces_per_folder;
     std::map<std::string, SurfaceChoice> surfaces;  ///< by the material's name
   } output;
 

@@ -13,6 +13,7 @@ using Output = Config::Output;
 using With = Config::Comparison::With;
 
 constexpr double kLongestScaleMm = 1000;
+constexpr std::uint64_t kMostFacesPerFolder = 1'000'000;
 
 void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
   const auto file = path("none, target, nearest, or a file or crowd folder").read(node, draft);
@@ -201,6 +202,7 @@ const Keys<Output>& output_keys() {
       {"lods", read_lods, write_lods},
       word_key("subdivision", &Output::subdivision),
       word_key("gallery", &Output::gallery),
+      key("faces_per_folder", &Output::faces_per_folder, whole(0, kMostFacesPerFolder)),
       {"surfaces", read_surfaces, write_surfaces},
       {"contact_sheet", read_contact_sheet, write_contact_sheet, {}, starter_sheet}};
   return keys;

@@ -34,19 +34,22 @@ void remove_file(const fs::path& path) {
 /// Those that a crowd may have, parents first.
 std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
   const fs::path data = directory.gallery() / "data";
-  return {directory.meshes(),
-          directory.topology(),
-          directory.blended(),
-          directory.renders(),
-          directory.head_render("").parent_path(),
-          directory.founder_render("").parent_path(),
-          directory.sheets(),
-          directory.reviews(),
-          directory.gallery(),
-          data,
-          data / "attachments",
-          data / "faces",
-          data / "heads"};
+  std::vector<fs::path> folders;
+  for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
+    folders.insert(folders.end(), {folder, folder / kBlendedFolder});
+  }
+  for (const fs::path& folder : {directory.renders(), directory.sheets()}) {
+    for (const fs::path& each : with_numbered_folders(folder)) folders.push_back(each);
+  }
+  folders.insert(folders.end(),
+                 {directory.topology(), directory.head_render("").parent_path(),
+                  directory.founder_render("").parent_path(), directory.reviews(),
+                  directory.gallery(), data, data / "attachments", directory.gallery_pages()});
+  for (const fs::path& each : with_numbered_folders(directory.gallery_faces())) {
+    folders.push_back(each);
+  }
+  folders.push_back(data / "heads");
+  return folders;
 }
 
 std::vector<fs::path> record_files(const CrowdDirectory& directory) {
@@ -62,18 +65,25 @@ void remove_crowd(const CrowdDirectory& directory) {
   if (fs::exists(directory.plan(), ignored)) {
     const std::vector<std::string> ids = ids_in_plan(read_file(directory.plan()));
     const std::set<std::string> known(ids.begin(), ids.end());
-    for (const fs::path& file : list_files(directory.meshes(), [&](const fs::path& path) {
-           const std::string name = path.filename().string();
-           const std::size_t plus = name.find('+');
-           return plus != std::string::npos && known.contains(name.substr(0, plus)) &&
-                  (mesh_format_of(path).has_value() || name.substr(plus + 1) == kFollowingPoints);
-         })) {
-      remove_file(file);
+    const auto is_mesh = [&](const fs::path& path) {
+      const std::string name = path.filename().string();
+      const std::size_t plus = name.find('+');
+      if (plus == name.npos) {
+        return (mesh_format_of(path).has_value() || path.extension() == ".mtl") &&
+               known.contains(path.stem().string());
+      }
+      return known.contains(name.substr(0, plus)) &&
+             (mesh_format_of(path).has_value() || name.substr(plus + 1) == kFollowingPoints);
+    };
+    for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
+      for (const fs::path& file : list_files(folder, is_mesh)) remove_file(file);
     }
-    for (const std::string& id : ids) {
-      for (const MeshFormat format : all_mesh_formats()) remove_file(directory.mesh(id, format));
-      remove_file(directory.meshes() / (id + ".mtl"));
-      remove_file(directory.render(id));
+    for (const fs::path& folder : with_numbered_folders(directory.renders())) {
+      for (const fs::path& file : list_files(folder, [&](const fs::path& path) {
+             return path.extension() == ".png" && known.contains(path.stem().string());
+           })) {
+        remove_file(file);
+      }
     }
   }
   const auto remove_files = [](const fs::path& folder, const auto& is_ours) {
@@ -82,11 +92,16 @@ void remove_crowd(const CrowdDirectory& directory) {
   for (const fs::path& sheet : crowd_sheets(directory)) remove_file(sheet);
   remove_files(directory.head_render("").parent_path(), has_ending(".png"));
   remove_files(directory.founder_render("").parent_path(), has_ending(".png"));
-  remove_files(directory.blended(), has_ending(".png"));
-  remove_files(directory.blended(), has_ending(".jpg"));
+  for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
+    remove_files(folder / kBlendedFolder, has_ending(".png"));
+    remove_files(folder / kBlendedFolder, has_ending(".jpg"));
+  }
+  for (const fs::path& folder : with_numbered_folders(directory.gallery_faces())) {
+    remove_files(folder, has_ending(".js"));
+  }
   for (const fs::path& folder :
-       {directory.gallery_face("").parent_path(), directory.gallery_head("").parent_path(),
-        directory.gallery_attachment("").parent_path(), directory.gallery() / "data"}) {
+       {directory.gallery_head("").parent_path(), directory.gallery_attachment("").parent_path(),
+        directory.gallery_pages(), directory.gallery() / "data"}) {
     remove_files(folder, has_ending(".js"));
   }
   for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);
@@ -271,7 +286,10 @@ std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
       for (const LedgerEntry::File& file : entry.files) recorded.insert(file.name);
     }
   }
-  std::vector<fs::path> sheets = list_folder(directory.sheets());
+  std::vector<fs::path> sheets;
+  for (const fs::path& folder : with_numbered_folders(directory.sheets())) {
+    for (fs::path& file : list_folder(folder)) sheets.push_back(std::move(file));
+  }
   std::erase_if(sheets, [&](const fs::path& path) {
     return !is_numbered_sheet(path) && !recorded.contains(directory.relative(path));
   });
@@ -279,7 +297,37 @@ std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
 }
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {
-  return sheets() / concat("sheet_", zero_padded(page, 3), ".png");
+  return sheets() / folder_of(std::to_string(page)) /
+         concat("sheet_", zero_padded(page, 3), ".png");
+}
+
+fs::path CrowdDirectory::folder_of(std::string_view id) const {
+  if (faces_per_folder == 0) return {};
+  constexpr std::size_t kMostDigits = 15;
+  const std::size_t last = id.find_last_not_of("0123456789");
+  std::string_view digits = id.substr(last == id.npos ? 0 : last + 1);
+  digits = digits.substr(digits.size() - std::min(digits.size(), kMostDigits));
+  return zero_padded(parse_unsigned(digits).value_or(0) / faces_per_folder, 3);
+}
+
+std::vector<std::string> one_of_each_folder(const CrowdDirectory& directory,
+                                            std::span<const CastFace> faces) {
+  std::set<fs::path> known;
+  std::vector<std::string> ids;
+  for (const CastFace& face : faces) {
+    if (known.insert(directory.folder_of(face.id)).second) ids.push_back(face.id);
+  }
+  return ids;
+}
+
+std::vector<fs::path> with_numbered_folders(const fs::path& folder) {
+  std::vector<fs::path> folders = list_files(folder, [](const fs::path& path) {
+    std::error_code ignored;
+    return path.filename().string().find_first_not_of("0123456789") == std::string::npos &&
+           fs::is_directory(path, ignored);
+  });
+  folders.insert(folders.begin(), folder);
+  return folders;
 }
 
 fs::path CrowdDirectory::review(std::size_t number) const {
@@ -295,7 +343,7 @@ std::vector<fs::path> CrowdDirectory::kept_reviews() const {
 
 fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format,
                               const std::string& part) const {
-  return meshes() / concat(id, part.empty() ? "" : "+", part, extension_of(format));
+  return meshes_of(id) / concat(id, part.empty() ? "" : "+", part, extension_of(format));
 }
 
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,

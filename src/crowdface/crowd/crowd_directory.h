@@ -2,13 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "crowdface/cast/cast_face.h"
 #include "crowdface/crowd/shard.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_format.h"
@@ -21,6 +24,8 @@ inline constexpr const char* kFollowingPoints = "points.json";
 /// Where things lie in a crowd's folder (docs/crowd-directory.md).
 struct CrowdDirectory {
   std::filesystem::path root;
+  /// Meshes, renders and the gallery's scripts lie in numbered subfolders of so many faces; 0: in none.
+  std::uint64_t faces_per_folder = 0;
 
   std::filesystem::path config() const { return root / "config.yaml"; }
   std::filesystem::path plan() const { return root / "plan.jsonl"; }
@@ -65,9 +70,16 @@ struct CrowdDirectory {
                              const std::string& part = {}) const;
   /// Arrays that say how positions alone (MeshFormat::kPoints) form faces.
   std::filesystem::path topology() const { return meshes() / "topology"; }
-  /// Textures of faces' own, which their material files name.
-  std::filesystem::path blended() const { return meshes() / kBlendedFolder; }
-  std::filesystem::path render(const std::string& id) const { return renders() / (id + ".png"); }
+  /// Where a face's meshes lie, and below them its textures, which its material file names.
+  std::filesystem::path meshes_of(const std::string& id) const { return meshes() / folder_of(id); }
+  std::filesystem::path blended_of(const std::string& id) const {
+    return meshes_of(id) / kBlendedFolder;
+  }
+  /// The way from a face's meshes to what all share, material files, say: "..", or nothing.
+  std::string shared_from_mesh() const { return faces_per_folder > 0 ? ".." : ""; }
+  std::filesystem::path render(const std::string& id) const {
+    return renders() / folder_of(id) / (id + ".png");
+  }
   std::filesystem::path head_render(const std::string& name) const {
     return renders() / "heads" / (name + ".png");
   }
@@ -76,9 +88,12 @@ struct CrowdDirectory {
   }
   std::filesystem::path likeness() const { return root / "likeness.json"; }
   std::filesystem::path gallery() const { return root / "gallery"; }
+  std::filesystem::path gallery_faces() const { return gallery() / "data/faces"; }
   std::filesystem::path gallery_face(const std::string& id) const {
-    return gallery() / "data/faces" / (id + ".js");
+    return gallery_faces() / folder_of(id) / (id + ".js");
   }
+  /// Recipes of a large crowd, as many a script as faces a subfolder.
+  std::filesystem::path gallery_pages() const { return gallery() / "data/pages"; }
   std::filesystem::path gallery_head(const std::string& name) const {
     return gallery() / "data/heads" / (name + ".js");
   }
@@ -89,9 +104,18 @@ struct CrowdDirectory {
   std::string relative(const std::filesystem::path& file) const {
     return file.lexically_relative(root).generic_string();
   }
-  /// Sheet number `page`, from 1.
+  /// Sheet number `page`, from 1; as many in a subfolder as faces.
   std::filesystem::path sheet(std::size_t page) const;
+  /// "012": the subfolder of a face by the number that its id ends with; empty: there are none.
+  std::filesystem::path folder_of(std::string_view id) const;
 };
+
+/// The id of a face in each of the subfolders that these faces lie in, or of one if there are none.
+std::vector<std::string> one_of_each_folder(const CrowdDirectory& directory,
+                                            std::span<const CastFace> faces);
+
+/// A folder and its numbered subfolders, which are there.
+std::vector<std::filesystem::path> with_numbered_folders(const std::filesystem::path& folder);
 
 /// Files of a crowd never land outside its folder, not by a link either.
 /// \throws CannotCreate if `folder`, in the crowd's folder, is such a link.

@@ -9,7 +9,7 @@
 namespace crowdface {
 
 std::optional<std::vector<CastFace>> crowd_of_job(const Job& job) {
-  const CrowdDirectory directory{job.config.output.directory};
+  const CrowdDirectory directory = directory_of(job.config);
   std::error_code ignored;
   if (!std::filesystem::exists(directory.plan(), ignored)) return std::nullopt;
   const auto refuse = [&](std::string_view why) {

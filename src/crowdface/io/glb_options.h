@@ -47,6 +47,8 @@ struct GlbOptions {
   std::size_t images = 0;                 ///< that each file brings along …
   std::string image_type = "image/png";   ///< … and of which format
   std::optional<GlbOverlay> overlay = {};
+  std::string shared =
+      ".";  ///< where GlbOverlay::kFile is found from files that do not bring it along
 };
 
 }  // namespace crowdface

@@ -22,10 +22,11 @@ std::string moved_below(const std::string& folder, const std::string& rest) {
 }  // namespace
 
 OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
-                           const std::vector<std::string>& libraries) {
+                           const std::vector<std::string>& libraries, const std::string& shared) {
   for (const MaterialFile& file : find_material_files(mesh, libraries).files) {
     if (!file.is_library) continue;
-    const std::string folder = file.relative.parent_path().generic_string();
+    std::string folder = file.relative.parent_path().generic_string();
+    if (!shared.empty()) folder = concat(shared, folder.empty() ? "" : "/", folder);
     const std::string text = read_file(file.from);
     std::string material;
     for (std::size_t begin = 0; begin < text.size();) {

@@ -12,7 +12,9 @@ namespace crowdface {
 class OwnMaterials {
  public:
   /// \param mesh, libraries  as find_material_files takes them; what cannot be read is left out.
-  OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries);
+  /// \param shared  the way from the new file to the textures that stay: ".."; empty: beside it.
+  OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
+               const std::string& shared = {});
 
   /// The text for a file beside the mesh. What a material names as its `map_Kd`, wherever it names it, is
   /// replaced; one that has none gets one, and white for its `Kd`. All else stays.

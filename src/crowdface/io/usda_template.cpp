@@ -119,9 +119,10 @@ std::string extent_of_points(const Positions& positions) {
 }
 
 std::string material_text(const std::string& path, const std::string& name,
-                          const GlbMaterial& material, std::span<const std::string> images) {
+                          const GlbMaterial& material, std::span<const std::string> images,
+                          const std::string& shared) {
   const std::string picture = material.image     ? images[*material.image]
-                              : material.overlay ? concat("./", GlbOverlay::kFile)
+                              : material.overlay ? concat(shared, '/', GlbOverlay::kFile)
                                                  : std::string();
   const std::string inner = "            ";
   const std::string deep = inner + "    ";
@@ -175,7 +176,8 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
       subdivision_(subdivision),
       frame_(usda_frame(options.unit, options.up)),
       turn_(turn_of(options)),
-      surfaces_(options.materials) {
+      surfaces_(options.materials),
+      shared_(options.shared) {
   if (topology.face_count() == 0) throw InvalidInput("USD: expected a mesh with faces");
   add_mesh(topology, uvs, options);
   UsdaNames names, point_names;
@@ -317,7 +319,7 @@ void UsdaTemplate::add_materials(EncodedFile& file, const std::string& root,
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     if (materials_[m].empty()) continue;
     file.add(material_text(concat(root, "/materials/", materials_[m]), materials_[m], surfaces_[m],
-                           images));
+                           images, shared_));
   }
   file.add("    }\n");
 }

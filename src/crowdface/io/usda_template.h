@@ -56,6 +56,7 @@ class UsdaTemplate {
   std::string turn_;   ///< of the mesh, where the stage's axes are others
   std::string faces_;  ///< what describes the mesh beside its vectors
   std::vector<GlbMaterial> surfaces_;
+  std::string shared_;                  ///< see GlbOptions
   std::vector<std::string> materials_;  ///< prims' names of these; of no face: empty
   std::vector<std::string> subsets_;    ///< their faces
   std::vector<std::string> shapes_;     ///< prims' names of the targets …

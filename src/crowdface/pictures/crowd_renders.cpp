@@ -40,9 +40,12 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
       most_texels_(shown_texels(sheet)),
       worn_surfaces_(most_texels_, textured_) {}
 
-void CrowdRenders::make_folders(const CrowdDirectory& directory) const {
-  make_directories(directory.renders());
-  if (gallery_ != nullptr) make_directories(directory.gallery_face("").parent_path());
+void CrowdRenders::make_folders(const CrowdDirectory& directory,
+                                const std::vector<CastFace>& faces) const {
+  for (const std::string& id : one_of_each_folder(directory, faces)) {
+    make_directories(directory.render(id).parent_path());
+    if (gallery_ != nullptr) make_directories(directory.gallery_face(id).parent_path());
+  }
 }
 
 WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,

@@ -38,7 +38,7 @@ class CrowdRenders {
   const WornSurfaces& worn_surfaces() const { return worn_surfaces_; }
 
   /// The folders that `write` needs.
-  void make_folders(const CrowdDirectory& directory) const;
+  void make_folders(const CrowdDirectory& directory, const std::vector<CastFace>& faces) const;
   /// Writes a face's picture, and what the gallery shows of it.
   /// \param moves     its displacements in each shape, if they are shown.
   /// \param textures  of its own, or null: it bears its target's, if there are any.

@@ -6,7 +6,9 @@
 #include <system_error>
 
 #include "crowdface/blend/blend.h"
+#include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/face_mesh.h"
 #include "crowdface/io/obj_file.h"
@@ -34,6 +36,18 @@ MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
 }
 
+/// A crowd's folder as its config says that it is laid out.
+CrowdDirectory crowd_at(const std::filesystem::path& folder) {
+  CrowdDirectory directory{folder};
+  if (!is_there(directory.config())) return directory;
+  Complaints complaints;
+  const auto root = parse_yaml(read_file(directory.config()), "", complaints);
+  const YamlEntry* output = root ? root->find("output") : nullptr;
+  const YamlEntry* faces = output != nullptr ? output->value.find("faces_per_folder") : nullptr;
+  if (faces != nullptr) directory.faces_per_folder = parse_unsigned(faces->value.text).value_or(0);
+  return directory;
+}
+
 /// The mesh with which all faces are compared.
 Positions read_reference(const std::filesystem::path& file, Index vertices) {
   Positions positions = read_obj(file).positions;
@@ -53,7 +67,10 @@ FaceComparison::FaceComparison(const Config& config, const Config::Comparison& c
       directory_(directory),
       crowd_(crowd),
       likeness_(likeness) {
-  if (comparison.with == With::kFile && !std::filesystem::is_directory(comparison.file)) {
+  if (comparison.with != With::kFile) return;
+  if (std::filesystem::is_directory(comparison.file)) {
+    others_ = crowd_at(comparison.file);
+  } else {
     reference_ = read_reference(comparison.file, inputs.faces.topology.vertex_count);
   }
 }
@@ -73,8 +90,7 @@ std::optional<Positions> FaceComparison::other(std::size_t face) const {
       return mesh_of(likeness_.near[face].front().face);
     case With::kFile:
       if (reference_.rows() > 0) return reference_;
-      return read_face({comparison_.file}, crowd_[face].id,
-                       {format_of_face({comparison_.file}, crowd_[face].id)},
+      return read_face(others_, crowd_[face].id, {format_of_face(others_, crowd_[face].id)},
                        inputs_.faces.topology.vertex_count);
     case With::kNothing:
       break;
@@ -132,7 +148,8 @@ void check_compared_crowd(const Config& config, const std::vector<CastFace>& cro
   if (!sheet || sheet->compare.with != With::kFile) return;
   const std::filesystem::path& folder = sheet->compare.file;
   if (!std::filesystem::is_directory(folder)) return;
-  for (const CastFace& face : crowd) format_of_face({folder}, face.id);
+  const CrowdDirectory others = crowd_at(folder);
+  for (const CastFace& face : crowd) format_of_face(others, face.id);
 }
 
 }  // namespace crowdface

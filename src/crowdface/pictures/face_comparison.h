@@ -44,6 +44,7 @@ class FaceComparison {
   const Config::Comparison& comparison_;
   const Inputs& inputs_;
   const CrowdDirectory& directory_;
+  CrowdDirectory others_;  ///< the crowd that `comparison` names, if it names one
   const std::vector<CastFace>& crowd_;
   const Likeness& likeness_;
   Positions reference_;  ///< the one mesh that all are compared with, or empty

@@ -14,9 +14,8 @@
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
-#include "crowdface/core/version.h"
-#include "crowdface/crowd/face_json.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/pictures/crowd_scripts.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/openness.h"
@@ -72,41 +71,6 @@ Json to_json(const Eigen::Vector3d& v) {
 /// A call with one JSON value, which is JavaScript too.
 std::string call(const char* function, const Json& value) {
   return concat("crowdface.", function, "(", value.dump(), ");\n");
-}
-
-Json crowd_to_json(const Config& config, const ShapeSet& shapes, const std::vector<CastFace>& crowd,
-                   const Digest& settings, const CrowdLikeness& likeness) {
-  const PlanNames names = config.plan_names();
-  Json json;
-  json["name"] = config.crowd.name;
-  json["seed"] = config.crowd.seed;
-  json["version"] = kVersion;
-  json["regions"] = config.regions.names;
-  if (!names.bands.empty()) json["bands"] = names.bands;
-  json["pictures"] = config.output.contact_sheet.has_value();
-  for (const Shape& shape : shapes.shapes) json["shapes"].push_back(shape.name);
-  json["heads"] = Json::array();
-  for (std::size_t h = 0; h < names.heads.size(); ++h) {
-    json["heads"].push_back({{"name", names.heads[h]},
-                             {"tags", config.faces.tags[h]},
-                             {"anchor", {likeness.anchors[h].x(), likeness.anchors[h].y()}}});
-  }
-  json["faces"] = Json::array();
-  for (const CastFace& face : crowd) {
-    json["faces"].push_back(face_to_json(face, names, settings));
-  }
-  std::vector<std::size_t> rank(crowd.size());
-  for (std::size_t i = 0; i < likeness.likeness.order.size(); ++i) {
-    rank[likeness.likeness.order[i]] = i;
-  }
-  json["likeness"] = rank;
-  json["near"] = Json::array();
-  for (const std::vector<Neighbour>& near : likeness.likeness.near) {
-    Json others = Json::array();
-    for (const Neighbour& other : near) others.push_back({other.face, other.mm});
-    json["near"].push_back(others);
-  }
-  return json;
 }
 
 /// What the page paints irises by, finer than the reduced mesh's vertices could.
@@ -368,7 +332,9 @@ void write_gallery(const CrowdDirectory& directory, const Config& config, const 
     ids.insert(face.id);
     worn.insert(face.attachments.begin(), face.attachments.end());
   }
-  remove_others(directory.gallery_face("").parent_path(), ids);
+  for (const fs::path& folder : with_numbered_folders(directory.gallery_faces())) {
+    remove_others(folder, ids);
+  }
   remove_others(directory.gallery_attachment("").parent_path(), worn);
   if (!worn.empty()) make_directories(directory.gallery_attachment("").parent_path());
   for (const std::string& name : worn) {
@@ -383,8 +349,7 @@ void write_gallery(const CrowdDirectory& directory, const Config& config, const 
                                   shapes.of_head(static_cast<Index>(h)), coat ? &*coat : nullptr));
   }
   write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
-  write_file(directory.gallery() / "data/crowd.js",
-             call("setCrowd", crowd_to_json(config, meshes.shapes(), crowd, settings, likeness)));
+  write_crowd_scripts(directory, config, meshes.shapes(), crowd, settings, likeness);
   for (const std::string_view file : kGalleryPageFiles) {
     write_file(directory.gallery() / file, read_file(page / file));
   }

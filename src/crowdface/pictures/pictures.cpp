@@ -66,7 +66,7 @@ void CrowdPictures::write_founder(const std::string& family, const Positions& po
 
 void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
                                 const FaceAttachments& attachments) const {
-  renders_.make_folders(directory_);
+  renders_.make_folders(directory_, crowd);
   Progress progress("pictures", crowd.size());
   parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
     throw_if_interrupted();
@@ -110,6 +110,7 @@ std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory
   add(directory.founder_render("").parent_path(), has_ending(".png"));
   add(directory.gallery(), is_gallery_page_file);
   add(directory.gallery() / "data", has_ending(".js"));
+  add(directory.gallery_pages(), has_ending(".js"));
   add(directory.gallery_head("").parent_path(), has_ending(".js"));
   add(directory.gallery_attachment("").parent_path(), has_ending(".js"));
   std::sort(files.begin(), files.end());

@@ -53,7 +53,7 @@ void SheetWriter::add(const std::string& stem, const std::string& caption, const
   if (has(SheetFormat::kPdf)) pngs_.push_back(std::move(png));
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
   index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
-                    concat(stem, "\n", caption)});
+                    concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
 }
 
 void SheetWriter::write_index(const std::string& number) {

@@ -75,6 +75,13 @@ class CrowdSheets {
     return cell;
   }
 
+  /// "sheet_001", below its subfolder if there is one.
+  std::string stem_of_page(std::size_t page) const {
+    const std::filesystem::path path = directory_.sheet(page);
+    make_directories(path.parent_path());
+    return path.lexically_relative(directory_.sheets()).replace_extension().generic_string();
+  }
+
   void add_page(const std::string& stem, const std::string& caption, const std::string& title,
                 const std::string& note, const std::vector<SheetCell>& cells,
                 const std::optional<HeatLegend>& legend) {
@@ -102,7 +109,7 @@ class CrowdSheets {
         const auto i = static_cast<std::size_t>(c);
         cells[i] = cell(order[first + i]);
       });
-      add_page(directory_.sheet(page + 1).stem().string(),
+      add_page(stem_of_page(page + 1),
                concat(crowd_[order[first]].id, " to ", crowd_[order[first + cells.size() - 1]].id),
                title(), pages > 1 ? concat("sheet ", page + 1, " of ", pages) : std::string(),
                cells, compared_.legend());

@@ -5,21 +5,9 @@
 #include <utility>
 
 #include "crowdface/core/text.h"
+#include "crowdface/run/library_line.h"
 
 namespace crowdface {
-namespace {
-
-std::string library_line(const Attachment& item) {
-  std::string line;
-  for (const MaterialFile& file : item.materials.files) {
-    if (!file.is_library) continue;
-    line += concat(line.empty() ? "mtllib " : " ",
-                   (attachment_folder(item.name) / file.relative).generic_string());
-  }
-  return line;
-}
-
-}  // namespace
 
 bool attachments_have_files(std::span<const MeshFormat> formats) {
   return std::find(formats.begin(), formats.end(), MeshFormat::kObj) != formats.end();
@@ -38,9 +26,12 @@ std::filesystem::path attachment_folder(const std::string& name) {
   return std::filesystem::path("attachments") / name;
 }
 
-AttachmentWriters::AttachmentWriters(const Inputs& inputs) {
+AttachmentWriters::AttachmentWriters(const Inputs& inputs, const std::string& shared) {
   for (const Attachment& item : inputs.attachments.items) {
-    forms_.emplace(&item, Form{ObjTemplate(item.file, item.file.topology), library_line(item)});
+    forms_.emplace(
+        &item, Form{ObjTemplate(item.file, item.file.topology),
+                    library_line(item.materials.files,
+                                 std::filesystem::path(shared) / attachment_folder(item.name))});
   }
 }
 

@@ -27,7 +27,8 @@ std::filesystem::path attachment_folder(const std::string& name);
 class AttachmentWriters {
  public:
   /// \param inputs  must outlive this object and all that it encodes.
-  explicit AttachmentWriters(const Inputs& inputs);
+  /// \param shared  as MeshWriters takes it
+  explicit AttachmentWriters(const Inputs& inputs, const std::string& shared = {});
 
   /// Adds the files of what a face wears.
   /// \param id  the face's, for messages.

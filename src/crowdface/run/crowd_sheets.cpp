@@ -56,7 +56,7 @@ void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilde
 
 /// The hash of all that sheets and gallery show.
 Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
-                     const std::vector<FaceFiles>& files) {
+                     const CrowdLikeness& likeness, const std::vector<FaceFiles>& files) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
@@ -69,7 +69,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
     for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
     for (const FileDigest& own : files[i].own) hasher.add(own.digest);
   }
-  hasher.add(format_likeness(crowd_likeness(cast.anchors, cast.points), job.names, ids));
+  hasher.add(format_likeness(likeness, job.names, ids));
   return hasher.digest();
 }
 
@@ -88,7 +88,8 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const C
                         Lazy<CrowdPictures>& pictures, Ledger& ledger) {
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
   const std::vector<CastFace>& crowd = cast.crowd;
-  const Digest key = key_of_sheets(job, directory, cast, files);
+  const CrowdLikeness likeness = crowd_likeness(cast.anchors, cast.points);
+  const Digest key = key_of_sheets(job, directory, cast, likeness, files);
   // What faces are compared with may have changed since.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
   if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
@@ -97,15 +98,14 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const C
     write_founders(cast.founders, builder.get(), pictures.get());
   }
   builder.release();  // sheets need the memory
-  const WrittenSheets sheets =
-      pictures.get().finish(crowd, crowd_likeness(cast.anchors, cast.points));
+  const WrittenSheets sheets = pictures.get().finish(crowd, likeness);
   ledger.record(kItem, key, sheet_files(directory, sheets));
   return sheets.pages;
 }
 
 void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set,
                    const fs::path& cache) {
-  const CrowdDirectory directory{crowd_directory};
+  CrowdDirectory directory{crowd_directory};
   std::error_code ignored;
   if (!fs::exists(directory.config(), ignored)) {
     throw MissingInput(
@@ -115,6 +115,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   ConfigOverrides overrides;
   overrides.set = set;
   const Job job = load_job(directory.config(), overrides, cache);
+  directory.faces_per_folder = directory_of(job.config).faces_per_folder;
   if (!job.config.output.contact_sheet) {
     throw UsageError(concat(directory.config().string(),
                             ": this crowd has no contact sheet; ask for one with --set "

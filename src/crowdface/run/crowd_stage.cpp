@@ -47,24 +47,23 @@ Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
 }
 
 /// "prepend references = @./meshes/ID.usda@".
-std::string reference(const std::string& id, std::size_t level) {
-  const CrowdDirectory here{"."};
+std::string reference(const CrowdDirectory& here, const std::string& id, std::size_t level) {
   const MeshName name{MeshFormat::kUsd, {}, level};
   return concat("prepend references = @./",
                 here.relative(here.mesh(id, MeshFormat::kUsd, part_of(name))), "@\n");
 }
 
-std::string face_text(const std::string& prim, const std::string& id, std::size_t levels,
-                      const Eigen::Vector3d& place) {
-  std::string metadata = "        " + reference(id, 0), variants;
+std::string face_text(const CrowdDirectory& here, const std::string& prim, const std::string& id,
+                      std::size_t levels, const Eigen::Vector3d& place) {
+  std::string metadata = "        " + reference(here, id, 0), variants;
   if (levels > 0) {
     metadata =
         "        variants = {\n            string LOD = \"LOD0\"\n        }\n"
         "        prepend variantSets = \"LOD\"\n";
     variants = "        variantSet \"LOD\" = {\n";
     for (std::size_t level = 0; level <= levels; ++level) {
-      variants += concat("            \"LOD", level, "\" (\n                ", reference(id, level),
-                         "            ) {\n            }\n");
+      variants += concat("            \"LOD", level, "\" (\n                ",
+                         reference(here, id, level), "            ) {\n            }\n");
     }
     variants += "        }\n";
   }
@@ -84,9 +83,11 @@ std::string format_stage(const Config& config, const Inputs& inputs,
                             usda_frame(config.faces.units, config.faces.up), ")\n\ndef Xform \"",
                             root, "\" (\n    kind = \"group\"\n)\n{\n");
   const Rows rows = rows_of(config, inputs, crowd.size());
+  const CrowdDirectory here{".", config.output.faces_per_folder.value_or(0)};
   UsdaNames names;
   for (std::size_t i = 0; i < crowd.size(); ++i) {
-    text += face_text(names.add(crowd[i].id), crowd[i].id, inputs.levels.size(), rows.place(i));
+    text +=
+        face_text(here, names.add(crowd[i].id), crowd[i].id, inputs.levels.size(), rows.place(i));
   }
   return text + "}\n";
 }

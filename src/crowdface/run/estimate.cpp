@@ -135,7 +135,7 @@ std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t as
 std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
                      const std::filesystem::path& cache) {
   const Job job = load_job(config_file, overrides, cache);
-  const CrowdDirectory directory{job.config.output.directory};
+  const CrowdDirectory directory = directory_of(job.config);
   // Beside whatever crowd is there: two files of its own.
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);

@@ -45,6 +45,7 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
     hasher.add(config.textures.formats.size());
     for (const TextureFormat format : config.textures.formats) hasher.add(static_cast<int>(format));
   }
+  if (config.output.faces_per_folder.value_or(0) > 0) hasher.add("numbered folders");
   hasher.add(extras.skin).add(extras.picture).add(extras.preview);
   if (extras.picture) {
     const Config::ContactSheet& sheet = *config.output.contact_sheet;
@@ -143,7 +144,8 @@ void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
   const std::vector<std::string> own =
       own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);
   for (std::size_t o = 0; o < own.size(); ++o) {
-    entry.files.push_back({directory_.relative(directory_.meshes() / own[o]), files.own[o]});
+    entry.files.push_back(
+        {directory_.relative(directory_.meshes_of(face.id) / own[o]), files.own[o]});
   }
   if (files.picture) {
     entry.files.push_back({directory_.relative(directory_.render(face.id)), *files.picture});

@@ -190,7 +190,7 @@ class FaceOutput {
     }
     if (own_ == nullptr) return;
     for (const OwnFile& file : own_->files(face, formats_, std::move(textures))) {
-      write_file(directory_.meshes() / file.name, file.bytes);
+      write_file(directory_.meshes_of(face.id) / file.name, file.bytes);
       files.own.push_back({file.bytes.size(), hash_bytes(file.bytes)});
     }
   }
@@ -228,18 +228,19 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                        const FaceAttachments* attachments, const FaceShapes& shapes,
                        const std::vector<CastFace>& crowd, std::uint64_t memory)
     : writes_meshes_(!config.output.meshes.empty()),
-      writers_(config, inputs, config.output.meshes, crowd),
+      writers_(config, inputs, config.output.meshes, crowd,
+               directory_of(config).shared_from_mesh()),
       builder_(builder),
       textures_(textures),
       attachments_(attachments),
       shapes_(shapes),
-      attachment_writers_(inputs),
+      attachment_writers_(inputs, directory_of(config).shared_from_mesh()),
       meshes_(config.output.meshes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + writers_.memory_bytes() + shapes.memory_bytes();
   std::uint64_t of_thread = writers_.encode_bytes();
   if (textures_ != nullptr) {
-    own_.emplace(config, inputs, crowd);
+    own_.emplace(config, inputs, crowd, directory_of(config).shared_from_mesh());
     standing += textures_->memory_bytes();
     of_thread += textures_->blend_bytes() + own_->encode_bytes();
   }
@@ -262,8 +263,10 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
                              const FaceLedger& ledger, const std::vector<CastFace>& faces) const {
   BuiltFaces built;
   built.files.resize(faces.size());
-  if (writes_meshes_) make_directories(own_ ? directory.blended() : directory.meshes());
-  if (renders != nullptr) renders->make_folders(directory);
+  for (const std::string& id : one_of_each_folder(directory, faces)) {
+    if (writes_meshes_) make_directories(own_ ? directory.blended_of(id) : directory.meshes_of(id));
+  }
+  if (renders != nullptr) renders->make_folders(directory, faces);
 
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
                     renders, check_ ? &*check_ : nullptr, ledger, attachments_, shapes_,

@@ -100,7 +100,7 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
 /// A shard's faces from the folder's plan; null if there is no plan of this job.
 std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& options,
                                      StageSeconds& stages) {
-  const CrowdDirectory directory{job.config.output.directory};
+  const CrowdDirectory directory = directory_of(job.config);
   check_output(job, options.replace);
   auto planned = planned_faces(job, directory, options.shard);
   if (!planned) {
@@ -139,9 +139,11 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
 template <class Write>
 void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
                 const Write& write) {
-  const std::string plan = format_plan(job, cast.crowd);
-  remove_report_of_other_plan(directory, plan);
-  write(directory.plan(), plan);
+  {
+    const std::string plan = format_plan(job, cast.crowd);
+    remove_report_of_other_plan(directory, plan);
+    write(directory.plan(), plan);
+  }
   write(directory.table(), format_csv(cast.crowd, job.names));
   if (!cast.founders.empty()) write(directory.founders(), format_founders(job, cast.founders));
   if (!cast.rejected.empty()) write(directory.rejected(), format_plan(job, cast.rejected));
@@ -180,8 +182,12 @@ StageBusy build_missing(const CrowdDirectory& directory, const std::vector<CastF
                         const FaceLedger& ledger, Lazy<FaceStages>& face_stages,
                         const CrowdRenders* renders, FacesSoFar& so_far) {
   if (so_far.todo.empty()) return {};
-  std::vector<CastFace> faces;
-  for (const std::size_t i : so_far.todo) faces.push_back(crowd[i]);
+  std::vector<CastFace> some;
+  const bool all = so_far.todo.size() == crowd.size();
+  for (std::size_t t = 0; t < so_far.todo.size() && !all; ++t) {
+    some.push_back(crowd[so_far.todo[t]]);
+  }
+  const std::vector<CastFace>& faces = all ? crowd : some;
   BuiltFaces built = face_stages.get().build(directory, renders, ledger, faces);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     so_far.files[so_far.todo[f]] = std::move(built.files[f]);
@@ -293,7 +299,7 @@ bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
 /// Whether it is certain that faces will be made: a crowd that goes on may have none to make; a new
 /// one is refused before anything is written.
 bool makes_faces(const Config& config, const GenerateOptions& options) {
-  const CrowdDirectory directory{config.output.directory};
+  const CrowdDirectory directory = directory_of(config);
   const bool is_new = options.replace == Replace::kForce || !goes_on(directory, options.shard);
   return is_new && face_count(config) > 0;
 }
@@ -301,7 +307,7 @@ bool makes_faces(const Config& config, const GenerateOptions& options) {
 /// Casts the crowd and fills its folder, as far as that is not done.
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
-  const CrowdDirectory directory{job.config.output.directory};
+  const CrowdDirectory directory = directory_of(job.config);
   const bool is_new = purpose == Purpose::kGenerate && makes_faces(job.config, options);
   if (is_new) refuse_too_little_memory(job.config, job.inputs, memory_for(options));
   std::unique_ptr<CastJob> crowd;
@@ -376,7 +382,7 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
     return tell_dry_run(job.config, nullptr);
   }
   going_on_if_cut([&] {
-    const CrowdDirectory directory{job.config.output.directory};
+    const CrowdDirectory directory = directory_of(job.config);
     StageSeconds stages;
     const auto crowd = cast_job(job, options, stages);
     const CrowdLock lock(directory, {});

@@ -91,8 +91,9 @@ void add_materials(const Inputs& inputs, const Surfaces& surfaces, GlbOptions& o
 
 }  // namespace
 
-GlbOptions glb_options(const Config& config, const Inputs& inputs) {
+GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared) {
   GlbOptions options;
+  if (!shared.empty()) options.shared = shared;
   options.unit = config.faces.units;
   options.up = config.faces.up;
   options.front = config.faces.front;

@@ -30,7 +30,8 @@ bool is_same(const MaterialRange& a, const MaterialRange& b) {
 }  // namespace
 
 LevelWriter::LevelWriter(const Config& config, const Inputs& inputs, std::size_t level,
-                         const std::vector<MeshFormat>& formats, const std::vector<Index>& targets)
+                         const std::vector<MeshFormat>& formats, const std::vector<Index>& targets,
+                         const std::string& shared)
     : inputs_(inputs), level_(inputs.levels[level - 1].level) {
   for (const MeshFormat format : formats) {
     if (format == MeshFormat::kObj) {
@@ -42,7 +43,7 @@ LevelWriter::LevelWriter(const Config& config, const Inputs& inputs, std::size_t
                    glb_options(glb_options(config, inputs), level_, inputs.shapes));
     } else if (format == MeshFormat::kUsd) {
       usd_.emplace(level_.topology, level_.uvs,
-                   glb_options(glb_options(config, inputs), level_, inputs.shapes),
+                   glb_options(glb_options(config, inputs, shared), level_, inputs.shapes),
                    Subdivision::kNone);  // it is coarse on purpose
     }
   }

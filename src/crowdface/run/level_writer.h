@@ -38,8 +38,10 @@ class LevelWriter {
   /// \param inputs   must outlive this object and all that it encodes.
   /// \param level    from 1
   /// \param targets  of all faces that will be encoded.
+  /// \param shared   as MeshWriters takes it
   LevelWriter(const Config& config, const Inputs& inputs, std::size_t level,
-              const std::vector<MeshFormat>& formats, const std::vector<Index>& targets);
+              const std::vector<MeshFormat>& formats, const std::vector<Index>& targets,
+              const std::string& shared);
 
   /// \param name  of this level. \param ply_normals  whether PLY files have any.
   EncodedFile encode(const MeshName& name, const WholeFace& face, bool ply_normals) const;

@@ -14,6 +14,7 @@
 #include "crowdface/io/npy.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/run/glb_form.h"
+#include "crowdface/run/library_line.h"
 #include "crowdface/run/own_textures.h"
 
 namespace crowdface {
@@ -62,7 +63,7 @@ std::string file_end(const MeshName& name) {
 
 std::filesystem::path mesh_path(const CrowdDirectory& directory, const std::string& id,
                                 const MeshName& name) {
-  return directory.meshes() / (id + file_end(name));
+  return directory.meshes_of(id) / (id + file_end(name));
 }
 
 std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const Inputs& inputs) {
@@ -87,7 +88,8 @@ std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const I
 }
 
 MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
-                         std::vector<MeshFormat> formats, std::span<const CastFace> crowd)
+                         std::vector<MeshFormat> formats, std::span<const CastFace> crowd,
+                         const std::string& shared)
     : config_(config),
       inputs_(inputs),
       formats_(std::move(formats)),
@@ -99,18 +101,26 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
       std::ranges::any_of(targets, [&](Index target) { return needs_normals(target); });
   const std::vector<Index> all_targets(targets.begin(), targets.end());
   if (has(MeshFormat::kObj)) add_obj_templates(all_targets);
+  if (has(MeshFormat::kObj) && !shared.empty()) {
+    for (const Index target : all_targets) {
+      const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
+      libraries_[target] =
+          library_line(find_material_files(file.path, file.material_libraries).files, shared);
+    }
+  }
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
     if (!inputs.attachments.empty()) glb_attachments_.emplace(inputs);
   }
   if (has(MeshFormat::kUsd)) {
-    usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs), config.output.subdivision);
+    usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs, shared),
+                 config.output.subdivision);
   }
   if (need_normals) fans_.emplace(faces.topology);
   if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
-    levels_.emplace_back(config, inputs, level, formats_, all_targets);
+    levels_.emplace_back(config, inputs, level, formats_, all_targets, shared);
   }
 }
 
@@ -204,8 +214,12 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
     meshes.push_back({name, encode(name, whole)});
-    if (name.format == MeshFormat::kObj && !textures.empty()) {
+    if (name.format != MeshFormat::kObj) continue;
+    const auto shared = libraries_.find(face.recipe.target);
+    if (!textures.empty()) {
       meshes.back().file.replace_line("mtllib", concat("mtllib ", material_file_name(face.id)));
+    } else if (shared != libraries_.end() && !shared->second.empty()) {
+      meshes.back().file.replace_line("mtllib", shared->second);
     }
   }
   return meshes;

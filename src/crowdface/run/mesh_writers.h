@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,9 +46,10 @@ class MeshWriters {
  public:
   /// \param config, inputs  must outlive this object and all that it encodes.
   /// \param crowd  the recipes of all faces that are to be written.
+  /// \param shared  the way from a mesh to what all share, material files, say: ".."; empty: beside it.
   /// \throws InvalidInput if a format cannot hold such a mesh.
   MeshWriters(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
-              std::span<const CastFace> crowd);
+              std::span<const CastFace> crowd, const std::string& shared = {});
 
   /// The face in each of the formats, in their order, then its shapes (see mesh_names); refers to
   /// this object and to the textures.
@@ -81,6 +83,8 @@ class MeshWriters {
   const Inputs& inputs_;
   std::vector<MeshFormat> formats_;
   std::map<Index, ObjTemplate> obj_;  ///< of each head that is a target
+  std::map<Index, std::string>
+      libraries_;  ///< the line that names its material files, if they lie elsewhere
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
   std::optional<GlbAttachments> glb_attachments_;  ///< if there are any

@@ -52,10 +52,11 @@ void refuse_to_write_over_config(const Config& config, const CrowdDirectory& dir
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace) {
   std::error_code ignored;
   if (replace == Replace::kForce || !fs::exists(directory.plan(), ignored)) return;
-  const std::string plan = read_file(directory.plan());
+  const MappedFile file(directory.plan());
+  const std::string_view plan = file.bytes();
   // Of a plan that is damaged some line tells.
   if (plan.find(settings.hex()) != plan.npos) return;
-  const auto first = parse_shallow_json(std::string_view(plan).substr(0, plan.find('\n')));
+  const auto first = parse_shallow_json(plan.substr(0, plan.find('\n')));
   if (!first.is_object() || !first.contains("settings")) return;
   throw UsageError(
       concat(directory.root.string(),
@@ -66,7 +67,7 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
 }
 
 void check_output(const Job& job, Replace replace) {
-  const CrowdDirectory directory{job.config.output.directory};
+  const CrowdDirectory directory = directory_of(job.config);
   refuse_to_write_over_inputs(job.config, directory);
   refuse_to_write_over_config(job.config, directory);
   check_crowd_directory(directory, crowd_config(job.config, directory), replace);

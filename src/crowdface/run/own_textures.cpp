@@ -77,13 +77,13 @@ std::vector<std::string> own_texture_names(const Config& config, const Inputs& i
 }
 
 OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
-                         std::span<const CastFace> crowd)
+                         std::span<const CastFace> crowd, const std::string& shared)
     : config_(config), inputs_(inputs) {
   for (const CastFace& face : crowd) {
     const Index target = face.recipe.target;
     if (of_target_.contains(target)) continue;
     const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
-    of_target_.emplace(target, Materials{OwnMaterials(file.path, file.material_libraries),
+    of_target_.emplace(target, Materials{OwnMaterials(file.path, file.material_libraries, shared),
                                          pictures_of_materials(inputs, target)});
   }
 }

@@ -17,7 +17,7 @@ namespace crowdface {
 
 /// A file of a face beside its mesh, ready to be written.
 struct OwnFile {
-  std::string name;  ///< below the meshes' folder
+  std::string name;  ///< below the folder of the face's meshes
   std::string bytes;
 };
 
@@ -39,7 +39,9 @@ std::string material_file_name(const std::string& id);
 class OwnTextures {
  public:
   /// \param config, inputs  must outlive this object. \param crowd  all faces that may be written.
-  OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd);
+  /// \param shared  as MeshWriters takes it
+  OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd,
+              const std::string& shared = {});
 
   /// The pictures in each of the formats, picture by picture.
   std::vector<std::string> encode(const std::vector<BlendedPicture>& pictures) const;

@@ -122,10 +122,26 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
   }
 }
 
+/// More faces than this lie in numbered subfolders, if the config says nothing of it.
+constexpr std::uint64_t kMostInOneFolder = 10'000;
+constexpr std::uint64_t kFacesPerFolder = 1'000;
+
+/// A large crowd gets subfolders, unless it stands in its folder already, as older versions made it.
+void choose_folders(Config& config) {
+  if (config.output.faces_per_folder || face_count(config) <= kMostInOneFolder) return;
+  const CrowdDirectory directory{config.output.directory};
+  std::error_code ignored;
+  const bool stands_there =
+      std::filesystem::exists(directory.config(), ignored) &&
+      !config_difference(read_file(directory.config()), effective_config(config, directory.root));
+  if (!stands_there) config.output.faces_per_folder = kFacesPerFolder;
+}
+
 /// The config, with the reviews that the crowd's folder keeps if it holds this very crowd.
 ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
                                      ConfigOverrides overrides, Problems& problems) {
   ConfigReading reading = read_config_parts(config_file, overrides, problems);
+  if (reading.complete) choose_folders(reading.config);
   const CrowdDirectory directory{reading.config.output.directory};
   std::error_code ignored;
   if (!reading.complete || !std::filesystem::exists(directory.config(), ignored)) return reading;
@@ -133,7 +149,11 @@ ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
   if (overrides.kept_reviews.empty()) return reading;
   const std::string config = effective_config(reading.config, directory.root);
   const auto difference = config_difference(read_file(directory.config()), config);
-  if (!difference) return read_config_parts(config_file, overrides, problems);
+  if (!difference) {
+    reading = read_config_parts(config_file, overrides, problems);
+    choose_folders(reading.config);
+    return reading;
+  }
   log_warning(concat(directory.root.string(), ": keeps reviews of another config's crowd (it ",
                      "differs in ", *difference,
                      "), which are not applied; give them with --review"));
@@ -183,6 +203,10 @@ std::uint64_t face_count(const Config& config) {
     for (const Parent& parent : family.parents) faces += parent.drawn ? 1U : 0U;
   }
   return faces;
+}
+
+CrowdDirectory directory_of(const Config& config) {
+  return {config.output.directory, config.output.faces_per_folder.value_or(0)};
 }
 
 std::string config_in_folder(Config config, const CrowdDirectory& directory) {

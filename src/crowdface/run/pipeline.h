@@ -36,6 +36,9 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
 /// How many faces the config asks for.
 std::uint64_t face_count(const Config& config);
 
+/// Where its crowd lies.
+CrowdDirectory directory_of(const Config& config);
+
 /// The config as it will stand in that folder, which keeps the reviews.
 std::string config_in_folder(Config config, const CrowdDirectory& directory);
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);

@@ -57,7 +57,7 @@ void write_iris(const Config& config, const Inputs& inputs, const CrowdDirectory
 
 void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan) {
   std::error_code ignored;
-  if (fs::exists(directory.plan(), ignored) && read_file(directory.plan()) == plan) return;
+  if (fs::exists(directory.plan(), ignored) && MappedFile(directory.plan()).bytes() == plan) return;
   fs::remove(directory.report(), ignored);
 }
 

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/crowd_scripts.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/list_files.h"
+#include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/version.h"
+#include "crowdface/crowd/face_json.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// How many faces the plane shows of a crowd whose recipes are not all at hand.
+constexpr std::size_t kMostOnPlane = 2000;
+
+/// All but the faces.
+Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness) {
+  const PlanNames names = config.plan_names();
+  Json json;
+  json["name"] = config.crowd.name;
+  json["seed"] = config.crowd.seed;
+  json["version"] = kVersion;
+  json["regions"] = config.regions.names;
+  if (!names.bands.empty()) json["bands"] = names.bands;
+  json["pictures"] = config.output.contact_sheet.has_value();
+  for (const Shape& shape : shapes.shapes) json["shapes"].push_back(shape.name);
+  json["heads"] = Json::array();
+  for (std::size_t h = 0; h < names.heads.size(); ++h) {
+    json["heads"].push_back({{"name", names.heads[h]},
+                             {"tags", config.faces.tags[h]},
+                             {"anchor", {likeness.anchors[h].x(), likeness.anchors[h].y()}}});
+  }
+  return json;
+}
+
+std::vector<std::size_t> ranks(const Likeness& likeness, std::size_t faces) {
+  std::vector<std::size_t> rank(faces);
+  for (std::size_t i = 0; i < likeness.order.size(); ++i) rank[likeness.order[i]] = i;
+  return rank;
+}
+
+Json near_to_json(const std::vector<Neighbour>& near) {
+  Json others = Json::array();
+  for (const Neighbour& other : near) others.push_back({other.face, other.mm});
+  return others;
+}
+
+Json whole_crowd(Json json, const std::vector<CastFace>& crowd, const PlanNames& names,
+                 const Digest& settings, const Likeness& likeness) {
+  json["faces"] = Json::array();
+  for (const CastFace& face : crowd) json["faces"].push_back(face_to_json(face, names, settings));
+  json["likeness"] = ranks(likeness, crowd.size());
+  json["near"] = Json::array();
+  for (const std::vector<Neighbour>& near : likeness.near) {
+    json["near"].push_back(near_to_json(near));
+  }
+  return json;
+}
+
+/// "[a,b,…]" of what `of` says of each face.
+template <class Of>
+std::string list_of(const std::vector<CastFace>& crowd, const Of& of) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    text += concat(i > 0 ? "," : "", of(crowd[i], i));
+  }
+  return text + ']';
+}
+
+/// {"12":…}: of the faces, by their places, of which `of` says anything.
+template <class Of>
+Json some_of_them(const std::vector<CastFace>& crowd, const Of& of) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    Json value = of(crowd[i]);
+    if (!value.is_null()) json[std::to_string(i)] = std::move(value);
+  }
+  return json;
+}
+
+std::string text_json(const std::optional<std::string>& text) {
+  return text ? Json(*text).dump() : "null";
+}
+
+/// What filters, orders and the grid need of each face, column by column.
+std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness) {
+  const auto any = [&](const auto& has) { return std::any_of(crowd.begin(), crowd.end(), has); };
+  std::string text =
+      concat("{\"id\":",
+             list_of(crowd, [](const CastFace& face, std::size_t) { return Json(face.id).dump(); }),
+             ",\n\"target\":",
+             list_of(crowd, [](const CastFace& face, std::size_t) { return face.recipe.target; }),
+             ",\n\"attempt\":",
+             list_of(crowd, [](const CastFace& face, std::size_t) { return face.notes.attempt; }),
+             ",\n\"near_mm\":",
+             list_of(crowd,
+                     [&](const CastFace&, std::size_t i) {
+                       const auto& near = likeness.near[i];
+                       return near.empty() ? std::string("null") : concat(near.front().mm);
+                     }),
+             ",\n\"head_mm\":", list_of(crowd, [](const CastFace& face, std::size_t) {
+               const auto& nearest = face.notes.nearest;
+               return nearest ? concat(rounded(nearest->head_mm)) : std::string("null");
+             }));
+  if (any([](const CastFace& face) { return face.family.has_value(); })) {
+    text += concat(",\n\"family\":", list_of(crowd, [](const CastFace& face, std::size_t) {
+                     return text_json(face.family);
+                   }));
+  }
+  if (any([](const CastFace& face) { return face.group.has_value(); })) {
+    text += concat(",\n\"group\":", list_of(crowd, [](const CastFace& face, std::size_t) {
+                     return text_json(face.group);
+                   }));
+  }
+  if (any([](const CastFace& face) { return !face.attachments.empty(); })) {
+    text += concat(",\n\"attachments\":", list_of(crowd, [](const CastFace& face, std::size_t) {
+                     return Json(face.attachments).dump();
+                   }));
+  }
+  const Json parents = some_of_them(crowd, [](const CastFace& face) {
+    return face.parents.empty() ? Json()
+                                : Json{{"mother", face.parents[0]}, {"father", face.parents[1]}};
+  });
+  const Json by_hand = some_of_them(
+      crowd, [](const CastFace& face) { return face.index || face.family ? Json() : Json(true); });
+  const Json notes = some_of_them(crowd, [](const CastFace& face) {
+    return face.notes.review ? Json(*face.notes.review) : Json();
+  });
+  return text + concat(",\n\"parents\":", parents.dump(), ",\n\"by_hand\":", by_hand.dump(),
+                       ",\n\"note\":", notes.dump(), '}');
+}
+
+/// The recipes of the plan's faces [begin, end), and who is nearest to each.
+std::string page_script(const std::vector<CastFace>& crowd, std::size_t begin, std::size_t end,
+                        std::size_t page, const PlanNames& names, const Digest& settings,
+                        const Likeness& likeness) {
+  Json faces = Json::array(), near = Json::array();
+  for (std::size_t i = begin; i < end; ++i) {
+    faces.push_back(face_to_json(crowd[i], names, settings));
+    near.push_back(near_to_json(likeness.near[i]));
+  }
+  return concat("crowdface.setPage(", page, ',', Json{{"faces", faces}, {"near", near}}.dump(),
+                ");\n");
+}
+
+/// Faces that stand for all on the plane, evenly from the plan.
+Json on_plane(const std::vector<CastFace>& crowd, const PlanNames& names, const Digest& settings) {
+  Json json = Json::object();
+  const std::size_t step = (crowd.size() + kMostOnPlane - 1) / kMostOnPlane;
+  for (std::size_t i = 0; i < crowd.size(); i += step) {
+    json[std::to_string(i)] = face_to_json(crowd[i], names, settings)["regions"];
+  }
+  return json;
+}
+
+}  // namespace
+
+void write_crowd_scripts(const CrowdDirectory& directory, const Config& config,
+                         const ShapeSet& shapes, const std::vector<CastFace>& crowd,
+                         const Digest& settings, const CrowdLikeness& likeness) {
+  const PlanNames names = config.plan_names();
+  Json head = head_of_script(config, shapes, likeness);
+  std::set<std::filesystem::path> pages;
+  std::string script;
+  if (const std::uint64_t a_page = directory.faces_per_folder; a_page == 0) {
+    script = whole_crowd(std::move(head), crowd, names, settings, likeness.likeness).dump();
+  } else {
+    make_directories(directory.gallery_pages());
+    for (std::size_t begin = 0; begin < crowd.size(); begin += a_page) {
+      throw_if_interrupted();
+      const std::size_t page = begin / a_page;
+      const std::size_t end = std::min<std::size_t>(begin + a_page, crowd.size());
+      const auto path = directory.gallery_pages() / concat(zero_padded(page, 3), ".js");
+      write_file(path, page_script(crowd, begin, end, page, names, settings, likeness.likeness));
+      pages.insert(path);
+    }
+    head["faces_per_page"] = a_page;
+    head["on_plane"] = on_plane(crowd, names, settings);
+    const std::vector<std::size_t> rank = ranks(likeness.likeness, crowd.size());
+    script = head.dump();
+    script.pop_back();
+    script += concat(",\n\"columns\":", columns(crowd, likeness.likeness), ",\n\"likeness\":",
+                     list_of(crowd, [&](const CastFace&, std::size_t i) { return rank[i]; }), '}');
+  }
+  for (const auto& path : list_files(directory.gallery_pages(), has_ending(".js"))) {
+    std::error_code ignored;
+    if (!pages.contains(path)) std::filesystem::remove(path, ignored);
+  }
+  write_file(directory.gallery() / "data/crowd.js", concat("crowdface.setCrowd(", script, ");\n"));
+}
+
+}  // namespace crowdface
