@@ -360,7 +360,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   }
   compute_digests(inputs);
   read_textures(config, inputs, problems);
-  load_shapes(config, inputs, problems);
+  load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);
   load_attachments(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;

@@ -2,16 +2,17 @@
 #include "crowdface/heads/load_shapes.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "crowdface/core/error.h"
-#include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/heads/read_heads.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/rigid_motion.h"
@@ -37,28 +38,45 @@ std::vector<std::uint32_t> skin_of(const Inputs& inputs) {
   return skin;
 }
 
+/// Where meshes are read from, and what they are to be like.
+struct Source {
+  const Config& config;
+  const Topology& topology;
+  const std::filesystem::path& cache;
+};
+
 /// Reads many meshes in parallel. \param take  take(i, positions of files[i]) for each that can be read
 template <class Take>
-void read_meshes(const std::vector<std::filesystem::path>& files, const Config& config,
-                 const Topology& topology, Problems& problems, const Take& take) {
-  std::vector<std::optional<Error>> errors(files.size());
-  parallel_for_each(files.size(), [&](std::size_t i) {
-    throw_if_interrupted();
-    try {
-      take(i, read_positions(files[i], config, topology));
-    } catch (const Error& error) {
-      errors[i] = error;
+void read_meshes(const std::vector<std::filesystem::path>& files, const Source& source,
+                 Problems& problems, const Take& take) {
+  std::vector<std::optional<HeadFile>> read =
+      read_mesh_files(files, "shapes", source.cache, problems);
+  std::vector<HeadFile> fitting;
+  std::vector<std::size_t> numbers;
+  std::map<const HeadMesh*, std::string> differences;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!read[i]) continue;
+    const HeadMesh* const mesh = read[i]->mesh.get();
+    const auto [known, is_new] = differences.try_emplace(mesh);
+    if (is_new) known->second = first_difference(source.topology, mesh->topology);
+    if (known->second.empty()) {
+      fitting.push_back(std::move(*read[i]));
+      numbers.push_back(i);
+    } else {
+      problems.add(ExitCode::kBadData,
+                   concat(files[i].string(), ": not the same mesh as ",
+                          source.config.faces.files.front().string(), ": ", known->second));
     }
-  });
-  for (const auto& error : errors) {
-    if (error) problems.add(*error);
   }
+  keep_heads(fitting, source.cache);
+  parallel_for_each(fitting.size(),
+                    [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
 /// The template's shapes; those that it lacks are left out. \param places  of those it has, among all
-ShapeSet load_template(const Config& config, const Inputs& inputs, double extent,
+ShapeSet load_template(const Source& source, const Inputs& inputs, double extent,
                        std::vector<std::size_t>& places, Problems& problems) {
-  const Config::Shapes& asked = config.shapes;
+  const Config::Shapes& asked = source.config.shapes;
   const std::size_t before = problems.size();
   std::vector<std::filesystem::path> files;
   for (std::size_t s = 0; s < asked.names.size(); ++s) {
@@ -68,10 +86,9 @@ ShapeSet load_template(const Config& config, const Inputs& inputs, double extent
   }
   ShapeSet set;
   std::vector<Positions> meshes(files.size());
-  const Topology& topology = inputs.faces.topology;
-  read_meshes({asked.neutral}, config, topology, problems,
+  read_meshes({asked.neutral}, source, problems,
               [&](std::size_t, Positions mesh) { set.neutral = std::move(mesh); });
-  read_meshes(files, config, topology, problems,
+  read_meshes(files, source, problems,
               [&](std::size_t i, Positions mesh) { meshes[i] = std::move(mesh); });
   if (problems.size() > before) return set;
   if (extent == 0) extent = extent_of(set.neutral, skin_of(inputs));
@@ -99,10 +116,10 @@ RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t
 }
 
 /// Reads the shapes of one head.
-void load_head(const Config& config, const Inputs& inputs, std::size_t head, double extent,
+void load_head(const Source& source, const Inputs& inputs, std::size_t head, double extent,
                std::vector<OwnShape>& shapes, Problems& problems) {
-  const std::vector<std::filesystem::path>& files = config.shapes.of_head[head];
-  const RestingHead rest = resting_head(config, inputs, head);
+  const std::vector<std::filesystem::path>& files = source.config.shapes.of_head[head];
+  const RestingHead rest = resting_head(source.config, inputs, head);
   std::vector<std::filesystem::path> there;
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < files.size(); ++s) {
@@ -110,14 +127,13 @@ void load_head(const Config& config, const Inputs& inputs, std::size_t head, dou
     there.push_back(files[s]);
     places.push_back(s);
   }
-  read_meshes(there, config, inputs.faces.topology, problems,
-              [&](std::size_t i, const Positions& mesh) {
-                Displacements moves = shape_of({}, rest.mesh, mesh, extent).moves;
-                for (Index row = 0; row < moves.moves.rows(); ++row) {
-                  moves.moves.row(row) = rest.motion.turn(row3(moves.moves, row)).transpose();
-                }
-                shapes[places[i]] = own_shape_of(moves);
-              });
+  read_meshes(there, source, problems, [&](std::size_t i, const Positions& mesh) {
+    Displacements moves = shape_of({}, rest.mesh, mesh, extent).moves;
+    for (Index row = 0; row < moves.moves.rows(); ++row) {
+      moves.moves.row(row) = rest.motion.turn(row3(moves.moves, row)).transpose();
+    }
+    shapes[places[i]] = own_shape_of(moves);
+  });
 }
 
 /// Carries the template's shapes to heads that lack them.
@@ -139,7 +155,8 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
 }
 
 /// The shapes of each head, and their mean on the mean head.
-void load_heads(const Config& config, Inputs& inputs, Problems& problems) {
+void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
+  const Config& config = source.config;
   const Config::Shapes& asked = config.shapes;
   ShapeSet& set = inputs.shapes;
   set.neutral = mean_head(inputs.faces);
@@ -147,12 +164,12 @@ void load_heads(const Config& config, Inputs& inputs, Problems& problems) {
   set.of_head.assign(inputs.faces.heads.size(), std::vector<OwnShape>(asked.names.size()));
   const std::size_t before = problems.size();
   for (std::size_t h = 0; h < set.of_head.size(); ++h) {
-    load_head(config, inputs, h, extent, set.of_head[h], problems);
+    load_head(source, inputs, h, extent, set.of_head[h], problems);
   }
   if (problems.size() > before) return;
   if (!asked.neutral.empty()) {
     std::vector<std::size_t> places;
-    const ShapeSet of_template = load_template(config, inputs, extent, places, problems);
+    const ShapeSet of_template = load_template(source, inputs, extent, places, problems);
     if (problems.size() > before) return;
     fill_in(config, inputs, of_template, places, set);
   }
@@ -182,14 +199,16 @@ Digest digest_of(const ShapeSet& set) {
 
 }  // namespace
 
-void load_shapes(const Config& config, Inputs& inputs, Problems& problems) {
+void load_shapes(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+                 Problems& problems) {
   if (config.shapes.names.empty()) return;
+  const Source source{config, inputs.faces.topology, cache};
   const std::size_t before = problems.size();
   if (config.shapes.heads.empty()) {
     std::vector<std::size_t> places;
-    inputs.shapes = load_template(config, inputs, 0, places, problems);
+    inputs.shapes = load_template(source, inputs, 0, places, problems);
   } else {
-    load_heads(config, inputs, problems);
+    load_heads(source, inputs, problems);
   }
   if (problems.size() == before) inputs.shapes_digest = digest_of(inputs.shapes);
 }

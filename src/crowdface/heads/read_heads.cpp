@@ -104,34 +104,39 @@ HeadFile read_head(const fs::path& path, const fs::path& cache, MeshShelf& shelf
 
 }  // namespace
 
+std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>& paths,
+                                                     std::string_view what, const fs::path& cache,
+                                                     Problems& problems) {
+  std::vector<std::optional<HeadFile>> files(paths.size());
+  std::vector<std::optional<Error>> errors(paths.size());
+  MeshShelf shelf(cache);
+  Progress progress(concat("reading ", what), paths.size());
+  parallel_for_each(paths.size(), [&](std::size_t i) {
+    throw_if_interrupted();
+    try {
+      files[i] = read_head(paths[i], cache, shelf);
+    } catch (const Error& error) {
+      errors[i] = error;
+    }
+    progress.step();
+  });
+  for (const auto& error : errors) {
+    if (error) problems.add(*error);
+  }
+  return files;
+}
+
 std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const fs::path& cache,
                                  Problems& problems) {
-  const std::size_t count = paths.size();
-  std::vector<std::optional<HeadFile>> heads(count);
-  std::vector<std::optional<Error>> errors(count);
-  MeshShelf shelf(cache);
-  {
-    Progress progress("reading heads", count);
-    parallel_for_each(count, [&](std::size_t h) {
-      throw_if_interrupted();
-      try {
-        heads[h] = read_head(paths[h], cache, shelf);
-      } catch (const Error& error) {
-        errors[h] = error;
-      }
-      progress.step();
-    });
-  }
   std::vector<HeadFile> read;
   std::size_t kept = 0;
-  for (std::size_t h = 0; h < count; ++h) {
-    if (errors[h]) problems.add(*errors[h]);
-    if (!heads[h]) continue;
-    kept += heads[h]->is_kept ? 1U : 0U;
-    read.push_back(std::move(*heads[h]));
+  for (std::optional<HeadFile>& head : read_mesh_files(paths, "heads", cache, problems)) {
+    if (!head) continue;
+    kept += head->is_kept ? 1U : 0U;
+    read.push_back(std::move(*head));
   }
   if (kept > 0)
-    log_info(concat(kept, " of ", count, " heads came from the cache as they were read"));
+    log_info(concat(kept, " of ", paths.size(), " heads came from the cache as they were read"));
   return read;
 }
 

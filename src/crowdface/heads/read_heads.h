@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/core/hash.h"
@@ -24,6 +26,14 @@ struct HeadFile {
   std::shared_ptr<HeadMesh> mesh;  ///< one for all heads that have the same
   bool is_kept = false;            ///< the cache has it
 };
+
+/// Reads meshes side by side, those that the cache knows from there.
+/// \param what   they are, for the bar that shows how far it is
+/// \param cache  its folder; empty: none.
+/// \return #paths; those that could not be read are problems.
+std::vector<std::optional<HeadFile>> read_mesh_files(
+    const std::vector<std::filesystem::path>& paths, std::string_view what,
+    const std::filesystem::path& cache, Problems& problems);
 
 /// Reads heads side by side, those that the cache knows from there.
 /// \param cache  its folder; empty: none.
