@@ -13,6 +13,7 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/skin_contacts.h"
+#include "crowdface/validity/intersections.h"
 
 #include "parts/scene.h"
 #include "shapes/acting_heads.h"
@@ -151,7 +152,7 @@ TEST(ShapeTransfer, ABlinkClosesOnHeadsOfTheIctModel) {
     const bool left = ball_of(ict->heads, *eye, ict->set.neutral).first.x() > 0;
     const GapsOff off = gaps_off(ict->heads, ict->set, *eye, left ? 0 : 1);
     EXPECT_GT(off.unchanged, 0.3);
-    EXPECT_LT(off.carried, 0.12);
+    EXPECT_LT(off.carried, 0.18);
   }
 }
 
@@ -190,6 +191,47 @@ TEST(ShapeTransfer, LipsThatAreLeftClosedStayClosedOnHeadsOfTheIctModel) {
   }
   EXPECT_GT(unchanged, 0.02);
   EXPECT_LT(carried, 0.02);
+}
+
+/// Triangles of the skin that pass through others in each head's shapes, and neither on the template in that shape
+/// nor in the head at rest.
+struct NewCrossings {
+  Index carried = 0, unchanged = 0;
+};
+
+NewCrossings new_crossings(const Heads& heads, const ShapeSet& set) {
+  const std::vector<Triangle> triangles =
+      triangles_of(heads.faces.topology, heads.components, heads.components.largest());
+  const auto crossing = [&](const Positions& mesh) {
+    return intersecting(triangles, mesh, near_pairs(triangles, mesh, 0));
+  };
+  const auto in_shape = [](const Positions& mesh, const Displacements& moves) {
+    Positions moved = mesh;
+    moves.add_to(moved);
+    return moved;
+  };
+  const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set);
+  NewCrossings sum;
+  for (std::size_t h = 0; h < heads.faces.heads.size(); ++h) {
+    const auto at_rest = crossing(heads[h]);
+    const auto moves = transfer.carry(static_cast<Index>(h), heads[h]);
+    for (std::size_t s = 0; s < set.shapes.size(); ++s) {
+      auto known = crossing(in_shape(set.neutral, set.shapes[s].moves));
+      known.insert(known.end(), at_rest.begin(), at_rest.end());
+      const NewIntersections added(triangles, set.neutral.rows(), known);
+      sum.carried += added.count(crossing(in_shape(heads[h], moves[s])));
+      sum.unchanged += added.count(crossing(in_shape(heads[h], set.shapes[s].moves)));
+    }
+  }
+  return sum;
+}
+
+TEST(ShapeTransfer, TakesNoSkinThroughSkinOnHeadsOfTheIctModel) {
+  const auto ict = ict_model({"eyeBlink_L", "mouthSmile_R", "mouthPucker"});
+  if (!ict) GTEST_SKIP() << "needs the ICT model's heads and shapes in ../shared/faces";
+  const NewCrossings crossings = new_crossings(ict->heads, ict->set);
+  EXPECT_GT(crossings.unchanged, 500);
+  EXPECT_LT(crossings.carried, 30);
 }
 
 TEST(ShapeTransfer, LidsKeepOffTheEyeball) {

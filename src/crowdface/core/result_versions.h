@@ -17,7 +17,7 @@ inline constexpr int kPrepareVersion = 4;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
 inline constexpr int kFaceFilesVersion = 12;
 inline constexpr int kShapesVersion =
-    3;  ///< shapes carried to a face of the same positions, and shown
+    4;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
 inline constexpr int kAttachmentsVersion = 2;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads

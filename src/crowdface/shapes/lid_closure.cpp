@@ -32,22 +32,6 @@ double fading(double at, double whole, double none) {
   return t * t * (3 - 2 * t);
 }
 
-/// 1 for skin that belongs to the upper lid, −1 for the lower one's, by the nearest of the rim.
-std::vector<double> sides(const TemplateEye& eye, const Positions& neutral) {
-  std::vector<double> side(static_cast<std::size_t>(neutral.rows()), 0.0);
-  for (const std::uint32_t v : eye.skin) {
-    double nearest = std::numeric_limits<double>::max();
-    for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
-      const std::uint32_t rim = eye.lids.vertices[eye.lids.rim[r]];
-      const double distance = length3(row3(neutral, v) - row3(neutral, rim));
-      if (distance >= nearest) continue;
-      nearest = distance;
-      side[v] = eye.lids.upper[r] ? 1 : -1;
-    }
-  }
-  return side;
-}
-
 /// Where the lid's rim is at a place along the opening.
 Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
                        const Eigen::Vector3d& along) {
@@ -71,6 +55,19 @@ std::uint32_t row_of(const Displacements& shape, std::uint32_t vertex) {
 }
 
 }  // namespace
+
+void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side) {
+  for (const std::uint32_t v : eye.skin) {
+    double nearest = std::numeric_limits<double>::max();
+    for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
+      const std::uint32_t rim = eye.lids.vertices[eye.lids.rim[r]];
+      const double distance = length3(row3(neutral, v) - row3(neutral, rim));
+      if (distance >= nearest) continue;
+      nearest = distance;
+      side[v] = eye.lids.upper[r] ? 1 : -1;
+    }
+  }
+}
 
 FaceEye::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
   const BallMap::Gap found = ball->gap_at(motion.undo(point) - ball->centre());
@@ -117,7 +114,9 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
   Positions closed = neutral;
   shape.add_to(closed);
   const Eigen::Vector3d along = axes.side();
-  const std::vector<double> side = sides(eye, neutral);
+  std::vector<signed char> sides(static_cast<std::size_t>(neutral.rows()), 0);
+  lid_sides(eye, neutral, sides);
+  const std::vector<double> side(sides.begin(), sides.end());
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const std::uint32_t r : eye.lids.rim) {
     const double at = dot3(row3(neutral, eye.lids.vertices[r]), along);

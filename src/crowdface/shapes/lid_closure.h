@@ -34,6 +34,11 @@ struct FaceEye {
   Gap gap_at(const Eigen::Vector3d& point) const;
 };
 
+/// Writes 1 for skin around an eye that belongs to the upper lid and −1 for the lower one's, by what of the rim is
+/// nearest.
+/// \param side  #V
+void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side);
+
 /// How the lids of one eye move in a shape, so that a blink closes on eyes of any size. Carried by frames
 /// alone, lids meet or miss each other by millimetres, because an opening is no piece of skin that
 /// could be measured. Where the shape closes the lids on the template, what they move up or down is
@@ -65,6 +70,8 @@ class LidClosure {
               const Positions& moves) const;
   /// Between those of several sets.
   static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
+  /// Whether the shape closes the lids.
+  bool closes() const { return !places_.empty(); }
   /// The rows of the shape that `fit` may change.
   std::vector<std::uint32_t> rows() const;
 

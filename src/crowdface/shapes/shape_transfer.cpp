@@ -13,6 +13,7 @@
 #include "crowdface/shapes/kept_contacts.h"
 #include "crowdface/shapes/lid_closure.h"
 #include "crowdface/shapes/rigid_turn.h"
+#include "crowdface/shapes/skin_crossings.h"
 
 namespace crowdface {
 namespace {
@@ -21,6 +22,9 @@ namespace {
 constexpr std::size_t kMostFitted = 500;
 /// How far from an eyeball's centre its lids' skin may be, as a share of its radius.
 constexpr double kEyeSkin = 3;
+/// A shape that takes lips through each other by more than this share of the skin's extent, some 5 mm, is made
+/// to be added to another; its crossings are meant.
+constexpr double kMeant = 0.012;
 
 struct Eye {
   std::size_t part;  ///< of the rigid ones
@@ -54,6 +58,7 @@ struct ShapeState {
   std::vector<PartMove> parts;
   std::vector<LidMove> lids;  ///< of the eyes
   std::vector<Hanging> hanging;
+  SkinCrossings::Watched watched;
   bool moves_contacts = false;
   std::vector<std::vector<double>> widening;  ///< #sets, if it does: of the gaps between lips
 };
@@ -114,6 +119,9 @@ struct ShapeTransfer::State {
   KeptContacts contacts;
   RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
   FrameField field;
+  double extent = 0;  ///< of the template's skin
+  SkinCrossings crossings;
+  SkinCrossings::Watched watched;  ///< of any shape
   std::vector<ShapeState> shapes;
 
   /// A face, and how it is turned and stretched.
@@ -122,6 +130,7 @@ struct ShapeTransfer::State {
     FrameField::Frames frames;
     std::vector<Eigen::Matrix3d> maps;  ///< #used
     std::vector<double> gaps;           ///< #contacts
+    std::vector<bool> at_rest;          ///< #V: at crossings of its skin
   };
   Carrier carrier_to(const Positions& face) const;
 
@@ -130,6 +139,7 @@ struct ShapeTransfer::State {
   void look_up_regions(const RegionWeights& regions);
   ShapeState bind(const Displacements& moves, const Adjacency& adjacency) const;
   void bind_lids(const Displacements& moves, const Adjacency& adjacency, ShapeState& state) const;
+  SkinCrossings::Watched watch(const Displacements& moves, const ShapeState& state) const;
   void add_sets();
   void add_set(const Carrier& carrier, const Displacements& shape, std::span<const FaceEye> at_eyes,
                ShapeState& state) const;
@@ -140,7 +150,7 @@ struct ShapeTransfer::State {
   Eigen::Matrix3d map_of(const PartMove& part, const ShapeState& state,
                          std::span<const Eigen::Matrix3d> maps) const;
   Displacements carry(std::size_t shape, std::size_t target, const Carrier& carrier,
-                      const RegionShares& shares, Positions& scratch) const;
+                      const RegionShares& shares, Positions& scratch, Positions& mesh) const;
 };
 
 void ShapeTransfer::State::add_part(const Part& part, const PartList& parts,
@@ -199,7 +209,12 @@ ShapeTransfer::ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency,
                                              std::move(contacts),
                                              {},
                                              {},
+                                             0,
+                                             {},
+                                             {},
                                              {}});
+  state->extent = extent_of(shapes.neutral, state->skin);
+  state->crossings = SkinCrossings(faces.topology, state->skin, state->extent, axes);
   const Positions mean = mean_head(faces);
   for (const Part& part : parts.parts) {
     if (part.part_class != PartClass::kRigid) continue;
@@ -207,13 +222,15 @@ ShapeTransfer::ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency,
     if (part.eyeball) state->add_eye(part, parts.shapes[part.ball], mean);
   }
   state->used = used_vertices(shapes);
-  state->field =
-      FrameField(shapes.neutral, state->skin, extent_of(shapes.neutral, state->skin), state->used);
+  state->field = FrameField(shapes.neutral, state->skin, state->extent, state->used);
   if (!shapes.of_head.empty()) state->look_up_regions(regions);
   state->shapes.resize(shapes.shapes.size());
   parallel_for_each(shapes.shapes.size(), [&](std::size_t s) {
     state->shapes[s] = state->bind(shapes.shapes[s].moves, adjacency);
   });
+  std::vector<SkinCrossings::Watched> watched;
+  for (const ShapeState& shape : state->shapes) watched.push_back(shape.watched);
+  state->watched = state->crossings.watch_all(watched);
   state->add_sets();
   state_ = std::move(state);
 }
@@ -264,7 +281,24 @@ ShapeState ShapeTransfer::State::bind(const Displacements& moves,
   }
   bind_lids(moves, adjacency, state);
   state.moves_contacts = contacts.moved_by(moves.vertices);
+  state.watched = watch(moves, state);
   return state;
+}
+
+SkinCrossings::Watched ShapeTransfer::State::watch(const Displacements& moves,
+                                                   const ShapeState& state) const {
+  Positions mesh = set.neutral;
+  moves.add_to(mesh);
+  for (const double gap : contacts.gaps(mesh)) {
+    if (gap < -kMeant * extent) return {};
+  }
+  std::vector<signed char> side;
+  for (std::size_t e = 0; e < eyes.size(); ++e) {
+    if (!state.lids[e].lids.closes()) continue;
+    side.resize(static_cast<std::size_t>(mesh.rows()), 0);
+    lid_sides(eyes[e].of_template, set.neutral, side);
+  }
+  return crossings.watch(set.neutral, moves, std::move(side));
 }
 
 void ShapeTransfer::State::bind_lids(const Displacements& moves, const Adjacency& adjacency,
@@ -308,7 +342,7 @@ void ShapeTransfer::State::bind_lids(const Displacements& moves, const Adjacency
 
 ShapeTransfer::State::Carrier ShapeTransfer::State::carrier_to(const Positions& face) const {
   Carrier carrier{face, field.frames(face), std::vector<Eigen::Matrix3d>(used.size()),
-                  contacts.gaps(face)};
+                  contacts.gaps(face), crossings.crossing_at_rest(face, watched)};
   for (std::size_t i = 0; i < used.size(); ++i) carrier.maps[i] = field.at(i, carrier.frames);
   return carrier;
 }
@@ -355,9 +389,12 @@ void ShapeTransfer::State::add_set(const Carrier& carrier, const Displacements& 
     if (move.lids.empty()) continue;
     move.goals.push_back(move.lids.goals(carrier.mesh, at_eyes[e], whole, moves));
   }
-  if (!state.moves_contacts) return;
   Positions moved = carrier.mesh;
   shape.add_to(moved);
+  if (!set.of_head.empty() && !state.watched.triangles.empty()) {
+    crossings.excuse(moved, state.watched);
+  }
+  if (!state.moves_contacts) return;
   std::vector<double>& widening = state.widening.emplace_back(contacts.gaps(moved));
   for (std::size_t p = 0; p < widening.size(); ++p) {
     widening[p] = (widening[p] - carrier.gaps[p]) / whole.scale;
@@ -420,7 +457,7 @@ Positions ShapeTransfer::State::mixed_moves(std::size_t number, const RegionShar
 
 Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target,
                                           const Carrier& carrier, const RegionShares& shares,
-                                          Positions& scratch) const {
+                                          Positions& scratch, Positions& mesh) const {
   const ShapeState& state = shapes[number];
   const SetShares one_set = {{0, 1}};
   const auto shares_of = [&](std::size_t part) {
@@ -453,6 +490,8 @@ Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target
     move.lids.fit(carrier.mesh, eye, whole, LidClosure::mean(move.goals, shares_of(eyes[e].part)),
                   result.moves);
   }
+  if (state.moves_contacts) keep_contacts(state, carrier, shares, scratch, result);
+  crossings.mend(carrier.mesh, carrier.at_rest, state.watched, mesh, result);
   for (const Hanging& hanging : state.hanging) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t on = hanging.rows[k];
@@ -460,7 +499,6 @@ Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target
       result.moves.row(hanging.row) += hanging.shares[k] * (result.moves.row(on) - carried.row(on));
     }
   }
-  if (state.moves_contacts) keep_contacts(state, carrier, shares, scratch, result);
   return result;
 }
 
@@ -469,10 +507,10 @@ std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& f
   const State& state = *state_;
   const State::Carrier carrier = state.carrier_to(face);
   std::vector<Displacements> shapes;
-  Positions scratch;
+  Positions scratch, mesh = face;
   for (std::size_t s = 0; s < state.shapes.size(); ++s) {
     shapes.push_back(state.carry(s, static_cast<std::size_t>(target), carrier,
-                                 s < shares.size() ? shares[s] : RegionShares(), scratch));
+                                 s < shares.size() ? shares[s] : RegionShares(), scratch, mesh));
   }
   return shapes;
 }

@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/skin_crossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/point_grid.h"
+#include "crowdface/validity/triangles.h"
+
+namespace crowdface {
+namespace {
+
+// Lengths are shares of the skin's extent, some 430 mm.
+constexpr double kNear = 0.008;     // of skin that may meet
+constexpr double kNearEdges = 1.6;  // the same, in edges
+constexpr double kOfMove = 0.8;  // how much of what a shape moves skin may be otherwise on a face
+constexpr double kOfDifference = 2;                    // and of what it moves it against other skin
+constexpr int kRings = 2;                              // around that
+constexpr double kEvened = 0.002, kNotEvened = 0.005;  // from crossings, at rest
+constexpr double kCell = 0.003;                        // over which displacements are evened out
+constexpr double kGrowth = 0.08;                       // of those, a round
+/// Of what evens out how lids move up and down, so that they close still.
+constexpr double kClosing = 0.3;
+constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
+constexpr int kRounds = 30;
+constexpr double kBar = 0.01;  // in which triangles are looked up
+
+bool have_common(const Triangle& a, const Triangle& b) {
+  for (const std::uint32_t v : a) {
+    if (v == b[0] || v == b[1] || v == b[2]) return true;
+  }
+  return false;
+}
+
+double square(double x) {
+  return x * x;
+}
+
+struct Box {
+  std::array<float, 3> low, high;
+
+  void add(const Box& other) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], other.low[c]);
+      high[c] = std::max(high[c], other.high[c]);
+    }
+  }
+  /// Without branches, which no processor foresees here.
+  bool meets(const Box& other) const {
+    unsigned apart = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      apart |= static_cast<unsigned>(low[c] > other.high[c]);
+      apart |= static_cast<unsigned>(other.low[c] > high[c]);
+    }
+    return apart == 0;
+  }
+};
+constexpr float kEnd = std::numeric_limits<float>::infinity();
+constexpr Box kNoBox{{kEnd, kEnd, kEnd}, {-kEnd, -kEnd, -kEnd}};
+
+/// No smaller than in double precision: what is rounded keeps its order.
+Box box_of(const Positions& mesh, const Triangle& triangle) {
+  const auto& [a, b, d] = triangle;
+  Box box;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto k = static_cast<Index>(c);
+    box.low[c] = static_cast<float>(std::min({mesh(a, k), mesh(b, k), mesh(d, k)}));
+    box.high[c] = static_cast<float>(std::max({mesh(a, k), mesh(b, k), mesh(d, k)}));
+  }
+  return box;
+}
+
+/// Pairs of boxes that meet, each once: boxes are put into bars along x, and sorted along each of them.
+/// \param fresh  #boxes: pairs of which neither is may be left out
+/// \param all    of the fresh boxes
+/// \param width  of a bar
+/// \param visit  visit(one, other)
+template <class Visit>
+void visit_meeting(std::span<const Box> boxes, std::span<const std::uint8_t> fresh, const Box& all,
+                   float width, const Visit& visit) {
+  if (!(all.high[1] >= all.low[1])) return;
+  const float per_width = 1 / width;
+  const auto bar_at = [&](float at, std::size_t axis) {
+    return static_cast<std::size_t>(std::max(at - all.low[axis], 0.0F) * per_width);
+  };
+  const std::size_t last_y = bar_at(all.high[1], 1), last_z = bar_at(all.high[2], 2);
+  struct Placed {
+    float low;
+    std::uint32_t number;
+  };
+  const std::size_t count = (last_y + 1) * (last_z + 1);
+  Grouped<Placed> bars = grouped<Placed>(count, [&](const auto& put) {
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      const Box& box = boxes[i];
+      if (!box.meets(all)) continue;
+      const std::size_t end_y = std::min(bar_at(box.high[1], 1), last_y);
+      const std::size_t end_z = std::min(bar_at(box.high[2], 2), last_z);
+      for (std::size_t z = bar_at(box.low[2], 2); z <= end_z; ++z) {
+        for (std::size_t y = bar_at(box.low[1], 1); y <= end_y; ++y) {
+          put(z * (last_y + 1) + y, Placed{box.low[0], i});
+        }
+      }
+    }
+  });
+  std::vector<Box> here;
+  for (std::size_t bar = 0; bar < count; ++bar) {
+    const std::span<Placed> placed = bars.of(bar);
+    const auto is_fresh = [&](const Placed& one) { return fresh[one.number] != 0; };
+    if (std::none_of(placed.begin(), placed.end(), is_fresh)) continue;
+    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+      return a.low != b.low ? a.low < b.low : a.number < b.number;
+    });
+    here.clear();
+    for (const Placed& one : placed) here.push_back(boxes[one.number]);
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      const Box& box = here[i];
+      for (std::size_t j = i + 1; j < here.size() && here[j].low[0] <= box.high[0]; ++j) {
+        if (!box.meets(here[j])) continue;
+        const std::size_t y = bar_at(std::max(box.low[1], here[j].low[1]), 1);
+        const std::size_t z = bar_at(std::max(box.low[2], here[j].low[2]), 2);
+        if (z * (last_y + 1) + y == bar) visit(placed[i].number, placed[j].number);
+      }
+    }
+  }
+}
+
+/// Means of a field over the cells of a grid.
+class CellMeans {
+ public:
+  CellMeans(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double cell)
+      : low_(low), cell_(cell) {
+    for (int c = 0; c < 3; ++c) {
+      nodes_a_side_[static_cast<std::size_t>(c)] =
+          static_cast<std::size_t>((high[c] - low[c]) / cell) + 2;
+    }
+    nodes_.resize(nodes_a_side_[0] * nodes_a_side_[1] * nodes_a_side_[2]);
+  }
+  void add(const Eigen::Vector3d& place, const Eigen::Vector3d& value) {
+    visit(place, [&](Node& node, double weight) {
+      node.sum += weight * value;
+      node.weight += weight;
+    });
+  }
+  /// At a place to which something was added.
+  Eigen::Vector3d at(const Eigen::Vector3d& place) {
+    Node mean;
+    visit(place, [&](const Node& node, double weight) {
+      mean.sum += weight * node.sum;
+      mean.weight += weight * node.weight;
+    });
+    return mean.sum / mean.weight;
+  }
+
+ private:
+  struct Node {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weight = 0;
+  };
+
+  template <class Use>
+  void visit(const Eigen::Vector3d& place, const Use& use) {
+    std::array<std::size_t, 3> first;
+    std::array<double, 3> t;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double x = (place[static_cast<Index>(c)] - low_[static_cast<Index>(c)]) / cell_;
+      first[c] = static_cast<std::size_t>(x);
+      t[c] = x - static_cast<double>(first[c]);
+    }
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      std::size_t node = 0;
+      double weight = 1;
+      for (std::size_t c = 3; c-- > 0;) {
+        const std::size_t step = (corner >> c) & 1U;
+        node = node * nodes_a_side_[c] + first[c] + step;
+        weight *= step == 1 ? t[c] : 1 - t[c];
+      }
+      use(nodes_[node], weight);
+    }
+  }
+
+  Eigen::Vector3d low_;
+  double cell_;
+  std::array<std::size_t, 3> nodes_a_side_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace
+
+SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin,
+                             double extent, const HeadAxes& axes)
+    : extent_(extent),
+      axes_(axes),
+      skin_(skin.begin(), skin.end()),
+      is_skin_(static_cast<std::size_t>(topology.vertex_count), false) {
+  for (const std::uint32_t v : skin) is_skin_[v] = true;
+  for (const Triangle& triangle : triangles_of(topology)) {
+    if (is_skin_[triangle[0]] && is_skin_[triangle[1]] && is_skin_[triangle[2]]) {
+      triangles_.push_back(triangle);
+    }
+  }
+  around_ = grouped<std::uint32_t>(is_skin_.size(), [&](const auto& put) {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      for (const std::uint32_t v : triangles_[t]) put(v, t);
+    }
+  });
+}
+
+SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,
+                                            std::vector<signed char> side) const {
+  Watched watched{{}, {}, std::move(side)};
+  Positions mesh = neutral;
+  shape.add_to(mesh);
+  const Positions normals = vertex_normals(triangles_, mesh);
+  const PointGrid grid(mesh, skin_);
+  std::vector<bool> near(is_skin_.size(), false);
+  for (const std::uint32_t v : shape.vertices) {
+    if (!is_skin_[v]) continue;
+    const Eigen::Vector3d at = row3(mesh, v), normal = row3(normals, v);
+    const Eigen::Vector3d move = at - row3(neutral, v);
+    double reach = kNear * extent_;
+    for (const std::uint32_t t : around_.of(v)) {
+      for (const std::uint32_t w : triangles_[t]) {
+        reach = std::max(reach, kNearEdges * length3(row3(mesh, w) - at));
+      }
+    }
+    for (const std::uint32_t w : grid.about(at, reach)) {
+      const Eigen::Vector3d other = row3(mesh, w), other_move = other - row3(neutral, w);
+      const double distance = length3(other - at);
+      if (distance > reach || w == v || dot3(row3(normals, w), normal) > 0) continue;
+      const double may_differ = kOfMove * std::max(length3(move), length3(other_move)) +
+                                kOfDifference * length3(move - other_move);
+      if (may_differ >= distance) near[v] = near[w] = true;
+    }
+  }
+  for (int ring = 0; ring < kRings; ++ring) {
+    std::vector<bool> wider = near;
+    for (const std::uint32_t v : skin_) {
+      if (!near[v]) continue;
+      for (const std::uint32_t t : around_.of(v)) {
+        for (const std::uint32_t w : triangles_[t]) wider[w] = true;
+      }
+    }
+    near = std::move(wider);
+  }
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    const Triangle& corners = triangles_[t];
+    if (near[corners[0]] || near[corners[1]] || near[corners[2]]) watched.triangles.push_back(t);
+  }
+  watched.excused.assign(watched.triangles.size(), false);
+  excuse(mesh, watched);
+  return watched;
+}
+
+void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
+  const std::vector<bool> touched =
+      touched_by(crossing(mesh, watched, watched.excused, {}), watched);
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    if (touched[i]) watched.excused[i] = true;
+  }
+}
+
+std::vector<SkinCrossings::Pair> SkinCrossings::crossing(const Positions& mesh,
+                                                         const Watched& watched,
+                                                         const std::vector<bool>& excused,
+                                                         const std::vector<bool>& changed) const {
+  const std::vector<std::uint32_t>& triangles = watched.triangles;
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  std::vector<std::uint8_t> fresh;
+  fresh.reserve(triangles.size());
+  Box all = kNoBox;
+  for (const std::uint32_t triangle : triangles) {
+    boxes.push_back(box_of(mesh, triangles_[triangle]));
+    const auto& [a, b, c] = triangles_[triangle];
+    const bool is_fresh = changed.empty() || changed[a] || changed[b] || changed[c];
+    fresh.push_back(is_fresh ? 1 : 0);
+    if (is_fresh) all.add(boxes.back());
+  }
+  std::vector<Pair> pairs;
+  visit_meeting(boxes, fresh, all, static_cast<float>(kBar * extent_),
+                [&](std::uint32_t one, std::uint32_t other) {
+                  if (excused[one] && excused[other]) return;
+                  const Triangle &a = triangles_[triangles[one]], &b = triangles_[triangles[other]];
+                  if (have_common(a, b) || !triangles_intersect(mesh, a, b)) return;
+                  pairs.push_back({std::min(one, other), std::max(one, other)});
+                });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<std::uint32_t> SkinCrossings::vertices_of(const std::vector<Pair>& pairs,
+                                                      const Watched& watched) const {
+  std::vector<std::uint32_t> vertices;
+  for (const Pair& pair : pairs) {
+    for (const std::uint32_t place : pair) {
+      const Triangle& corners = triangles_[watched.triangles[place]];
+      vertices.insert(vertices.end(), corners.begin(), corners.end());
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// The same as in NewIntersections: those with a vertex at a triangle of the pairs.
+std::vector<bool> SkinCrossings::touched_by(const std::vector<Pair>& pairs,
+                                            const Watched& watched) const {
+  const std::vector<std::uint32_t> there = vertices_of(pairs, watched);
+  std::vector<bool> touched(watched.triangles.size(), false);
+  for (std::size_t i = 0; i < touched.size() && !there.empty(); ++i) {
+    const Triangle& corners = triangles_[watched.triangles[i]];
+    touched[i] = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+      return std::binary_search(there.begin(), there.end(), v);
+    });
+  }
+  return touched;
+}
+
+int SkinCrossings::side_of(const Watched& watched, std::uint32_t place) const {
+  if (watched.side.empty()) return 0;
+  for (const std::uint32_t v : triangles_[watched.triangles[place]]) {
+    if (watched.side[v] != 0) return watched.side[v];
+  }
+  return 0;
+}
+
+std::vector<SkinCrossings::Row> SkinCrossings::rows_of(const Positions& rest,
+                                                       const Displacements& shape) const {
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
+    const std::uint32_t v = shape.vertices[i];
+    if (is_skin_[v]) rows.push_back({static_cast<Index>(i), v, row3(rest, v)});
+  }
+  return rows;
+}
+
+/// Lids: away from each other as they are at rest, the upper one over the lower one.
+void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& watched,
+                               const Positions& rest, std::span<const Row> rows, double by,
+                               Displacements& shape, std::vector<bool>& changed) const {
+  std::map<std::uint32_t, Eigen::Vector3d> wanted;
+  for (const Pair& pair : pairs) {
+    std::array<Eigen::Vector3d, 2> middle;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto& [a, b, c] = triangles_[watched.triangles[pair[k]]];
+      middle[k] = row3(rest, a) + row3(rest, b) + row3(rest, c);
+    }
+    const Eigen::Vector3d between =
+        unit3(unit3(middle[0] - middle[1]) + side_of(watched, pair[0]) * axes_.front);
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const std::uint32_t v : triangles_[watched.triangles[pair[k]]]) {
+        wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? between : -between;
+      }
+    }
+  }
+  const double reach = kPushed * extent_;
+  for (const Row& row : rows) {
+    const signed char side = watched.side[row.vertex];
+    if (side == 0) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weights = 0, most = 0;
+    for (const auto& [v, push] : wanted) {
+      if (watched.side[v] != side && v != row.vertex) continue;
+      const double distance = length3(row3(rest, v) - row.rest) / reach;
+      if (distance >= 1) continue;
+      const double weight = square(1 - square(distance));
+      sum += weight * unit3(push);
+      weights += weight;
+      most = std::max(most, weight);
+    }
+    if (weights == 0) continue;
+    shape.moves.row(row.row) += (by * most / weights * sum).transpose();
+    changed[row.vertex] = true;
+  }
+}
+
+void SkinCrossings::even_out(const std::vector<Pair>& pairs, const Watched& watched,
+                             const Positions& rest, std::span<const Row> rows, double grown,
+                             Displacements& shape, std::vector<bool>& changed) const {
+  const double cell = grown * kCell * extent_, whole = grown * kEvened * extent_,
+               none = grown * kNotEvened * extent_;
+  const std::vector<std::uint32_t> crossing = vertices_of(pairs, watched);
+  Eigen::Vector3d low = row3(rest, crossing.front()), high = low;
+  for (const std::uint32_t v : crossing) {
+    low = low.cwiseMin(row3(rest, v));
+    high = high.cwiseMax(row3(rest, v));
+  }
+  low.array() -= none + cell;
+  high.array() += none + cell;
+  CellMeans means(low, high, cell);
+  std::vector<Row> around;
+  for (const Row& row : rows) {
+    if ((row.rest.array() <= low.array()).any() || (row.rest.array() >= high.array()).any()) {
+      continue;
+    }
+    means.add(row.rest, row3(shape.moves, row.row));
+    around.push_back(row);
+  }
+  for (const Row& row : around) {
+    double distance = none;
+    for (const std::uint32_t v : crossing) {
+      distance = std::min(distance, length3(row3(rest, v) - row.rest));
+    }
+    if (distance >= none) continue;
+    const double t = std::clamp((none - distance) / (none - whole), 0.0, 1.0);
+    const double share = t * t * (3 - 2 * t);
+    const Eigen::Vector3d before = row3(shape.moves, row.row);
+    Eigen::Vector3d by = share * (means.at(row.rest) - before);
+    if (!watched.side.empty() && watched.side[row.vertex] != 0) {
+      by -= (1 - kClosing) * dot3(by, axes_.up) * axes_.up;
+    }
+    shape.moves.row(row.row) = (before + by).transpose();
+    changed[row.vertex] = true;
+  }
+}
+
+SkinCrossings::Watched SkinCrossings::watch_all(std::span<const Watched> shapes) const {
+  std::vector<bool> watched(triangles_.size(), false);
+  for (const Watched& shape : shapes) {
+    for (const std::uint32_t t : shape.triangles) watched[t] = true;
+  }
+  Watched all;
+  for (std::uint32_t t = 0; t < watched.size(); ++t) {
+    if (watched[t]) all.triangles.push_back(t);
+  }
+  all.excused.assign(all.triangles.size(), false);
+  return all;
+}
+
+std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest, const Watched& all) const {
+  std::vector<bool> at(is_skin_.size(), false);
+  for (const std::uint32_t v : vertices_of(crossing(rest, all, all.excused, {}), all)) at[v] = true;
+  return at;
+}
+
+void SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_rest,
+                         const Watched& watched, Positions& mesh, Displacements& shape) const {
+  if (watched.triangles.empty()) return;
+  std::vector<bool> excused = watched.excused;
+  for (std::size_t i = 0; i < excused.size(); ++i) {
+    const auto& [a, b, c] = triangles_[watched.triangles[i]];
+    if (at_rest[a] || at_rest[b] || at_rest[c]) excused[i] = true;
+  }
+  shape.add_to(mesh);
+  std::vector<Pair> pairs = crossing(mesh, watched, excused, {});
+  if (!pairs.empty()) take_apart(rest, watched, excused, std::move(pairs), mesh, shape);
+  for (const std::uint32_t v : shape.vertices) mesh.row(v) = rest.row(v);
+}
+
+void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
+                               const std::vector<bool>& excused, std::vector<Pair> pairs,
+                               Positions& mesh, Displacements& shape) const {
+  const std::vector<Row> rows = rows_of(rest, shape);
+  double grown = 1;
+  for (int round = 0; round < kRounds && !pairs.empty(); ++round, grown += kGrowth) {
+    const auto are_lids = [&](const Pair& pair) {
+      return side_of(watched, pair[0]) * side_of(watched, pair[1]) < 0;
+    };
+    std::vector<Pair> lids;
+    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(lids), are_lids);
+    std::erase_if(pairs, are_lids);
+    std::vector<bool> changed(is_skin_.size(), false);
+    if (!lids.empty()) {
+      push_apart(lids, watched, rest, rows, grown * kPush * extent_, shape, changed);
+    }
+    if (!pairs.empty()) even_out(pairs, watched, rest, rows, grown, shape, changed);
+    for (const Row& row : rows) {
+      if (!changed[row.vertex]) continue;
+      mesh.row(row.vertex) = rest.row(row.vertex) + shape.moves.row(row.row);
+    }
+    pairs = crossing(mesh, watched, excused, changed);
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "crowdface/core/grouped.h"
+#include "crowdface/mesh/displacements.h"
+#include "crowdface/mesh/triangles.h"
+#include "crowdface/parts/head_axes.h"
+
+namespace crowdface {
+
+/// Skin that a shape takes through other skin on a face, where it does not on the template: in folds, between lips,
+/// where lids meet. The face's displacements are changed there, and nowhere else.
+class SkinCrossings {
+ public:
+  SkinCrossings() = default;
+  /// \param skin    its vertices, ascending
+  /// \param extent  of the skin, about the same in the template and all faces
+  SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin, double extent,
+                const HeadAxes& axes);
+
+  /// Which skin of a shape is looked at: that which the shape brings, or may on a face bring, to other skin.
+  struct Watched {
+    std::vector<std::uint32_t> triangles;
+    std::vector<bool> excused;  ///< #triangles: at crossings of the template's own
+    std::vector<signed char>
+        side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+  };
+  /// \param neutral  of the template, #V by 3
+  Watched watch(const Positions& neutral, const Displacements& shape,
+                std::vector<signed char> side) const;
+  /// Crossings in this mesh are to be found on faces as well.
+  void excuse(const Positions& mesh, Watched& watched) const;
+
+  /// What is watched in any of the shapes.
+  Watched watch_all(std::span<const Watched> shapes) const;
+  /// #V: whether a vertex is one of triangles that pass through others in a face at rest.
+  std::vector<bool> crossing_at_rest(const Positions& rest, const Watched& all) const;
+
+  /// Makes a shape fit: displacements around crossings are evened out over what is near each other at rest, so
+  /// that it stays as it lies there; and lids are pushed off each other. Crossings of the face at rest are
+  /// none of the shape's.
+  /// \param rest     of the face, #V by 3
+  /// \param at_rest  #V, see crossing_at_rest
+  /// \param mesh     the same as `rest`; changed while it works
+  /// \param shape    of the face
+  void mend(const Positions& rest, const std::vector<bool>& at_rest, const Watched& watched,
+            Positions& mesh, Displacements& shape) const;
+
+ private:
+  using Pair = std::array<std::uint32_t, 2>;  ///< places among the watched triangles
+  /// A row of the displacements that is skin.
+  struct Row {
+    Index row;
+    std::uint32_t vertex;
+    Eigen::Vector3d rest;
+  };
+
+  /// \param excused  #triangles: pairs of two such are left out
+  /// \param changed  #V: only pairs of which one has a vertex that changed; empty: all
+  std::vector<Pair> crossing(const Positions& mesh, const Watched& watched,
+                             const std::vector<bool>& excused,
+                             const std::vector<bool>& changed) const;
+  std::vector<bool> touched_by(const std::vector<Pair>& pairs, const Watched& watched) const;
+  std::vector<std::uint32_t> vertices_of(const std::vector<Pair>& pairs,
+                                         const Watched& watched) const;
+  void take_apart(const Positions& rest, const Watched& watched, const std::vector<bool>& excused,
+                  std::vector<Pair> pairs, Positions& mesh, Displacements& shape) const;
+  int side_of(const Watched& watched, std::uint32_t place) const;
+  std::vector<Row> rows_of(const Positions& rest, const Displacements& shape) const;
+  void push_apart(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
+                  std::span<const Row> rows, double by, Displacements& shape,
+                  std::vector<bool>& changed) const;
+  void even_out(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
+                std::span<const Row> rows, double grown, Displacements& shape,
+                std::vector<bool>& changed) const;
+
+  double extent_ = 0;
+  HeadAxes axes_;
+  std::vector<std::uint32_t> skin_;
+  std::vector<bool> is_skin_;  ///< #V
+  std::vector<Triangle> triangles_;
+  Grouped<std::uint32_t> around_;  ///< #V: triangles at each
+};
+
+}  // namespace crowdface

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts skin that passes through skin in a crowd's faces and in their shapes: what docs/shapes.md tabulates.
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <iterator>
+#include <string>
+
+#include "crowdface/core/text.h"
+#include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/face_shapes.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/io/single_precision.h"
+#include "crowdface/mesh/triangles.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/ball_map.h"
+#include "crowdface/parts/eye_socket.h"
+#include "crowdface/parts/rigid_motion.h"
+#include "crowdface/run/casting.h"
+#include "crowdface/run/face_builder.h"
+#include "crowdface/run/pipeline.h"
+#include "crowdface/validity/intersections.h"
+
+using namespace crowdface;
+
+namespace {
+
+struct Counted {
+  Index of_template = 0, unchanged = 0, carried = 0, most = 0, faces = 0;
+};
+
+class Crossings {
+ public:
+  explicit Crossings(const Inputs& inputs)
+      : triangles_(triangles_of(inputs.faces.topology, inputs.skin, inputs.skin.largest())),
+        vertex_count_(inputs.faces.topology.vertex_count) {}
+
+  std::vector<TrianglePair> of(const Positions& positions) const {
+    return intersecting(triangles_, positions, near_pairs(triangles_, positions, 0));
+  }
+  /// Triangles that pass through others in `mesh` and are none of those of the others.
+  Index beyond(const std::vector<TrianglePair>& of_template,
+               const std::vector<TrianglePair>& at_rest, const Positions& mesh) const {
+    std::vector<TrianglePair> known = of_template;
+    known.insert(known.end(), at_rest.begin(), at_rest.end());
+    return NewIntersections(triangles_, vertex_count_, known).count(of(mesh));
+  }
+  Index all(const std::vector<TrianglePair>& pairs) const {
+    return NewIntersections(triangles_, vertex_count_, {}).count(pairs);
+  }
+
+ private:
+  std::vector<Triangle> triangles_;
+  Index vertex_count_;
+};
+
+Positions in_shape(const Positions& face, const Displacements& moves) {
+  Positions mesh = face;
+  moves.add_to(mesh);
+  return mesh;
+}
+
+/// One eye's lids.
+class EyeLids {
+ public:
+  EyeLids(const Inputs& inputs, const Part& part, const HeadAxes& axes)
+      : inputs_(inputs),
+        part_(part),
+        axes_(axes),
+        ones_(part.vertices.size(), 1.0),
+        mean_(mean_head(inputs.faces)),
+        around_(inputs.faces.topology) {
+    const Positions& neutral = inputs.shapes.neutral;
+    const BallMap ball = map_in(neutral);
+    std::vector<std::uint32_t> skin;
+    for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
+      if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
+    }
+    lids_ = find_lids(neutral, PointGrid(neutral, part.vertices), ball.centre(), ball.radius(),
+                      axes, skin);
+  }
+  BallMap map_in(const Positions& mesh) const {
+    const ComponentShape& ball = inputs_.parts.shapes[part_.ball];
+    const RigidMotion motion = fit_rigid_motion(mean_, mesh, part_.vertices, ones_);
+    return BallMap(inputs_.faces.topology, around_, mesh, part_.surface, motion.apply(ball.centre),
+                   motion.scale * ball.radius, axes_);
+  }
+  /// Straight down from the upper rim's points to the lower rim.
+  std::vector<double> gaps(const Positions& mesh) const {
+    std::vector<std::pair<double, double>> low;
+    for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
+      const Eigen::Vector3d p = row3(mesh, lids_.vertices[lids_.rim[r]]);
+      if (!lids_.upper[r]) low.emplace_back(dot3(p, axes_.side()), dot3(p, axes_.up));
+    }
+    std::sort(low.begin(), low.end());
+    std::vector<double> gaps;
+    for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
+      if (!lids_.upper[r]) continue;
+      const Eigen::Vector3d p = row3(mesh, lids_.vertices[lids_.rim[r]]);
+      const double at = dot3(p, axes_.side());
+      const auto next = std::lower_bound(low.begin(), low.end(), std::pair(at, -1e9));
+      if (next == low.begin() || next == low.end()) {
+        gaps.push_back(0);
+        continue;
+      }
+      const auto before = std::prev(next);
+      const double t = (at - before->first) / (next->first - before->first);
+      gaps.push_back(dot3(p, axes_.up) - (1 - t) * before->second - t * next->second);
+    }
+    return gaps;
+  }
+  /// How deep lids and lining are in the eyeball.
+  std::vector<double> depths(const BallMap& ball, const Positions& mesh) const {
+    std::vector<double> depths;
+    for (const std::uint32_t v : lids_.vertices) {
+      depths.push_back(std::max(0.0, -ball.gap_at(row3(mesh, v) - ball.centre()).gap));
+    }
+    return depths;
+  }
+  double moved(const Displacements& moves) const {
+    double most = 0;
+    for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
+      const std::uint32_t v = lids_.vertices[lids_.rim[r]];
+      const auto at = std::lower_bound(moves.vertices.begin(), moves.vertices.end(), v);
+      if (at != moves.vertices.end() && *at == v)
+        most = std::max(most, length3(row3(moves.moves, at - moves.vertices.begin())));
+    }
+    return most;
+  }
+  const Lids& lids() const { return lids_; }
+
+ private:
+  const Inputs& inputs_;
+  const Part& part_;
+  HeadAxes axes_;
+  std::vector<double> ones_;
+  Positions mean_;
+  FacesAround around_;
+  Lids lids_;
+};
+
+constexpr double kTenthOfMm = 0.01;  // of centimetres
+
+/// Of blinks of a crowd in centimetres.
+struct LidFigures {
+  std::size_t closing = 0, closed = 0, deep = 0, blinks = 0;
+  double widest = 0, deepest = 0;
+
+  /// \param moves  of the face
+  void add(const EyeLids& eye, const Positions& neutral, const Positions& face,
+           const Displacements& of_template, const Displacements& moves) {
+    const BallMap ball = eye.map_in(face), there = eye.map_in(neutral);
+    const double scale = ball.radius() / there.radius();
+    const Positions closed_there = in_shape(neutral, of_template), here = in_shape(face, moves);
+    const auto wanted = eye.gaps(closed_there), now = eye.gaps(here);
+    ++blinks;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (wanted[i] > 3 * kTenthOfMm) continue;
+      ++closing;
+      if (now[i] <= 3 * kTenthOfMm) ++closed;
+      widest = std::max(widest, now[i]);
+    }
+    const auto in_template = eye.depths(there, closed_there), at_rest = eye.depths(ball, face),
+               in_face = eye.depths(ball, here);
+    for (std::size_t i = 0; i < in_face.size(); ++i) {
+      const double more = in_face[i] - std::max(scale * in_template[i], at_rest[i]);
+      if (more > 2 * kTenthOfMm) ++deep;
+      deepest = std::max(deepest, more);
+    }
+  }
+};
+
+/// In millimetres.
+std::string mm(double centimetres) {
+  return format_fixed(10 * centimetres, 2);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc < 2) throw UsageError("usage: crowdface_measure_shapes CONFIG [FACES]");
+  const Job job = load_job(argv[1], {}, cache_directory());
+  const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache_directory());
+  const Cast cast = crowdface::cast(job.config, job.inputs, prepared, {});
+  const FaceBuilder builder(job.config, job.inputs, prepared);
+  const FaceShapes shapes(job.config, job.inputs);
+  const Crossings crossings(job.inputs);
+  const ShapeSet& set = job.inputs.shapes;
+
+  std::size_t count = cast.crowd.size();
+  if (argc > 2) count = std::min<std::size_t>(count, std::strtoul(argv[2], nullptr, 10));
+  std::vector<Counted> counted(set.shapes.size());
+  std::vector<std::vector<TrianglePair>> of_template;
+  for (std::size_t s = 0; s < set.shapes.size(); ++s) {
+    of_template.push_back(crossings.of(in_shape(set.neutral, set.shapes[s].moves)));
+    counted[s].of_template = crossings.all(of_template[s]);
+  }
+  std::vector<EyeLids> eyes;
+  for (const Part& part : job.inputs.parts.parts) {
+    if (part.eyeball) eyes.emplace_back(job.inputs, part, head_axes(job.config));
+  }
+  LidFigures lids;
+  Index at_rest_in_all = 0;
+  for (std::size_t f = 0; f < count; ++f) {
+    const Recipe* recipe = &cast.crowd[f].recipe;
+    Positions face;
+    builder.build({&recipe, 1}, {&face, 1});
+    face = as_written(face);
+    const std::vector<TrianglePair> at_rest = crossings.of(face);
+    at_rest_in_all += crossings.all(at_rest);
+    const std::vector<Displacements> moves = shapes.of_face(*recipe, face);
+    for (std::size_t s = 0; s < set.shapes.size(); ++s) {
+      const Displacements& shape = set.shapes[s].moves;
+      for (const EyeLids& eye : eyes) {
+        if (eye.moved(shape) > 50 * kTenthOfMm) lids.add(eye, set.neutral, face, shape, moves[s]);
+      }
+      const Index carried = crossings.beyond(of_template[s], at_rest, in_shape(face, moves[s]));
+      counted[s].unchanged += crossings.beyond(of_template[s], at_rest, in_shape(face, shape));
+      counted[s].carried += carried;
+      counted[s].most = std::max(counted[s].most, carried);
+      if (carried > 0) ++counted[s].faces;
+    }
+  }
+  const auto mean = [&](Index sum) {
+    return format_fixed(static_cast<double>(sum) / static_cast<double>(count), 2);
+  };
+  std::cout << count << " faces, at rest " << mean(at_rest_in_all) << " crossing triangles\n"
+            << lids.blinks << " blinks: closed at " << lids.closed << " of " << lids.closing
+            << " points of the rim where the template's is, widest " << mm(lids.widest)
+            << " mm; vertices too deep in eyeballs " << lids.deep << ", by " << mm(lids.deepest)
+            << " mm at most\n"
+            << "shape: crossing triangles of the template; new in a face, unchanged and carried; "
+               "at most; faces with any\n";
+  for (std::size_t s = 0; s < set.shapes.size(); ++s) {
+    const Counted& of = counted[s];
+    std::cout << set.shapes[s].name << ": " << of.of_template << ' ' << mean(of.unchanged) << ' '
+              << mean(of.carried) << ' ' << of.most << ' ' << of.faces << '\n';
+  }
+} catch (const Error& error) {
+  std::cerr << error.what() << '\n';
+  return static_cast<int>(error.code());
+}
