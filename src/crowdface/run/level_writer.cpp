@@ -6,6 +6,7 @@
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/glb_form.h"
+#include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 namespace {
@@ -82,10 +83,11 @@ EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
   }
   require(name.format == MeshFormat::kObj, "LevelWriter: a format without faces");
   std::string head;
-  for (const std::string& library :
-       inputs_.files[static_cast<std::size_t>(face.target)].material_libraries) {
-    head += concat("mtllib ", library, '\n');
-  }
+  const std::vector<std::string> libraries =
+      has_own_textures(inputs_)
+          ? std::vector{material_file_name(face.id)}
+          : inputs_.files[static_cast<std::size_t>(face.target)].material_libraries;
+  for (const std::string& library : libraries) head += concat("mtllib ", library, '\n');
   head += concat("o ", id, '\n');
   return obj_[obj_of_.at(face.target)].encode(head, positions, normals,
                                               concat(id, ", ", name.shape));

@@ -204,7 +204,7 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
     meshes.push_back({name, encode(name, whole)});
-    if (name.format == MeshFormat::kObj && !textures.empty()) {
+    if (name.format == MeshFormat::kObj && has_own_textures(inputs_)) {
       meshes.back().file.replace_line("mtllib", concat("mtllib ", material_file_name(face.id)));
     }
   }
