@@ -116,7 +116,7 @@ using LoadedMaps = std::map<NeededMap, std::shared_ptr<const TextureMap>>;
 bool holds_normals(const Image& image) {
   if (image.channels < 3) return false;
   constexpr int kStep = 7;
-  constexpr double kLeastExcess = 0.2;
+  constexpr double kLeastExcess = 0.15;
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   double count = 0;
   for (int y = 0; y < image.height; y += kStep) {
@@ -125,7 +125,7 @@ bool holds_normals(const Image& image) {
       count += 1;
     }
   }
-  return sum[2] - std::max(sum[0], sum[1]) > kLeastExcess * count;
+  return sum[2] - (sum[0] + sum[1]) / 2 > kLeastExcess * count;
 }
 
 MapCoding coding_of_values(const Image& image, int channels) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/synth/synthetic_skin.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
@@ -48,8 +49,10 @@ std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64
 std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
                                                   double edge_cm) const {
   const synth::Identity identity(seed, index);
-  return synth::skin_normals(state_->size, state_->atlas, synth::Relief(identity, state_->texel_cm),
-                             synth::Relief(identity, edge_cm));
+  // A texture holds waves of two texels, a mesh those of four edges and more.
+  const double finest = state_->texel_cm / 2;
+  return synth::skin_normals(state_->size, state_->atlas, synth::Relief(identity, finest),
+                             synth::Relief(identity, std::max(finest, edge_cm)));
 }
 
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
