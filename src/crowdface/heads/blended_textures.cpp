@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "crowdface/core/error.h"
@@ -108,7 +109,8 @@ struct NeededMap {
   int width = 0, height = 0;
   MapContent content = MapContent::kColours;
   int channels = 3;
-  auto operator<=>(const NeededMap&) const = default;
+  auto key() const { return std::tie(path, width, height, content, channels); }
+  bool operator<(const NeededMap& other) const { return key() < other.key(); }
 };
 using LoadedMaps = std::map<NeededMap, std::shared_ptr<const TextureMap>>;
 
