@@ -18,7 +18,9 @@ const validator = require('gltf-validator');
 const fs = require('fs');
 async function check(file) {
   const bytes = new Uint8Array(fs.readFileSync(file));
-  const { issues } = await validator.validateBytes(bytes, { uri: file, maxIssues: 0 });
+  // Tangents are left to the reader, which computes those of MikkTSpace.
+  const ignoredIssues = ['MESH_PRIMITIVE_GENERATED_TANGENT_SPACE'];
+  const { issues } = await validator.validateBytes(bytes, { uri: file, maxIssues: 0, ignoredIssues });
   console.log(`${file}: ${issues.numErrors} errors, ${issues.numWarnings} warnings`);
   // Severity 0 is an error, 1 a warning; the rest is for information.
   for (const issue of issues.messages.filter((issue) => issue.severity < 2).slice(0, 20)) {

@@ -95,8 +95,7 @@ void blend(const Options& options) {
   Positions positions;
   FaceBuilder(job.config, job.inputs, prepared)
       .build(std::span(&recipe, 1), std::span(&positions, 1));
-  write_face(job, FaceTextures(job.config, job.inputs).blender(), line.face, *format, positions,
-             file);
+  write_face(job, FaceTextures(job.config, job.inputs), line.face, *format, positions, file);
   log_info(concat(line.face.id, " written to ", options.out));
 }
 

@@ -142,8 +142,8 @@ std::string attachments_beside(const fs::path& heads, const fs::path& config_fol
   complaints.tell(problems);
   problems.throw_if_any();
   if (text.empty()) {
-    log_warning(concat(file.string(),
-                       ": no head has the tags of anything there, so faces wear nothing"));
+    log_warning(
+        concat(file.string(), ": no head has the tags of anything there, so faces wear nothing"));
   }
   return text;
 }

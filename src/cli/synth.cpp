@@ -42,12 +42,15 @@ bool same_folder(const fs::path& a, const fs::path& b) {
 }
 
 /// Skin and eyes in a picture's colours, teeth in their own.
-std::string material_file(const std::vector<MaterialRange>& materials, const std::string& picture) {
+/// \param head  whose pictures are HEAD_albedo.png and so on
+std::string material_file(const std::vector<MaterialRange>& materials, const std::string& head) {
   std::string text;
   for (const MaterialRange& material : materials) {
     const bool teeth = material.name.starts_with("teeth");
     text += concat("newmtl ", material.name,
-                   teeth ? "\nKd 0.8 0.77 0.72" : "\nKd 1 1 1\nmap_Kd " + picture, '\n');
+                   teeth ? "\nKd 0.8 0.77 0.72\n"
+                         : concat("\nKd 1 1 1\nmap_Kd ", head, "_albedo.png\nnorm ", head,
+                                  "_normal.png\nmap_Pr ", head, "_roughness.png\n"));
   }
   return text;
 }
@@ -99,14 +102,18 @@ void synth(const Options& options) {
                                          materials, library);
                      }});
     if (!skins) continue;
-    const std::string picture = concat(name, "_albedo.png");
-    files.push_back(text_file(directory / library, material_file(materials, picture)));
-    files.push_back({directory / picture, [&skins, seed, i] {
-                       EncodedFile file;
-                       file.add(
-                           encode_png(skins->size(), skins->size(), 3, skins->albedo(seed, i)));
-                       return file;
-                     }});
+    files.push_back(text_file(directory / library, material_file(materials, name)));
+    const auto add_picture = [&](std::string_view what, int channels, auto paint) {
+      files.push_back({directory / concat(name, '_', what, ".png"), [&skins, channels, paint] {
+                         EncodedFile file;
+                         file.add(encode_png(skins->size(), skins->size(), channels, paint()));
+                         return file;
+                       }});
+    };
+    add_picture("albedo", 3, [&skins, seed, i] { return skins->albedo(seed, i); });
+    add_picture("normal", 3,
+                [&skins, &heads, seed, i] { return skins->normals(seed, i, heads.edge_cm()); });
+    add_picture("roughness", 1, [&skins, seed, i] { return skins->roughness(seed, i); });
   }
   if (options.hair) hair.add_files(directory, heads, materials, files);
   if (options.tags || options.hair) {  // who wears which hair goes by the heads' tags
@@ -131,7 +138,7 @@ void declare(CLI::App& command, Options& options) {
              "Where the region mask goes (default: DIR/regions.png)");
   add_option(command, "--textures", options.textures, "SIZE",
              "Give each head hair and paint it, pictures of this side in texels: NAME_albedo.png, "
-             "NAME.mtl");
+             "NAME_normal.png, NAME_roughness.png, NAME.mtl");
   command.add_flag("--hair", options.hair,
                    "With --textures: hair as meshes of its own, to DIR/attachments, and --tags");
   command.add_flag("--skin-only", options.skin_only,

@@ -7,7 +7,7 @@ set -euo pipefail
 program=$1 root=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$program" synth -o "$folder/heads" --count 2 --vertices 5000 --quiet
+"$program" synth -o "$folder/heads" --count 2 --vertices 5000 --textures 64 --quiet
 cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 2}

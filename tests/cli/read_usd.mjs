@@ -78,6 +78,8 @@ function compareFace(parser, text, id, names) {
   const drawn = [];
   parser.parse(text, {}).traverse((object) => object.isMesh && drawn.push(object));
   assert.ok(drawn.length > 0 && drawn[0].geometry.attributes.position.count > 0);
+  const [skin] = [drawn[0].material].flat();
+  for (const map of ['map', 'normalMap', 'roughnessMap']) assert.ok(skin[map], `${id}: no ${map}`);
 }
 
 /// What a strict reader says of a layer; `assets` are the layers that it references.
@@ -95,6 +97,10 @@ function load(reader, path, assets) {
   return stage;
 }
 
+// Pictures are named, and not loaded: a browser's alone are read by three.js.
+globalThis.document = {
+  createElementNS: () => ({ addEventListener() {}, removeEventListener() {}, src: '' }),
+};
 const reader = await openTinyUsdz();
 delete globalThis.self;
 const { USDAParser } =

@@ -249,8 +249,7 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   EXPECT_THAT(whole.warnings, ::testing::Contains(::testing::HasSubstr("believability.")));
   const FaceMeasures without_mesh = editor.session->measure(wild);
   EXPECT_EQ(without_mesh.head_mm, whole.head_mm);
-  EXPECT_THAT(without_mesh.warnings,
-              ::testing::Contains(::testing::HasSubstr("believability.")));
+  EXPECT_THAT(without_mesh.warnings, ::testing::Contains(::testing::HasSubstr("believability.")));
 }
 
 TEST(EditSession, DrawsAnewButForWhatIsLocked) {

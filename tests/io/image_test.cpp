@@ -255,14 +255,14 @@ TEST_F(ImageFiles, PicturesWithAnOffsetAreRead) {
 
 TEST_F(ImageFiles, ExrReadsBackWithinHalfPrecisionAndHoldsNoTime) {
   const std::vector<float> pixels = {0, 0.25F, 1, 0.1F, 0.333F, 0.9F};
-  const std::string bytes = encode_exr(2, 1, pixels);
-  EXPECT_EQ(bytes, encode_exr(2, 1, pixels));
+  const std::string bytes = encode_exr(2, 1, 3, pixels);
+  EXPECT_EQ(bytes, encode_exr(2, 1, 3, pixels));
   const Image image = read_image(write_bytes("picture.exr", bytes));
   ASSERT_EQ(image.channels, 3);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     EXPECT_NEAR(values_of(image)[i], pixels[i], 6e-4F * pixels[i]);
   }
-  EXPECT_THROW(encode_exr(2, 2, pixels), BrokenPrecondition);
+  EXPECT_THROW(encode_exr(2, 2, 3, pixels), BrokenPrecondition);
 }
 
 }  // namespace

@@ -83,8 +83,9 @@ TEST(MaterialFiles, NamesOfTexturesMayHoldBlanks) {
   ASSERT_EQ(found.warnings.size(), 2U);
   EXPECT_THAT(found.warnings[0], HasSubstr("\"lost.png\" is missing"));
   EXPECT_THAT(found.warnings[1], HasSubstr("\"not there.png\" is missing"));
-  const ColourTextures colours = find_colour_textures(folder / "head.obj", {"a.mtl"});
-  EXPECT_EQ(colours.of_material.at("a"), folder / "head diffuse.png");
+  const auto colours =
+      find_textures(folder / "head.obj", {"a.mtl"}).of_kind.at(TextureKind::kColour);
+  EXPECT_EQ(colours.at("a"), folder / "head diffuse.png");
 }
 
 // All ends of a line were kept at once: 40 KB took half a gigabyte.
@@ -113,9 +114,10 @@ TEST(MaterialFiles, TakeSoManyTexturesAndNoMore) {
   for (const std::string part : {"a.mtl", "1000 textures", "t1000.png", "--limit textures"}) {
     EXPECT_THAT(found.warnings.back(), HasSubstr(part));
   }
-  const ColourTextures colours = find_colour_textures(folder / "head.obj", {"a.mtl"});
-  EXPECT_EQ(colours.of_material.size(), 1001U);
-  EXPECT_TRUE(colours.of_material.contains("again"));
+  const auto colours =
+      find_textures(folder / "head.obj", {"a.mtl"}).of_kind.at(TextureKind::kColour);
+  EXPECT_EQ(colours.size(), 1001U);
+  EXPECT_TRUE(colours.contains("again"));
 }
 
 TEST(MaterialFiles, TakeSoManyLibrariesAndNoMore) {
@@ -169,18 +171,22 @@ TEST(MaterialFiles, NeverTakeANameWithANul) {
   const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
   EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl"}));
   EXPECT_EQ(found.warnings.size(), 1U);
-  EXPECT_TRUE(find_colour_textures(folder / "head.obj", {"a.mtl"}).of_material.empty());
+  EXPECT_TRUE(find_textures(folder / "head.obj", {"a.mtl"}).of_kind.empty());
 }
 
-TEST(ColourTextures, AreThoseOfMapKd) {
+TEST(Textures, AreNamedByKindAndMaterial) {
   const testing::TemporaryFolder folder;
   folder.write("sub/a.mtl",
                "newmtl the skin \nmap_Ks gloss.png\nmap_Kd -s 1 1 1 skin.<UDIM>.png\n"
                "newmtl eye\nKd 1 1 1\nnewmtl out\nmap_Kd ../../out.png\n");
-  const ColourTextures found = find_colour_textures(folder / "head.obj", {"sub/a.mtl"});
-  ASSERT_EQ(found.of_material.size(), 1U);
-  EXPECT_EQ(found.of_material.begin()->first, "the skin");
-  EXPECT_EQ(with_tile(found.of_material.begin()->second, 1003), folder / "sub/skin.1003.png");
+  const auto found =
+      find_textures(folder / "head.obj", {"sub/a.mtl"}).of_kind.at(TextureKind::kColour);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.begin()->first, "the skin");
+  EXPECT_EQ(with_tile(found.begin()->second, 1003), folder / "sub/skin.1003.png");
+  const auto specular =
+      find_textures(folder / "head.obj", {"sub/a.mtl"}).of_kind.at(TextureKind::kSpecular);
+  EXPECT_EQ(specular.at("the skin"), folder / "sub/gloss.png");
 }
 
 TEST(MaterialFiles, NeverLeaveTheFolder) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures that faces get of their own.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -156,6 +157,138 @@ TEST_F(OwnTextures, AHeadWithoutOneIsToldAndADamagedOneEndsTheRun) {
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] + 1);
   folder_.folder().write("heads/cyd.png", damaged);
   testing::expect_error(ExitCode::kBadData, {"cyd.png"}, [&] { run(folder_); });
+}
+
+/// Normals that all lean to the right by a head's own angle.
+std::string normal_png(int side, double lean) {
+  const Eigen::Vector3d normal = Eigen::Vector3d(lean, 0, 1).normalized();
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < side * side; ++i) {
+    for (Index c = 0; c < 3; ++c) {
+      pixels.push_back(static_cast<std::uint8_t>(std::lround(127.5 * (normal[c] + 1))));
+    }
+  }
+  return encode_png(side, side, 3, pixels);
+}
+
+/// The four heads with maps of all kinds: normals in bytes, roughness in 16 bits, heights in floats.
+class OwnMaps : public OwnTextures {
+ protected:
+  OwnMaps() {
+    double lean = 0;
+    for (const std::string& name : folder_.names()) {
+      write_library(name, "norm");
+      folder_.folder().write(concat("heads/", name, "_n.png"), normal_png(16, lean));
+      const auto words =
+          std::vector<std::uint16_t>(64, static_cast<std::uint16_t>(8000 + 20000 * lean));
+      folder_.folder().write(concat("heads/", name, "_r.png"), encode_png16(8, 8, 1, words));
+      const std::vector<float> heights(64, static_cast<float>(-3 + 10 * lean));
+      folder_.folder().write(concat("heads/", name, "_d.exr"), encode_exr(8, 8, 1, heights));
+      lean += 0.2;
+    }
+  }
+  void write_library(const std::string& name, const std::string& normals) {
+    folder_.folder().write(concat("heads/", name, ".mtl"),
+                           concat("newmtl skin\nKd 1 1 1\nmap_Kd ", name, ".png\n", normals, ' ',
+                                  name, "_n.png\nmap_Pr ", name, "_r.png\ndisp -mm 0 0.5 ", name,
+                                  "_d.exr\nmap_Ns bump.png\n"));
+  }
+};
+
+TEST_F(OwnMaps, OfAllKindsAreBlendedAndNamed) {
+  run(folder_, {"output.meshes=[obj, glb, usd]"});
+  for (const std::string id : {"mob_0001", "mob_0002", "mob_0003", "mob_0004"}) {
+    const std::string library = read_text(meshes() / concat(id, ".mtl"));
+    for (const std::string line :
+         {"map_Kd blended/ID.png\n", "norm blended/ID.normal.png\n",
+          "map_Pr blended/ID.roughness.png\n", "disp -mm 0 0.5 blended/ID.displacement.exr\n",
+          "map_Ns bump.png\n"}) {
+      std::string wanted = line;
+      if (const auto at = wanted.find("ID"); at != wanted.npos) wanted.replace(at, 2, id);
+      EXPECT_THAT(library, HasSubstr(wanted));
+    }
+    const Image normals = read_image(meshes() / "blended" / concat(id, ".normal.png"));
+    EXPECT_EQ(normals.pixels.index(), 1U) << "bytes, as the heads' are";
+    const Eigen::Vector3d normal(2 * normals.at(8, 8, 0) - 1, 2 * normals.at(8, 8, 1) - 1,
+                                 2 * normals.at(8, 8, 2) - 1);
+    EXPECT_NEAR(normal.norm(), 1, 0.01);
+    const double lean = normal.x() / normal.z();
+    EXPECT_GT(lean, -0.01);
+    EXPECT_LT(lean, 0.61);
+    const Image roughness = read_image(meshes() / "blended" / concat(id, ".roughness.png"));
+    EXPECT_EQ(roughness.pixels.index(), 2U) << "16 bits, as the heads' are";
+    // All heads' numbers are the same function of the lean, and weights are, too.
+    EXPECT_NEAR(65535 * roughness.at(4, 4, 0), 8000 + 20000 * lean, 300);
+    const Image heights = read_image(meshes() / "blended" / concat(id, ".displacement.exr"));
+    EXPECT_NEAR(heights.at(4, 4, 0), -3 + 10 * lean, 0.15);
+    const std::string glb = read_text(meshes() / concat(id, ".glb"));
+    EXPECT_THAT(glb, HasSubstr("\"normalTexture\":{\"index\":1}"));
+    EXPECT_THAT(glb, HasSubstr("\"metallicRoughnessTexture\":{\"index\":2}"));
+    const std::string usd = read_text(meshes() / concat(id, ".usda"));
+    EXPECT_THAT(usd, HasSubstr(concat("@./blended/", id, ".normal.png@")));
+    EXPECT_THAT(usd, HasSubstr("float inputs:roughness.connect"));
+  }
+  EXPECT_FALSE(fs::exists(meshes() / "ann_n.png"));
+  EXPECT_TRUE(fs::exists(meshes() / "bump.png"));
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+}
+
+TEST_F(OwnMaps, AreNeverBlurredByJpegAndCanAllBeExr) {
+  run(folder_, {"textures.formats=[jpeg]"});
+  EXPECT_TRUE(fs::exists(meshes() / "blended/mob_0001.jpg"));
+  EXPECT_TRUE(fs::exists(meshes() / "blended/mob_0001.normal.png"));
+  run(folder_, {"textures.formats=[exr]"}, Replace::kForce);
+  const Image colour = read_image(meshes() / "blended/mob_0001.exr");
+  EXPECT_TRUE(colour.of_floats());
+  const Image normals = read_image(meshes() / "blended/mob_0001.normal.exr");
+  EXPECT_GT(normals.at(4, 4, 2), 0.9F);
+  EXPECT_THAT(read_text(meshes() / "mob_0001.mtl"), HasSubstr("norm blended/mob_0001.normal.exr"));
+  testing::expect_error(ExitCode::kUsage, {"textures.formats", "glb"}, [&] {
+    run(folder_, {"textures.formats=[exr]", "output.meshes=[glb]"}, Replace::kForce);
+  });
+}
+
+TEST_F(OwnMaps, AreTheSameOnAnyNumberOfThreads) {
+  {
+    const ThreadLimit limit(1);
+    run(folder_);
+  }
+  const auto first = testing::crowd_files(folder_.out());
+  fs::remove_all(folder_.out());
+  const ThreadLimit limit(5);
+  run(folder_);
+  EXPECT_THAT(testing::differing_files(first, testing::crowd_files(folder_.out())),
+              ::testing::IsEmpty());
+}
+
+TEST_F(OwnMaps, AreBlendedWhereColoursAreNot) {
+  for (const std::string& name : folder_.names()) {
+    folder_.folder().write(
+        concat("heads/", name, ".mtl"),
+        concat("newmtl skin\nKd 1 1 1\nmap_Kd ann.png\nnorm ", name, "_n.png\n"));
+  }
+  run(folder_, {"output.meshes=[obj, glb]", "output.contact_sheet={cell: 32}"});
+  EXPECT_TRUE(fs::exists(meshes() / "ann.png"));
+  EXPECT_FALSE(fs::exists(meshes() / "blended/mob_0001.png"));
+  EXPECT_THAT(read_text(meshes() / "mob_0001.mtl"),
+              HasSubstr("map_Kd ann.png\nnorm blended/mob_0001.normal.png\n"));
+  EXPECT_THAT(read_text(meshes() / "mob_0001.glb"), HasSubstr("\"normalTexture\":{\"index\":0}"));
+}
+
+// Many programs name normals as map_Bump.
+TEST_F(OwnMaps, ABumpMapOfNormalsIsBlendedAsNormals) {
+  for (const std::string& name : folder_.names()) write_library(name, "map_Bump -bm 0.7");
+  run(folder_);
+  EXPECT_THAT(read_text(meshes() / "mob_0001.mtl"),
+              HasSubstr("map_Bump -bm 0.7 blended/mob_0001.bump.png\n"));
+  const Image normals = read_image(meshes() / "blended/mob_0001.bump.png");
+  EXPECT_GT(normals.at(8, 8, 2), 0.9F);
+  EXPECT_NEAR(normals.at(8, 8, 1), 0.5F, 0.01F);
+}
+
+TEST_F(OwnMaps, WhatIsNoNormalMapIsRefused) {
+  folder_.folder().write("heads/bob_n.png", grey_png(8, 200));
+  testing::expect_error(ExitCode::kBadData, {"bob_n.png", "normal map"}, [&] { run(folder_); });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -209,6 +210,46 @@ TEST(SkinAtlas, HoldsTheAverageHeadWhereItsVerticesLie) {
 TEST(SyntheticSkins, RefusesSizesOutOfRange) {
   EXPECT_THROW(SyntheticSkins(63), BrokenPrecondition);
   EXPECT_THROW(SyntheticSkins(8193), BrokenPrecondition);
+}
+
+/// The mean of a channel near a place of the average head.
+double mean_near(const std::vector<std::uint8_t>& bytes, const Eigen::Vector3d& place) {
+  std::vector<std::uint8_t> colours;
+  for (const std::uint8_t value : bytes) colours.insert(colours.end(), 3, value);
+  return colour_near(colours, place, 0.8).mean();
+}
+
+TEST(SyntheticSkins, NormalsHoldWhatTheMeshIsTooCoarseFor) {
+  const SyntheticSkins fine(512);
+  const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(512);
+  // Root mean square of how far normals lean.
+  const auto lean = [&](double edge_cm) {
+    const std::vector<std::uint8_t> normals = fine.normals(3, 2, edge_cm);
+    double squares = 0, count = 0;
+    for (std::size_t i = 0; i < atlas.size(); ++i) {
+      EXPECT_GE(normals[3 * i + 2], 128) << "outward";
+      if (!atlas[i].covered) continue;
+      if (atlas[i].ball > 0.5) {
+        EXPECT_EQ(normals[3 * i], 128) << "eyes are smooth";
+        continue;
+      }
+      const double x = normals[3 * i] / 127.5 - 1, y = normals[3 * i + 1] / 127.5 - 1;
+      squares += x * x + y * y;
+      count += 1;
+    }
+    return std::sqrt(squares / count);
+  };
+  EXPECT_GT(lean(0.5), 0.012);
+  EXPECT_LT(lean(0.02), 0.7 * lean(0.5)) << "a fine mesh has most of it itself";
+  EXPECT_EQ(fine.normals(3, 2, 0.5), fine.normals(3, 2, 0.5));
+  EXPECT_NE(fine.normals(3, 2, 0.5), fine.normals(3, 3, 0.5));
+}
+
+TEST(SyntheticSkins, LipsGleamMoreThanCheeks) {
+  const std::vector<std::uint8_t> roughness = skins().roughness(1, 11);
+  EXPECT_EQ(roughness.size(), static_cast<std::size_t>(kSize) * kSize);
+  EXPECT_LT(mean_near(roughness, kLowerLip) + 15, mean_near(roughness, kCheek));
+  EXPECT_LT(mean_near(roughness, kForehead), mean_near(roughness, kCheek));
 }
 
 }  // namespace

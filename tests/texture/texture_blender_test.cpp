@@ -137,6 +137,77 @@ TEST(TextureBlender, DetailThatAgreesIsNotMadeStronger) {
   EXPECT_NEAR(contrast(blended, 4) / contrast_of_heads(sheet, 4), 1, 0.05);
 }
 
+/// The first channel of words, as their numbers.
+std::vector<double> first_numbers(const BlendedPicture& picture) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < picture.words.size();
+       i += static_cast<std::size_t>(picture.channels)) {
+    values.push_back(picture.low + double{picture.step} * picture.words[i]);
+  }
+  return values;
+}
+
+TEST(TextureBlender, NormalsKeepTheirReliefAndUnitLength) {
+  TwoCharts sheet(kSize);
+  for (std::uint64_t h = 0; h < 4; ++h) {
+    sheet.add_head(
+        [=](double, double, int column, int row) -> Eigen::Array3f {
+          return {0.1F * noise(h, column, row, 4), 0.1F * noise(h + 4, column, row, 4), 0};
+        },
+        MapCoding::slopes());
+  }
+  const TextureBlender blender = sheet.blender();
+  const BlendedPicture one = blender.blend(alone(2))[0], mixed = blender.blend(evenly(4))[0];
+  ASSERT_EQ(mixed.channels, 3);
+  const TextureMap& own = *sheet.textures.maps[0][2];
+  const SurfaceTexels texels = sheet.texels();
+  for (int y = 0; y < kSize; ++y) {
+    for (const SurfaceTexels::Span& span : texels.row(y)) {
+      for (int x = span.begin; x < span.end; ++x) {
+        const std::size_t at =
+            3 * (static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x));
+        const Eigen::Vector3d expected =
+            Eigen::Vector3d(own.number(own.row(0, y)[x]), own.number(own.row(1, y)[x]), 1)
+                .normalized();
+        Eigen::Vector3d blended;
+        for (std::size_t c = 0; c < 3; ++c) {
+          ASSERT_NEAR(one.words[at + c] / 65535.0 * 2 - 1, expected[static_cast<Index>(c)], 1e-4);
+          blended[static_cast<Index>(c)] = mixed.words[at + c] / 65535.0 * 2 - 1;
+        }
+        ASSERT_NEAR(blended.norm(), 1, 1e-4);
+      }
+    }
+  }
+  for (const int around : {4, 8}) {
+    EXPECT_NEAR(contrast(first_numbers(mixed), around) / contrast(first_numbers(one), around), 1,
+                0.1);
+  }
+}
+
+// Heads' maps of floats each have a range of their own.
+TEST(TextureBlender, HeightsOfDifferentRangesAreBlendedAsNumbers) {
+  TwoCharts sheet(kSize);
+  for (int h = 0; h < 2; ++h) {
+    sheet.add_head(
+        [h](double x, double, int, int) -> Eigen::Array3f {
+          return Eigen::Array3f::Constant(static_cast<float>(h * 40 + 2 * x));
+        },
+        MapCoding::values(1, h == 0 ? -1.0F : 39.0F, h == 0 ? 3.0F : 44.0F));
+  }
+  const BlendedPicture mixed = sheet.blender().blend(evenly(2))[0];
+  ASSERT_EQ(mixed.channels, 1);
+  const std::vector<double> values = first_numbers(mixed);
+  const SurfaceTexels texels = sheet.texels();
+  for (int y = 40; y < kSize - 40; y += 7) {
+    for (const SurfaceTexels::Span& span : texels.row(y)) {
+      const int x = span.begin;
+      const double place = TwoCharts::from_uv((x + 0.5) / kSize, 1 - (y + 0.5) / kSize).first;
+      ASSERT_NEAR(values[static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x)],
+                  20 + 2 * place, 0.05);
+    }
+  }
+}
+
 Eigen::Array3d lab(const Eigen::Array3d& srgb8) {
   const auto light = [](double value) {
     value /= 255;

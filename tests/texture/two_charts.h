@@ -38,8 +38,9 @@ class TwoCharts {
   }
 
   using Paint = std::function<Eigen::Array3f(double x, double y, int column, int row)>;
-  /// A head whose colours are a function of the place on the sheet, in [0, 1]², and of the texel.
-  void add_head(const Paint& paint) {
+  /// A head whose colours, or other numbers, are a function of the place on the sheet, in [0, 1]², and of the
+  /// texel.
+  void add_head(const Paint& paint, const MapCoding& coding = {}) {
     const LightRows rows{size_, size_, [&](int row, std::span<Eigen::Array3f> texels) {
                            for (int column = 0; column < size_; ++column) {
                              const auto [x, y] =
@@ -48,7 +49,7 @@ class TwoCharts {
                            }
                          }};
     textures.maps[0].push_back(
-        std::make_shared<const TextureMap>(make_texture_map(size_, size_, rows)));
+        std::make_shared<const TextureMap>(make_texture_map(size_, size_, rows, coding)));
   }
   void add_bare_head() { textures.maps[0].push_back(nullptr); }
 

@@ -52,7 +52,7 @@ enum class TextureBlend {
   kNone,    ///< none that pictures show; files are as with kTarget
 };
 /// A format that faces' own textures are written in.
-enum class TextureFormat { kPng, kJpeg };
+enum class TextureFormat { kPng, kJpeg, kExr };
 /// Whether pictures show textures.
 enum class SheetTexture {
   kAuto,  ///< where there are any

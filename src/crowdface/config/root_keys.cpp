@@ -63,7 +63,8 @@ const Keys<Config::Textures>& textures_keys() {
   using Textures = Config::Textures;
   static const Keys<Textures> keys = {
       word_key("blend", &Textures::blend), key("size", &Textures::size, whole(16, 16384)),
-      key("formats", &Textures::formats, words<TextureFormat>("a list of formats, [png, jpeg]"))};
+      key("formats", &Textures::formats,
+          words<TextureFormat>("a list of formats, [png, jpeg, exr]"))};
   return keys;
 }
 
@@ -121,6 +122,21 @@ std::string write_points(const Config& config, const ConfigWriting& writing) {
   return config.points.empty() ? "none" : path("").write(config.points, writing);
 }
 
+/// A GLB file holds pictures, and knows no EXR.
+void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
+  const Config& config = draft.config;
+  const auto& meshes = config.output.meshes;
+  const bool glb = std::find(meshes.begin(), meshes.end(), MeshFormat::kGlb) != meshes.end();
+  const auto& formats = config.textures.formats;
+  const bool only_exr = std::all_of(formats.begin(), formats.end(), [](TextureFormat format) {
+    return format == TextureFormat::kExr;
+  });
+  if (!sound || !glb || !only_exr) return;
+  const YamlEntry* entry = node.find("meshes");
+  draft.complaints.about(entry != nullptr ? entry->value : node,
+                         "glb files hold no EXR; add png or jpeg to textures.formats");
+}
+
 void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kScalar && !node.quoted && parse_unsigned(node.text) == 1U)
     return;
@@ -154,7 +170,7 @@ const Keys<Config>& root_keys() {
       {"recipes", read_recipes, write_recipes},
       {"families", read_families, write_families},
       {"review", read_review, write_review},
-      section_key("output", &Config::output, output_keys())};
+      section_key("output", &Config::output, output_keys(), {}, check_output)};
   return keys;
 }
 

@@ -27,16 +27,16 @@ std::string EditPictures::thumbnail(Index head) {
   return png;
 }
 
-const TextureBlender* EditPictures::textures() {
+const FaceTextures& EditPictures::textures() {
   const std::lock_guard lock(mutex_);
   if (!textures_) textures_ = std::make_unique<FaceTextures>(job_.config, job_.inputs);
-  return textures_->blender();
+  return *textures_;
 }
 
 std::string EditPictures::picture(const Recipe& recipe, const Positions& positions, View view,
                                   int size) {
   const CrowdRenders renders(job_.config, one_picture(view, size), job_.inputs);
-  const TextureBlender* own = textures();
+  const TextureBlender* own = textures().colours();
   return own != nullptr ? renders.render_png(positions, own->blend(recipe))
                         : renders.render_png(positions, recipe.target);
 }

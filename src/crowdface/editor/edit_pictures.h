@@ -22,8 +22,7 @@ class EditPictures {
   std::string thumbnail(Index head);
   /// A face as contact sheets show it, as a PNG file. \param size  pixels a side.
   std::string picture(const Recipe& recipe, const Positions& positions, View view, int size);
-  /// What blends faces' own textures; null: they have none.
-  const TextureBlender* textures();
+  const FaceTextures& textures();
 
  private:
   const Job& job_;

@@ -73,7 +73,7 @@ void EditedFolder::keep_state(std::string_view text) {
 }
 
 fs::path EditedFolder::save(const CastFace& face, MeshFormat format, const Positions& positions,
-                            const TextureBlender* textures) {
+                            const FaceTextures& textures) {
   const std::lock_guard lock(mutex_);
   const fs::path plan = path_ / "edited.jsonl";
   const std::string others = other_lines(plan, face.id, job_.names);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "crowdface/cast/review.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/run/pipeline.h"
-#include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
 
@@ -44,7 +44,7 @@ class EditedFolder {
   /// \param textures   blends those of the face's own, or null
   /// \return the file
   std::filesystem::path save(const CastFace& face, MeshFormat format, const Positions& positions,
-                             const TextureBlender* textures);
+                             const FaceTextures& textures);
   std::filesystem::path save_picture(const std::string& name, std::string_view png);
   /// Writes the mark among those of review.yaml that this editor made, in place of one about the same
   /// face. \throws Error if a config would refuse it.

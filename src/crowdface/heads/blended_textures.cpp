@@ -5,9 +5,11 @@
 #include <tuple>
 #include <utility>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/heads/light_of_image.h"
@@ -76,8 +78,8 @@ std::vector<PictureName> picture_names(const HeadsTextures& found,
     const fs::path& file = found.heads[picture.head].files[picture.row].name;
     const auto& tile = found.tile[static_cast<std::size_t>(picture.face)];
     const bool tiled = file.native().find(kTileWord) != std::string::npos;
-    names.push_back(
-        {parts.size() > 1 ? parts.at(file) : "", tiled ? tile_number(tile[0], tile[1]) : 0});
+    names.push_back({parts.size() > 1 ? parts.at(file) : "",
+                     tiled ? tile_number(tile[0], tile[1]) : 0, found.kind});
   }
   return names;
 }
@@ -102,31 +104,75 @@ std::vector<std::vector<std::uint32_t>> rows_in_pictures(const WornTextures& wor
 }
 
 /// A texture file as it is needed: at some size.
-using NeededMap = std::tuple<fs::path, int, int>;
+struct NeededMap {
+  fs::path path;
+  int width = 0, height = 0;
+  MapContent content = MapContent::kColours;
+  int channels = 3;
+  auto key() const { return std::tie(path, width, height, content, channels); }
+  bool operator<(const NeededMap& other) const { return key() < other.key(); }
+};
 using LoadedMaps = std::map<NeededMap, std::shared_ptr<const TextureMap>>;
 
-std::shared_ptr<const TextureMap> read_map(const fs::path& path, int width, int height) {
+/// Normals point out of the surface, which is the third channel.
+bool holds_normals(const Image& image) {
+  if (image.channels < 3) return false;
+  constexpr int kStep = 7;
+  constexpr double kLeastExcess = 0.15;
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  double count = 0;
+  for (int y = 0; y < image.height; y += kStep) {
+    for (int x = 0; x < image.width; x += kStep) {
+      for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(image.at(x, y, c));
+      count += 1;
+    }
+  }
+  return sum[2] - (sum[0] + sum[1]) / 2 > kLeastExcess * count;
+}
+
+MapCoding coding_of_values(const Image& image, int channels) {
+  const auto* floats = std::get_if<std::vector<float>>(&image.pixels);
+  if (floats == nullptr) return MapCoding::values(channels);
+  const auto [low, high] = std::minmax_element(floats->begin(), floats->end());
+  return MapCoding::values(channels, *low, *high);
+}
+
+TextureMap map_of(const Image& image, const NeededMap& needed) {
+  switch (needed.content) {
+    case MapContent::kColours:
+      return make_texture_map(needed.width, needed.height, light_of(image));
+    case MapContent::kSlopes:
+      if (!holds_normals(image)) {
+        throw InvalidInput(concat(needed.path.string(),
+                                  ": expected a normal map, whose third channel is the brightest"));
+      }
+      return make_texture_map(needed.width, needed.height, slopes_of(image), MapCoding::slopes());
+    case MapContent::kValues:
+      return make_texture_map(needed.width, needed.height, values_of(image),
+                              coding_of_values(image, needed.channels));
+  }
+  throw BrokenPrecondition("map_of: an unknown content");
+}
+
+std::shared_ptr<const TextureMap> read_map(const NeededMap& needed) {
   struct Kept {
     ImageMemory memory;
     TextureMap map;
   };
   throw_if_interrupted();
-  const std::uint64_t texels =
-      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  ImageMemory memory = take_image_memory(path, 3 * sizeof(Density) * texels);
-  const Image image = read_image(path, {.jpeg = true});
-  const auto kept = std::make_shared<const Kept>(
-      Kept{std::move(memory), make_texture_map(width, height, light_of(image))});
+  const std::uint64_t values = static_cast<std::uint64_t>(needed.width) *
+                               static_cast<std::uint64_t>(needed.height) *
+                               static_cast<std::uint64_t>(needed.channels);
+  ImageMemory memory = take_image_memory(needed.path, sizeof(Density) * values);
+  const Image image = read_image(needed.path, {.jpeg = true});
+  const auto kept = std::make_shared<const Kept>(Kept{std::move(memory), map_of(image, needed)});
   return {kept, &kept->map};
 }
 
 void read_maps(LoadedMaps& maps) {
   std::vector<LoadedMaps::value_type*> all;
   for (auto& map : maps) all.push_back(&map);
-  parallel_for_each(all.size(), [&](std::size_t i) {
-    const auto& [path, width, height] = all[i]->first;
-    all[i]->second = read_map(path, width, height);
-  });
+  parallel_for_each(all.size(), [&](std::size_t i) { all[i]->second = read_map(all[i]->first); });
 }
 
 /// One map of several, each of which covers some of the picture's faces.
@@ -135,13 +181,23 @@ std::shared_ptr<const TextureMap> compose(
     const std::vector<std::uint32_t>& of_face,
     const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps) {
   auto composed = std::make_shared<TextureMap>(*maps.begin()->second);
+  MapCoding& coding = composed->coding;
+  if (coding.content == MapContent::kValues) {
+    float high = coding.low;
+    for (const auto& [row, map] : maps) {
+      coding.low = std::min(coding.low, map->coding.low);
+      high = std::max(high, map->number(65535));
+    }
+    coding = MapCoding::values(coding.channels, coding.low, high);
+  }
   const SurfaceTexels texels(faces.topology, faces.uvs, layout, picture);
   for (int y = 0; y < texels.height(); ++y) {
     for (const SurfaceTexels::Span& span : texels.row(y)) {
       const TextureMap& from = *maps.at(of_face[texels.triangle(span.triangle).face]);
-      for (int c = 0; c < 3; ++c) {
-        std::copy(from.row(c, y) + span.begin, from.row(c, y) + span.end,
-                  composed->row(c, y) + span.begin);
+      for (int c = 0; c < coding.channels; ++c) {
+        std::transform(from.row(c, y) + span.begin, from.row(c, y) + span.end,
+                       composed->row(c, y) + span.begin,
+                       [&](Density stored) { return coding.stored(from.number(stored)); });
       }
     }
   }
@@ -168,6 +224,28 @@ void choose_sizes(const HeadsTextures& found, const std::map<fs::path, ImageSize
     };
     picture = {scaled(picture.width), scaled(picture.height)};
   }
+}
+
+/// What the maps of a picture hold, as its kind and the first of its files say.
+/// \param channels  the most that any of its files has.
+NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
+  switch (kind) {
+    case TextureKind::kColour:
+      return {.content = MapContent::kColours, .channels = 3};
+    case TextureKind::kNormal:
+      return {.content = MapContent::kSlopes, .channels = 2};
+    case TextureKind::kBump:
+      if (channels >= 3 && holds_normals(read_image(first, {.jpeg = true}))) {
+        return {.content = MapContent::kSlopes, .channels = 2};
+      }
+      return {.content = MapContent::kValues, .channels = 1};
+    case TextureKind::kSpecular:
+      return {.content = MapContent::kValues, .channels = channels >= 3 ? 3 : 1};
+    case TextureKind::kRoughness:
+    case TextureKind::kDisplacement:
+      return {.content = MapContent::kValues, .channels = 1};
+  }
+  throw BrokenPrecondition("content_of: an unknown kind of texture");
 }
 
 }  // namespace
@@ -198,9 +276,27 @@ HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& ma
   }
   choose_sizes(found, sizes, rows, size, layout);
 
+  std::vector<NeededMap> held;
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    PictureName& name = result.names[p];
+    int channels = 0;
+    for (std::size_t h = 0; h < rows.size(); ++h) {
+      for (const std::uint32_t row : rows[h][p]) {
+        const ImageSize& file = sizes.at(found.heads[h].files[row].path);
+        channels = std::max(channels, file.channels);
+        name.of_bytes = name.of_bytes && file.of_bytes;
+        name.of_floats = name.of_floats || file.of_floats;
+      }
+    }
+    const auto& first = found.heads[pictures[p].head].files[pictures[p].row].path;
+    held.push_back(content_of(found.kind, first, channels));
+  }
   const auto needed = [&](std::size_t h, std::uint32_t row, std::size_t p) {
-    return NeededMap(found.heads[h].files[row].path, layout.pictures[p].width,
-                     layout.pictures[p].height);
+    NeededMap map = held[p];
+    map.path = found.heads[h].files[row].path;
+    map.width = layout.pictures[p].width;
+    map.height = layout.pictures[p].height;
+    return map;
   };
   LoadedMaps maps;
   for (std::size_t h = 0; h < rows.size(); ++h) {
@@ -224,10 +320,10 @@ HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& ma
       if (map) continue;
       const PictureName& name = result.names[p];
       found.warnings.push_back(
-          concat(faces.heads[h].name, ": has no colour texture",
+          concat(faces.heads[h].name, ": has no ", statement_of(found.kind).name, " texture",
                  name.part.empty() ? "" : concat(" for all of ", name.part),
                  name.tile == 0 ? "" : concat(" in tile ", name.tile),
-                 "; where faces would have its colours they have those of their other heads"));
+                 "; where faces would have what it shows they have what their other heads have"));
     }
   }
   result.warnings = std::move(found.warnings);

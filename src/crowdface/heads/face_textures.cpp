@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "crowdface/cast/face_area.h"
 #include "crowdface/smooth/level_size.h"
@@ -18,8 +19,17 @@ constexpr double kStrengthMm = 48;
 
 }  // namespace
 
-FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
-  if (!inputs.textures.blend()) return;
+std::vector<PictureName> own_pictures(const Inputs& inputs) {
+  std::vector<PictureName> pictures = inputs.textures.names;
+  for (const HeadTextures& maps : inputs.maps) {
+    pictures.insert(pictures.end(), maps.names.begin(), maps.names.end());
+  }
+  return pictures;
+}
+
+FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
+    : has_colours_(inputs.textures.blend()) {
+  if (!has_own_textures(inputs)) return;
   const Topology& topology = inputs.faces.topology;
   TextureBlending options;
   const auto iterations = [&](double size_mm) {
@@ -33,22 +43,53 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices) options.of_target[vertex] = true;
   }
-  blender_ =
-      std::make_unique<TextureBlender>(topology, inputs.faces.uvs, inputs.adjacency, inputs.regions,
-                                       inputs.textures.blended, std::move(options));
+  const auto add = [&](const HeadTextures& textures) {
+    blenders_.push_back(std::make_unique<TextureBlender>(
+        topology, inputs.faces.uvs, inputs.adjacency, inputs.regions, textures.blended, options));
+  };
+  if (has_colours_) add(inputs.textures);
+  for (const HeadTextures& maps : inputs.maps) add(maps);
 }
 
-std::uint64_t texture_bytes(const HeadTextures& textures) {
-  std::set<const TextureMap*> maps;  // heads may share them
-  for (const auto& of_picture : textures.blended.maps) {
-    for (const auto& map : of_picture) maps.insert(map.get());
+const TextureBlender* FaceTextures::colours() const {
+  return has_colours_ ? blenders_.front().get() : nullptr;
+}
+
+std::vector<BlendedPicture> FaceTextures::blend(const Recipe& recipe) const {
+  std::vector<BlendedPicture> pictures;
+  for (const auto& blender : blenders_) {
+    for (BlendedPicture& picture : blender->blend(recipe)) pictures.push_back(std::move(picture));
   }
+  return pictures;
+}
+
+std::uint64_t FaceTextures::memory_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& blender : blenders_) bytes += blender->memory_bytes();
+  return bytes;
+}
+
+std::uint64_t FaceTextures::blend_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& blender : blenders_) bytes += blender->blend_bytes();
+  return bytes;
+}
+
+std::uint64_t texture_bytes(const Inputs& inputs) {
+  std::set<const TextureMap*> maps;  // heads may share them
+  const auto add = [&](const HeadTextures& textures) {
+    for (const auto& of_picture : textures.blended.maps) {
+      for (const auto& map : of_picture) maps.insert(map.get());
+    }
+  };
+  add(inputs.textures);
+  for (const HeadTextures& textures : inputs.maps) add(textures);
   std::uint64_t bytes = 0;
   for (const TextureMap* map : maps) {
     if (map != nullptr) bytes += map->planes.size() * sizeof(Density);
   }
   std::set<const Texture*> shown;
-  for (const TextureCoat& coat : textures.coats) {
+  for (const TextureCoat& coat : inputs.textures.coats) {
     for (const auto& texture : coat.textures) {
       if (shown.insert(texture.get()).second) bytes += texture->texels.size() * sizeof(Light);
     }

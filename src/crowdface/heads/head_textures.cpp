@@ -60,7 +60,8 @@ TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPictur
                     int most_px) {
   TextureCoat coat;
   coat.of_face = layout.of_face;
-  for (const BlendedPicture& picture : pictures) {
+  for (std::size_t p = 0; p < layout.pictures.size(); ++p) {
+    const BlendedPicture& picture = pictures[p];
     coat.textures.push_back(std::make_shared<const Texture>(
         texture_of(picture.width, picture.height, picture.srgb, most_px)));
   }

@@ -17,9 +17,12 @@ namespace crowdface {
 struct PictureName {
   std::string part;  ///< the material that it is for, if there are several; else empty
   int tile = 0;      ///< its UDIM number; 0: none
+  TextureKind kind = TextureKind::kColour;
+  /// Whether all heads' files hold bytes, and whether any holds floats.
+  bool of_bytes = true, of_floats = false;
 };
 
-/// The colour textures of the heads, as far as anything needs them.
+/// The textures of the heads of one kind, as far as anything needs them.
 struct HeadTextures {
   /// Each face gets a texture of its own, blended from these; no pictures: it does not.
   CrowdTextures blended;
@@ -38,6 +41,7 @@ struct HeadTextures {
 int shown_texels(const Config::ContactSheet& sheet);
 
 /// Colours a surface with pictures of a layout, in linear light.
+/// \param pictures  those of the layout; more may follow.
 /// \param most_px  larger ones are made smaller: more than this no picture shows.
 TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPicture>& pictures,
                     int most_px);
@@ -50,10 +54,10 @@ std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head
 /// \throws InvalidInput if a file is damaged, naming it.
 HeadTextures load_coats(HeadsTextures found, int most_px);
 
-/// Textures to be blended, all brought to one layout, that of the first head that has any. Head by head the
+/// Textures of one kind to be blended, all brought to one layout, that of the first head that has any. Head by head the
 /// files of a picture are made one, of the size of the largest or of `size`.
 /// \param size     texels of the longer side; nothing: that of the largest, at most 4,096.
-/// \throws InvalidInput as above.
+/// \throws InvalidInput as above, or if a file cannot be what it is named as, such as a grey one a normal map.
 HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& materials,
                                    HeadsTextures found, std::optional<std::uint64_t> size);
 

@@ -51,7 +51,8 @@ struct Inputs {
   std::vector<Digest> head_digests;   ///< #heads, of the positions used
   Digest topology_digest;
   Digest mask_digest;                 ///< of α
-  HeadTextures textures;              ///< if pictures are to show them
+  HeadTextures textures;              ///< of colours, if pictures are to show them
+  std::vector<HeadTextures> maps;     ///< of other kinds, if they are blended for faces
   std::vector<std::string> warnings;  ///< in a fixed order; also logged
 };
 

@@ -37,4 +37,29 @@ LightRows light_of(const Image& image) {
   return {image.width, image.height, row};
 }
 
+LightRows slopes_of(const Image& image) {
+  const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
+    constexpr float kLeastUp = 1.0F / 8;  // MapCoding::slopes() has room for no more
+    for (int x = 0; x < image.width; ++x) {
+      Eigen::Array3f normal;
+      for (int c = 0; c < 3; ++c) normal[c] = 2 * image.at(x, y, c) - 1;
+      const float up = std::max(normal[2], kLeastUp);
+      texels[static_cast<std::size_t>(x)] = {normal[0] / up, normal[1] / up, 0};
+    }
+  };
+  return {image.width, image.height, row};
+}
+
+LightRows values_of(const Image& image) {
+  const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
+    const bool grey = image.channels < 3;
+    for (int x = 0; x < image.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        texels[static_cast<std::size_t>(x)][c] = image.at(x, y, grey ? 0 : c);
+      }
+    }
+  };
+  return {image.width, image.height, row};
+}
+
 }  // namespace crowdface

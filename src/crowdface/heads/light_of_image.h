@@ -11,4 +11,9 @@ namespace crowdface {
 /// \param image  must outlive the result.
 LightRows light_of(const Image& image);
 
+/// Tangent-space normals as files have them, 0 … 1, as slopes to the right and upwards.
+LightRows slopes_of(const Image& image);
+/// The numbers of the first one or three channels, as they are.
+LightRows values_of(const Image& image);
+
 }  // namespace crowdface

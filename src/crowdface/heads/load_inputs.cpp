@@ -247,7 +247,8 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
       config.textures.blend == TextureBlend::kAuto && (shown || !config.output.meshes.empty());
   if (config.textures.blend == TextureBlend::kNone || !(shown || blend)) return;
   try {
-    HeadsTextures found = find_worn_textures(inputs.faces, inputs.files);
+    std::vector<HeadsTextures> kinds = find_worn_textures(inputs.faces, inputs.files);
+    HeadsTextures& found = kinds.front();
     const bool asked_for = sheet && sheet->texture == SheetTexture::kYes;
     if (asked_for && !found.any()) {
       throw MissingInput(concat(
@@ -258,17 +259,23 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
     if (!asked_for) {
       for (std::string& text : leave_out_unreadable(found)) warn(inputs, std::move(text));
     }
-    if (!found.any()) {
+    const bool any = found.any();
+    if (!any) {
       for (std::string& text : found.warnings) warn(inputs, std::move(text));
-      return;
-    }
-    if (blend && found.differ()) {
+    } else if (blend && found.differ()) {
       inputs.textures = load_blended_textures(inputs.faces, inputs.materials, std::move(found),
                                               config.textures.size);
     } else if (shown) {
       inputs.textures = load_coats(std::move(found), shown_texels(*sheet));
     }
     for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
+    for (std::size_t k = 1; blend && !config.output.meshes.empty() && k < kinds.size(); ++k) {
+      for (std::string& text : leave_out_unreadable(kinds[k])) warn(inputs, std::move(text));
+      if (!kinds[k].differ()) continue;
+      inputs.maps.push_back(load_blended_textures(inputs.faces, inputs.materials,
+                                                  std::move(kinds[k]), config.textures.size));
+      for (const std::string& text : inputs.maps.back().warnings) warn(inputs, text);
+    }
   } catch (const Error& error) {
     problems.add(error);
   }

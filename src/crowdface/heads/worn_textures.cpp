@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -41,15 +42,16 @@ bool is_there(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-WornTextures worn_by(const ColourTextures& named, const std::vector<TilePlace>& tiles,
-                     const FaceMaterials& materials, std::vector<fs::path>& missing) {
+WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
+                     const std::vector<TilePlace>& tiles, const FaceMaterials& materials,
+                     std::vector<fs::path>& missing) {
   WornTextures worn;
   worn.of_face.assign(tiles.size(), kNoIndex);
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();
-    const auto found = named.of_material.find(materials.names[materials.of_face[f]]);
-    if (found == named.of_material.end()) continue;
+    const auto found = of_material.find(materials.names[materials.of_face[f]]);
+    if (found == of_material.end()) continue;
     const fs::path path = with_tile(found->second, tile_number(tiles[f][0], tiles[f][1]));
     const auto [row, is_new] = rows.emplace(path, kNoIndex);
     if (is_new && is_there(path)) {
@@ -111,39 +113,55 @@ std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
   return warnings;
 }
 
-HeadsTextures find_worn_textures(const FaceSet& faces, std::span<const ObjFile> files) {
-  HeadsTextures result;
+std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces,
+                                              std::span<const ObjFile> files) {
   const Index face_count = faces.topology.face_count();
   const bool has_uvs = !faces.topology.corner_uvs.empty();
+  std::vector<TilePlace> tile;
   for (Index f = 0; f < face_count; ++f) {
-    result.tile.push_back(has_uvs ? tile_of(faces, f) : TilePlace{0, 0});
+    tile.push_back(has_uvs ? tile_of(faces, f) : TilePlace{0, 0});
   }
   // Heads of one folder mostly share their material files.
-  std::map<std::pair<fs::path, std::vector<std::string>>, ColourTextures> known;
-  std::map<std::string, std::vector<std::string>> heads_of_warning;
+  std::map<std::pair<fs::path, std::vector<std::string>>, NamedTextures> known;
+  std::vector<const NamedTextures*> of_head;
+  std::set<TextureKind> kinds = {TextureKind::kColour};
   for (const ObjFile& file : files) {
-    const std::string head = file.path.stem().string();
     const auto [entry, is_new] =
         known.try_emplace({file.path.parent_path(), file.material_libraries});
-    ColourTextures& named = entry->second;
+    NamedTextures& named = entry->second;
     if (is_new) {
-      named = find_colour_textures(file.path, file.material_libraries);
-      if (!has_uvs) named.of_material.clear();
+      named = find_textures(file.path, file.material_libraries);
+      if (!has_uvs) named.of_kind.clear();
     }
-    for (const std::string& text : named.warnings) heads_of_warning[text].push_back(head);
-    std::vector<fs::path> missing;
-    result.heads.push_back(
-        worn_by(named, result.tile, face_materials(file.materials, face_count), missing));
-    for (const fs::path& path : missing) {
-      heads_of_warning[concat("texture ", quoted(path.string()),
-                              " is missing; pictures do without")]
-          .push_back(head);
+    for (const auto& [kind, of_material] : named.of_kind) kinds.insert(kind);
+    of_head.push_back(&named);
+  }
+  std::vector<HeadsTextures> all;
+  for (const TextureKind kind : kinds) {
+    HeadsTextures result{kind, {}, tile, {}};
+    std::map<std::string, std::vector<std::string>> heads_of_warning;
+    for (std::size_t h = 0; h < files.size(); ++h) {
+      const std::string head = files[h].path.stem().string();
+      if (kind == TextureKind::kColour) {
+        for (const std::string& text : of_head[h]->warnings) heads_of_warning[text].push_back(head);
+      }
+      std::vector<fs::path> missing;
+      const auto named = of_head[h]->of_kind.find(kind);
+      result.heads.push_back(worn_by(
+          named == of_head[h]->of_kind.end() ? std::map<std::string, fs::path>() : named->second,
+          tile, face_materials(files[h].materials, face_count), missing));
+      for (const fs::path& path : missing) {
+        heads_of_warning[concat("texture ", quoted(path.string()),
+                                " is missing; pictures do without")]
+            .push_back(head);
+      }
     }
+    for (const auto& [text, heads] : heads_of_warning) {
+      result.warnings.push_back(concat(text, " (", join(heads), ")"));
+    }
+    if (kind == TextureKind::kColour || result.any()) all.push_back(std::move(result));
   }
-  for (const auto& [text, heads] : heads_of_warning) {
-    result.warnings.push_back(concat(text, " (", join(heads), ")"));
-  }
-  return result;
+  return all;
 }
 
 }  // namespace crowdface

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "crowdface/io/obj_file.h"
+#include "crowdface/io/texture_kind.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
 
-/// The files that one head's materials name for the colours of its faces (`map_Kd`).
+/// The files of one kind that one head's materials name for its faces.
 struct WornTextures {
   struct File {
     std::filesystem::path path;  ///< is there
@@ -25,6 +26,7 @@ struct WornTextures {
 
 /// Of all heads, and what is missing.
 struct HeadsTextures {
+  TextureKind kind = TextureKind::kColour;
   std::vector<WornTextures> heads;                ///< #heads
   std::vector<std::array<std::int32_t, 2>> tile;  ///< #F, column and row of each face's UDIM tile
   std::vector<std::string> warnings;              ///< each once, with the heads it is about
@@ -37,8 +39,10 @@ struct HeadsTextures {
 /// Takes away what is no image that we read: those heads have no texture there. \return what to say of it.
 std::vector<std::string> leave_out_unreadable(HeadsTextures& textures);
 
-/// Reads material files, and asks which textures are there; reads none of these.
+/// Reads material files, and asks which textures are there; reads none of these. What is wrong with
+/// material files is told with the colours.
 /// \param faces  the topology and coordinates that all heads share. \param files  #heads.
-HeadsTextures find_worn_textures(const FaceSet& faces, std::span<const ObjFile> files);
+/// \return the colours, then the other kinds that any head has.
+std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces, std::span<const ObjFile> files);
 
 }  // namespace crowdface

@@ -18,6 +18,8 @@ struct GlbMaterial {
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
   std::optional<std::size_t> image = {};  ///< its colours, times `colour`: one of the file's images
   bool overlay = false;                   ///< its colours are the overlay's, opaque
+  std::optional<std::size_t> normal_image = {};     ///< its tangent-space normals, likewise
+  std::optional<std::size_t> roughness_image = {};  ///< how rough it is, in the green channel
 };
 
 /// A picture that all files have, such as an iris, and where on it each vertex lies. Files that bring no
@@ -44,8 +46,8 @@ struct GlbOptions {
   std::vector<GlbTarget> targets;
   std::vector<std::string> points;        ///< nodes below the face's, at places of its own
   std::vector<std::uint32_t> vertex_ids;  ///< #V, what `_VERTEX_ID` says; empty: 0, 1, 2, …
-  std::size_t images = 0;                 ///< that each file brings along …
-  std::string image_type = "image/png";   ///< … and of which format
+  /// "image/png" or "image/jpeg" of each image that every file brings along.
+  std::vector<std::string> image_types;
   std::optional<GlbOverlay> overlay = {};
   std::string shared =
       ".";  ///< where GlbOverlay::kFile is found from files that do not bring it along

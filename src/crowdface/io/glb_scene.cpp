@@ -44,6 +44,12 @@ Json material_json(const GlbMaterial& material, std::size_t overlay) {
   } else if (material.overlay) {
     json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", overlay}, {"texCoord", 1}};
   }
+  if (material.roughness_image) {
+    json["pbrMetallicRoughness"]["roughnessFactor"] = 1.0;
+    json["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {
+        {"index", *material.roughness_image}};
+  }
+  if (material.normal_image) json["normalTexture"] = {{"index", *material.normal_image}};
   if (material.colour[3] < 1) json["alphaMode"] = "BLEND";
   json["doubleSided"] = true;  // heads are open at the neck
   return json;

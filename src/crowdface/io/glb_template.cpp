@@ -110,7 +110,7 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
         {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", 3 * groups[g].size(), offset)}};
     if (!options.materials.empty()) {
       primitive["material"] = materials.size();
-      materials.push_back(material_json(options.materials[g], options.images));
+      materials.push_back(material_json(options.materials[g], options.image_types.size()));
       if (overlay && options.materials[g].overlay) primitive["attributes"]["TEXCOORD_1"] = *overlay;
     }
     primitives.push_back(std::move(primitive));
@@ -127,8 +127,8 @@ void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOption
     scene["textures"].push_back(Json::object({{"source", scene["images"].size()}}));
     scene["images"].push_back({{"bufferView", view}, {"mimeType", type}});
   };
-  for (std::size_t i = 0; i < options.images; ++i) {
-    add(scene["bufferViews"].size(), options.image_type);
+  for (const std::string& type : options.image_types) {
+    add(scene["bufferViews"].size(), type);
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 0}});
   }
   if (overlay) add(*overlay, "image/png");
@@ -204,7 +204,7 @@ void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32
 GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
                          const GlbOptions& options)
     : vertices_(topology.vertex_count),
-      images_(options.images),
+      images_(options.image_types.size()),
       points_(static_cast<Index>(options.points.size())) {
   constexpr Index kMostVertices = 1 << 24;
   if (vertices_ > kMostVertices || topology.face_count() == 0) {

@@ -219,7 +219,8 @@ Image read_image(const path& file, const ImageLimits& limits) {
 ImageSize read_image_size(const path& file, const ImageLimits& limits) {
   const MappedFile mapped(file);
   const PictureFacts facts = open_checked(file, mapped, limits).facts;
-  return {facts.width, facts.height};
+  return {facts.width, facts.height, facts.channels, facts.values == PictureFacts::Values::kBytes,
+          facts.values == PictureFacts::Values::kFloats};
 }
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
@@ -236,9 +237,17 @@ std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pix
   return encode("jpeg", {PictureToEncode::Form::kJpeg, width, height, 3, pixels.data()});
 }
 
-std::string encode_exr(int width, int height, std::span<const float> pixels) {
-  require_size(width, height, 3, pixels.size());
-  return encode("openexr", {PictureToEncode::Form::kExr, width, height, 3, pixels.data()});
+std::string encode_png16(int width, int height, int channels,
+                         std::span<const std::uint16_t> pixels) {
+  require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
+  require_size(width, height, channels, pixels.size());
+  return encode("png", {PictureToEncode::Form::kWordPng, width, height, channels, pixels.data()});
+}
+
+std::string encode_exr(int width, int height, int channels, std::span<const float> pixels) {
+  require(channels == 1 || channels == 3, "an OpenEXR of ", channels, " channels");
+  require_size(width, height, channels, pixels.size());
+  return encode("openexr", {PictureToEncode::Form::kExr, width, height, channels, pixels.data()});
 }
 
 }  // namespace crowdface

@@ -61,6 +61,9 @@ Image read_image(const std::filesystem::path& path, const ImageLimits& limits = 
 struct ImageSize {
   int width = 0;
   int height = 0;
+  int channels = 0;
+  bool of_bytes = false;   ///< 8 bits a value
+  bool of_floats = false;  ///< neither: 16 bits
 };
 ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& limits = {});
 
@@ -76,13 +79,17 @@ enum class PngEffort {
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
                        PngEffort effort = PngEffort::kSmall);
 
+/// Of 16 bits, packed as kFast does.
+std::string encode_png16(int width, int height, int channels,
+                         std::span<const std::uint16_t> pixels);
+
 /// A JPEG file in memory: 8-bit RGB, quality 92, colours not subsampled.
 /// \param pixels  height · width · 3. \throws BrokenPrecondition if sizes do not fit.
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels);
 
-/// An OpenEXR file in memory: three channels of 16-bit floats, linear, no time stamp.
-/// \param pixels  height · width · 3.
+/// An OpenEXR file in memory: channels of 16-bit floats, linear, no time stamp.
+/// \param pixels  height · width · channels.
 /// \throws BrokenPrecondition if sizes do not fit.
-std::string encode_exr(int width, int height, std::span<const float> pixels);
+std::string encode_exr(int width, int height, int channels, std::span<const float> pixels);
 
 }  // namespace crowdface

@@ -21,10 +21,11 @@ struct PictureFacts {
 
 /// Pixels of ours that become a file.
 struct PictureToEncode {
-  enum class Form { kSmallPng, kFastPng, kJpeg, kExr };
+  enum class Form { kSmallPng, kFastPng, kWordPng, kJpeg, kExr };
   Form form = Form::kSmallPng;
   int width = 0, height = 0, channels = 0;
-  const void* pixels = nullptr;  ///< row by row; of an OpenEXR floats, of the others bytes
+  const void* pixels =
+      nullptr;  ///< row by row; of an OpenEXR floats, of a word PNG 16 bits, else bytes
 };
 
 /// What OpenImageIO does for us. It brings some 250 libraries, which take 0.2 s to load. So it stands in a

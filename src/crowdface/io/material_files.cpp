@@ -95,14 +95,15 @@ class Collector {
   }
 
   MaterialFiles take_files() {
-    for (const auto& [relative, files] : colour_files_) {
-      for (const std::size_t file : files) {
-        files_.files[file].is_colour = !not_colours_.contains(relative);
-      }
+    for (const auto& [relative, texture] : taken_) {
+      if (texture.kinds.size() > 1) continue;
+      for (const std::size_t file : texture.files) files_.files[file].kind = *texture.kinds.begin();
     }
     return std::move(files_);
   }
-  std::map<std::string, fs::path> take_colours() { return std::move(colours_); }
+  std::map<TextureKind, std::map<std::string, fs::path>> take_textures() {
+    return std::move(of_kind_);
+  }
 
  private:
   /// Names of one kind, those beyond a limit left out.
@@ -180,13 +181,13 @@ class Collector {
       const fs::path relative = texture_of(rest, name.parent_path());
       const Seen seen = see(relative, "texture", file, textures_);
       if (seen == Seen::kTooMany) return;
-      if (word == "map_Kd" && stays_inside(relative) &&
+      const std::optional<TextureKind> kind = texture_kind_of(word);
+      if (kind && stays_inside(relative) &&
           leads_below(folder_ / with_tile(relative, kFirstTile), folder_)) {
-        colours_.emplace(material, (folder_ / relative).lexically_normal());
+        of_kind_[*kind].emplace(material, (folder_ / relative).lexically_normal());
       }
-      const bool colour = word == "map_Kd";
-      if (seen == Seen::kNew) take_texture(relative, colour);
-      if (seen == Seen::kBefore && !colour) not_colours_.insert(relative);
+      taken_[relative].kinds.insert(kind);
+      if (seen == Seen::kNew) take_texture(relative);
     });
   }
 
@@ -208,7 +209,7 @@ class Collector {
     return known->second;
   }
 
-  void take_texture(const fs::path& relative, bool colour) {
+  void take_texture(const fs::path& relative) {
     std::vector<fs::path> tiles;
     if (stays_inside(relative)) tiles = find_tiles(folder_ / relative);
     const std::size_t before = files_.files.size();
@@ -216,8 +217,8 @@ class Collector {
       take_file(relative.parent_path() / tile.filename(), "texture");
     }
     if (tiles.empty()) take_file(relative, "texture");
-    for (std::size_t i = before; colour && i < files_.files.size(); ++i) {
-      colour_files_[relative].push_back(i);
+    for (std::size_t i = before; i < files_.files.size(); ++i) {
+      taken_[relative].files.push_back(i);
     }
   }
 
@@ -226,9 +227,13 @@ class Collector {
   std::set<fs::path> destinations_;
   std::map<std::string, fs::path> textures_of_;  ///< by what a statement says; of one library
   MaterialFiles files_;
-  std::map<std::string, fs::path> colours_;
-  std::map<fs::path, std::vector<std::size_t>> colour_files_;  ///< first named by `map_Kd`
-  std::set<fs::path> not_colours_;                             ///< and elsewhere, too
+  /// What a texture's name stands for.
+  struct Taken {
+    std::set<std::optional<TextureKind>> kinds;  ///< that it is named as; nothing: of none of ours
+    std::vector<std::size_t> files;
+  };
+  std::map<TextureKind, std::map<std::string, fs::path>> of_kind_;
+  std::map<fs::path, Taken> taken_;
 };
 
 Collector collect(const fs::path& mesh, const std::vector<std::string>& libraries) {
@@ -256,10 +261,9 @@ MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::s
   return collect(mesh, libraries).take_files();
 }
 
-ColourTextures find_colour_textures(const fs::path& mesh,
-                                    const std::vector<std::string>& libraries) {
+NamedTextures find_textures(const fs::path& mesh, const std::vector<std::string>& libraries) {
   Collector collector = collect(mesh, libraries);
-  return {collector.take_colours(), collector.take_files().warnings};
+  return {collector.take_textures(), collector.take_files().warnings};
 }
 
 }  // namespace crowdface

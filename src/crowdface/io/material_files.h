@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "crowdface/io/texture_kind.h"
 
 namespace crowdface {
 
@@ -14,7 +17,8 @@ struct MaterialFile {
   std::filesystem::path from;      ///< where it is
   std::filesystem::path relative;  ///< where it goes, below the meshes' folder
   bool is_library = false;         ///< not a texture
-  bool is_colour = false;          ///< a texture that is named as `map_Kd` alone
+  std::optional<TextureKind> kind =
+      {};  ///< the one that a texture is named as; none: several, others
 };
 
 struct MaterialFiles {
@@ -44,15 +48,15 @@ bool is_texture_statement(std::string_view word);
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
                                   const std::vector<std::string>& libraries);
 
-/// The colour textures that a mesh's materials name.
-struct ColourTextures {
-  /// By material, below the mesh's folder; may hold <UDIM>, which stands for a tile's number.
-  std::map<std::string, std::filesystem::path> of_material;
+/// The textures that a mesh's materials name.
+struct NamedTextures {
+  /// By kind and material, below the mesh's folder; may hold <UDIM>, which stands for a tile's number.
+  std::map<TextureKind, std::map<std::string, std::filesystem::path>> of_kind;
   std::vector<std::string> warnings;  ///< about libraries and paths as above
 };
 
-/// The `map_Kd` of each material; whether there is such a file is not asked.
-ColourTextures find_colour_textures(const std::filesystem::path& mesh,
-                                    const std::vector<std::string>& libraries);
+/// The first of each kind that a material names; whether there is such a file is not asked.
+NamedTextures find_textures(const std::filesystem::path& mesh,
+                            const std::vector<std::string>& libraries);
 
 }  // namespace crowdface

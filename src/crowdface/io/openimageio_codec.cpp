@@ -136,9 +136,10 @@ const char* describe(Form form, OIIO::ImageSpec& spec) {
     spec.attribute("jpeg:subsampling", "4:4:4");
     return "jpeg";
   }
+  if (form == Form::kWordPng) spec.set_format(OIIO::TypeDesc::UINT16);
   spec.alpha_channel = spec.nchannels % 2 == 0 ? spec.nchannels - 1 : -1;
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (form == Form::kFastPng) spec.attribute("png:compressionLevel", 1);
+  if (form != Form::kSmallPng) spec.attribute("png:compressionLevel", 1);
   return "png";
 }
 
@@ -146,7 +147,7 @@ bool encode(const PictureToEncode& picture, std::string& bytes, std::string& err
   OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
   const std::string format = describe(picture.form, spec);
   const OIIO::TypeDesc type =
-      picture.form == Form::kExr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+      picture.form == Form::kExr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc(spec.format);
   std::vector<unsigned char> written;
   OIIO::Filesystem::IOVecOutput memory(written);
   const auto output = OIIO::ImageOutput::create(format);

@@ -2,6 +2,7 @@
 #include "crowdface/io/own_materials.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -12,10 +13,26 @@
 namespace crowdface {
 namespace {
 
+/// Where the name of a file begins behind a statement's options and their values (numbers, on, off, or
+/// the letter of a channel).
+std::size_t start_of_name(const std::string& rest) {
+  std::size_t name = 0;
+  bool in_options = false;
+  for (const std::string& word : words_of(rest)) {
+    const std::size_t at = rest.find(word, name);
+    const bool is_option = word.size() > 1 && word[0] == '-' && !parse_double(word);
+    const bool is_value =
+        in_options && (parse_double(word) || word == "on" || word == "off" || word.size() == 1);
+    if (!is_option && !is_value) return at;
+    in_options = true;
+    name = at + word.size();
+  }
+  return 0;  // all of it is a name
+}
+
 /// The name at the end of a statement that stands below a folder now.
 std::string moved_below(const std::string& folder, const std::string& rest) {
-  const std::size_t blank = rest.starts_with('-') ? rest.find_last_of(" \t") : rest.npos;
-  const std::size_t name = blank == rest.npos ? 0 : blank + 1;
+  const std::size_t name = start_of_name(rest);
   return rest.substr(0, name) + folder + '/' + rest.substr(name);
 }
 
@@ -47,30 +64,58 @@ OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
   }
 }
 
-std::string OwnMaterials::text(const std::map<std::string, std::string>& colours) const {
-  std::map<std::string, std::string> replaced;  // what a material names so far
-  std::set<std::string> there;
+std::string OwnMaterials::text(const Replacements& textures) const {
+  const auto file_of = [&](TextureKind kind, const std::string& material) -> const std::string* {
+    const auto of_kind = textures.find(kind);
+    if (of_kind == textures.end()) return nullptr;
+    const auto file = of_kind->second.find(material);
+    return file == of_kind->second.end() ? nullptr : &file->second;
+  };
+  std::map<std::string, std::string> old_colours;  // what a material names so far
+  std::map<std::string, std::set<TextureKind>> there;
   for (const Line& line : lines_) {
-    if (line.word == "map_Kd") replaced.emplace(line.material, line.rest);
-    if (line.word == "newmtl") there.insert(line.material);
+    const std::optional<TextureKind> kind = texture_kind_of(line.word);
+    if (kind == TextureKind::kColour) old_colours.emplace(line.material, line.rest);
+    auto& kinds = there[line.material];
+    if (kind) kinds.insert(*kind);
   }
+  const auto replaced = [&](const Line& line) -> std::string {
+    const std::optional<TextureKind> kind = texture_kind_of(line.word);
+    const std::string* file =
+        kind && kind != TextureKind::kColour ? file_of(*kind, line.material) : nullptr;
+    if (file != nullptr) {
+      return concat(line.word, ' ', line.rest.substr(0, start_of_name(line.rest)), *file, '\n');
+    }
+    const std::string* colour = file_of(TextureKind::kColour, line.material);
+    if (colour == nullptr) return line.text + '\n';
+    const auto old = old_colours.find(line.material);
+    if (old == old_colours.end()) return line.word == "Kd" ? "" : line.text + '\n';
+    const bool is_it = is_texture_statement(line.word) && line.rest == old->second;
+    return is_it ? concat(line.word, ' ', *colour, '\n') : line.text + '\n';
+  };
+  const auto added = [&](const std::string& material, const std::set<TextureKind>& kinds) {
+    std::string text;
+    for (const TextureStatement& statement : kTextureStatements) {
+      const std::string* file = file_of(statement.kind, material);
+      if (file == nullptr || kinds.contains(statement.kind)) continue;
+      if (statement.kind == TextureKind::kColour) text += "Kd 1 1 1\n";
+      text += concat(statement.word, ' ', *file, '\n');
+    }
+    return text;
+  };
   std::string text;
   for (const Line& line : lines_) {
-    const auto colour = colours.find(line.material);
-    const auto old = replaced.find(line.material);
-    if (colour == colours.end()) {
-      text += line.text + '\n';
-    } else if (old != replaced.end()) {
-      const bool is_it = is_texture_statement(line.word) && line.rest == old->second;
-      text += is_it ? concat(line.word, ' ', colour->second, '\n') : line.text + '\n';
-    } else if (line.word != "Kd") {
-      text += line.text + '\n';
-      if (line.word == "newmtl") text += concat("Kd 1 1 1\nmap_Kd ", colour->second, '\n');
+    text += replaced(line);
+    if (line.word == "newmtl") text += added(line.material, there.at(line.material));
+  }
+  std::set<std::string> missing;
+  for (const auto& [kind, files] : textures) {
+    for (const auto& [material, file] : files) {
+      if (!there.contains(material) && !material.empty()) missing.insert(material);
     }
   }
-  for (const auto& [material, colour] : colours) {
-    if (there.contains(material) || material.empty()) continue;
-    text += concat("newmtl ", material, "\nKd 1 1 1\nmap_Kd ", colour, '\n');
+  for (const std::string& material : missing) {
+    text += concat("newmtl ", material, '\n', added(material, {}));
   }
   return text;
 }

@@ -118,6 +118,20 @@ std::string extent_of_points(const Positions& positions) {
   return usda_rows(box);
 }
 
+/// A texture of a material as a shader of its own. \param more  lines of its inputs.
+std::string texture_text(const std::string& path, std::string_view name, const std::string& file,
+                         std::string_view wrap, bool is_colour, std::string_view more,
+                         std::string_view output) {
+  const std::string inner = "            ";
+  const std::string deep = inner + "    ";
+  return concat('\n', inner, "def Shader \"", name, "\"\n", inner, "{\n", deep,
+                "uniform token info:id = \"UsdUVTexture\"\n", deep, "asset inputs:file = @", file,
+                "@\n", more, deep, "token inputs:sourceColorSpace = \"", is_colour ? "sRGB" : "raw",
+                "\"\n", deep, "float2 inputs:st.connect = <", path, "/st.outputs:result>\n", deep,
+                "token inputs:wrapS = \"", wrap, "\"\n", deep, "token inputs:wrapT = \"", wrap,
+                "\"\n", deep, output, '\n', inner, "}\n");
+}
+
 std::string material_text(const std::string& path, const std::string& name,
                           const GlbMaterial& material, std::span<const std::string> images,
                           const std::string& shared) {
@@ -128,25 +142,39 @@ std::string material_text(const std::string& path, const std::string& name,
   const std::string deep = inner + "    ";
   const std::string colour = !picture.empty() ? concat(".connect = <", path, "/colour.outputs:rgb>")
                                               : concat(" = ", colour_text(material));
+  const std::string roughness =
+      material.roughness_image ? concat(".connect = <", path, "/roughness.outputs:r>") : " = 0.6";
   std::string text =
       concat("        def Material \"", name, "\"\n        {\n", inner,
              "token outputs:surface.connect = <", path, "/surface.outputs:surface>\n\n", inner,
              "def Shader \"surface\"\n", inner, "{\n", deep,
              "uniform token info:id = \"UsdPreviewSurface\"\n", deep, "color3f inputs:diffuseColor",
-             colour, '\n', deep, "float inputs:metallic = 0\n", deep,
-             "float inputs:opacity = ", static_cast<double>(material.colour[3]), '\n', deep,
-             "float inputs:roughness = 0.6\n", deep, "token outputs:surface\n", inner, "}\n");
+             colour, '\n', deep, "float inputs:metallic = 0\n");
+  if (material.normal_image) {
+    text += concat(deep, "normal3f inputs:normal.connect = <", path, "/normal.outputs:rgb>\n");
+  }
+  text += concat(deep, "float inputs:opacity = ", static_cast<double>(material.colour[3]), '\n',
+                 deep, "float inputs:roughness", roughness, '\n', deep, "token outputs:surface\n",
+                 inner, "}\n");
+  const std::string_view wrap = material.overlay ? "clamp" : "repeat";
   if (!picture.empty()) {
-    const std::string_view wrap = material.overlay ? "clamp" : "repeat";
-    text += concat(
-        '\n', inner, "def Shader \"colour\"\n", inner, "{\n", deep,
-        "uniform token info:id = \"UsdUVTexture\"\n", deep, "asset inputs:file = @", picture, "@\n",
-        deep, "token inputs:sourceColorSpace = \"sRGB\"\n", deep, "float2 inputs:st.connect = <",
-        path, "/st.outputs:result>\n", deep, "token inputs:wrapS = \"", wrap, "\"\n", deep,
-        "token inputs:wrapT = \"", wrap, "\"\n", deep, "float3 outputs:rgb\n", inner, "}\n\n",
-        inner, "def Shader \"st\"\n", inner, "{\n", deep,
-        "uniform token info:id = \"UsdPrimvarReader_float2\"\n", deep, "string inputs:varname = \"",
-        material.overlay ? "st1" : "st", "\"\n", deep, "float2 outputs:result\n", inner, "}\n");
+    text += texture_text(path, "colour", picture, wrap, true, "", "float3 outputs:rgb");
+  }
+  if (material.normal_image) {
+    text += texture_text(path, "normal", images[*material.normal_image], wrap, false,
+                         concat(deep, "float4 inputs:bias = (-1, -1, -1, 0)\n", deep,
+                                "float4 inputs:scale = (2, 2, 2, 1)\n"),
+                         "float3 outputs:rgb");
+  }
+  if (material.roughness_image) {
+    text += texture_text(path, "roughness", images[*material.roughness_image], wrap, false, "",
+                         "float outputs:r");
+  }
+  if (!picture.empty() || material.normal_image || material.roughness_image) {
+    text += concat('\n', inner, "def Shader \"st\"\n", inner, "{\n", deep,
+                   "uniform token info:id = \"UsdPrimvarReader_float2\"\n", deep,
+                   "string inputs:varname = \"", material.overlay ? "st1" : "st", "\"\n", deep,
+                   "float2 outputs:result\n", inner, "}\n");
   }
   return text + "        }\n";
 }

@@ -27,7 +27,7 @@ std::string to_exr(const Rgb8Image& image) {
   std::vector<float> pixels(image.pixels.size());
   std::transform(image.pixels.begin(), image.pixels.end(), pixels.begin(),
                  [&](std::uint8_t value) { return linear[value]; });
-  return encode_exr(image.width, image.height, pixels);
+  return encode_exr(image.width, image.height, 3, pixels);
 }
 
 }  // namespace

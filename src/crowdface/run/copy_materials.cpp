@@ -10,6 +10,7 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/run/attachment_writers.h"
 
@@ -21,9 +22,9 @@ namespace fs = std::filesystem;
 /// Copies each file once: heads of one folder mostly share theirs.
 class MaterialCopies {
  public:
-  /// \param own_colours  whether faces have material files and colour textures of their own.
-  MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, bool own_colours)
-      : directory_(directory), ledger_(ledger), own_colours_(own_colours) {}
+  /// \param own  the kinds of texture that faces have of their own; if any, they have own material files.
+  MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, std::set<TextureKind> own)
+      : directory_(directory), ledger_(ledger), own_(std::move(own)) {}
 
   void add(const ObjFile& file, const std::string& head) {
     const auto [found, is_unknown] =
@@ -33,7 +34,9 @@ class MaterialCopies {
       heads_of_warning_[warning].push_back(head);
     }
     for (const MaterialFile& material : found->second.files) {
-      if (!own_colours_ || !(material.is_library || material.is_colour)) copy(material, head);
+      const bool own_library = material.is_library && !own_.empty();
+      const bool own_texture = material.kind && own_.contains(*material.kind);
+      if (!own_library && !own_texture) copy(material, head);
     }
   }
 
@@ -76,7 +79,7 @@ class MaterialCopies {
 
   const CrowdDirectory& directory_;
   Ledger& ledger_;
-  bool own_colours_;
+  std::set<TextureKind> own_;
   std::map<std::pair<fs::path, std::vector<std::string>>, MaterialFiles> known_;
   std::map<fs::path, Digest> read_, copied_;
   std::map<std::string, std::vector<std::string>> heads_of_warning_;
@@ -88,7 +91,9 @@ std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirecto
                                         const std::vector<CastFace>& crowd, Ledger& ledger) {
   std::set<Index> targets;
   for (const CastFace& face : crowd) targets.insert(face.recipe.target);
-  MaterialCopies copies(directory, ledger, inputs.textures.blend());
+  std::set<TextureKind> own;
+  for (const PictureName& picture : own_pictures(inputs)) own.insert(picture.kind);
+  MaterialCopies copies(directory, ledger, std::move(own));
   for (const Index target : targets) {
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.files[head], inputs.faces.heads[head].name);

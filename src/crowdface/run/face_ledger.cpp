@@ -7,6 +7,7 @@
 
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/gallery.h"
 #include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/mesh_judge.h"
@@ -40,8 +41,11 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
   }
-  if (job.inputs.textures.blend() && !config.output.meshes.empty()) {
+  if (has_own_textures(job.inputs) && !config.output.meshes.empty()) {
     hasher.add(kTextureVersion).add(job.inputs.textures.digest);
+    for (const HeadTextures& maps : job.inputs.maps) {
+      hasher.add(static_cast<int>(maps.names.front().kind)).add(maps.digest);
+    }
     hasher.add(config.textures.formats.size());
     for (const TextureFormat format : config.textures.formats) hasher.add(static_cast<int>(format));
   }

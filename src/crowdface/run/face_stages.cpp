@@ -54,7 +54,7 @@ std::uint64_t vertex_count(const Inputs& inputs) {
 std::uint64_t input_bytes(const Inputs& inputs) {
   return inputs.faces.heads.size() * vertex_count(inputs) * 3 * sizeof(double) +
          static_cast<std::uint64_t>(inputs.regions.alpha.size()) * sizeof(double) +
-         kMeshBytesAVertex * vertex_count(inputs) + texture_bytes(inputs.textures) +
+         kMeshBytesAVertex * vertex_count(inputs) + texture_bytes(inputs) +
          displacement_bytes(inputs.shapes) + own_shape_bytes(inputs.shapes);
 }
 
@@ -106,7 +106,7 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
 /// Encodes, writes and renders one face after the other, on any thread.
 class FaceOutput {
  public:
-  FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const TextureBlender* textures,
+  FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const FaceTextures& textures,
              const OwnTextures* own, std::span<const MeshFormat> formats,
              const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
              const FaceLedger& ledger, const FaceAttachments* attachments, const FaceShapes& shapes,
@@ -128,9 +128,9 @@ class FaceOutput {
     throw_if_interrupted();
     FaceFiles files;
     std::vector<BlendedPicture> pictures;
-    if (textures_ != nullptr) {
+    if (textures_.any()) {
       const Busy busy(blend_);
-      pictures = textures_->blend(face.recipe);
+      pictures = textures_.blend(face.recipe);
     }
     std::vector<WornAttachment> worn;
     if (attachments_ != nullptr) {
@@ -147,7 +147,7 @@ class FaceOutput {
       const Busy busy(render_);
       const WrittenPictures written =
           renders_->write(directory_, face.id, face.recipe.target, positions, moves,
-                          textures_ != nullptr ? &pictures : nullptr, worn);
+                          textures_.colours() != nullptr ? &pictures : nullptr, worn);
       files.picture = written.picture;
       files.preview = written.preview;
     }
@@ -197,7 +197,7 @@ class FaceOutput {
 
   const FaceBuilder& builder_;
   const MeshWriters& writers_;
-  const TextureBlender* textures_;
+  const FaceTextures& textures_;
   const OwnTextures* own_;
   std::span<const MeshFormat> formats_;
   const CrowdDirectory& directory_;
@@ -224,7 +224,7 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 }
 
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                       const FaceBuilder& builder, const TextureBlender* textures,
+                       const FaceBuilder& builder, const FaceTextures& textures,
                        const FaceAttachments* attachments, const FaceShapes& shapes,
                        const std::vector<CastFace>& crowd, std::uint64_t memory)
     : writes_meshes_(!config.output.meshes.empty()),
@@ -239,10 +239,10 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + writers_.memory_bytes() + shapes.memory_bytes();
   std::uint64_t of_thread = writers_.encode_bytes();
-  if (textures_ != nullptr) {
+  if (textures_.any()) {
     own_.emplace(config, inputs, crowd, directory_of(config).shared_from_mesh());
-    standing += textures_->memory_bytes();
-    of_thread += textures_->blend_bytes() + own_->encode_bytes();
+    standing += textures_.memory_bytes();
+    of_thread += textures_.blend_bytes() + own_->encode_bytes();
   }
   if (skin_is_judged(config, inputs)) {
     std::set<Index> targets;

@@ -8,6 +8,7 @@
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/face_builder.h"
@@ -16,7 +17,6 @@
 #include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/own_textures.h"
 #include "crowdface/run/report.h"
-#include "crowdface/texture/texture_blender.h"
 #include "crowdface/validity/skin_check.h"
 
 namespace crowdface {
@@ -35,14 +35,14 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 class FaceStages {
  public:
   /// \param builder  must outlive this object, as inputs and prepared heads must.
-  /// \param textures  blends those of faces' own, or null; likewise.
+  /// \param textures  of faces' own; likewise.
   /// \param attachments  what faces wear, or null; likewise.
   /// \param shapes   of faces; likewise.
   /// \param crowd    recipes of all faces that may be made.
   /// \param memory  bytes that the whole process may take; sets how many faces are blended together.
   /// \throws UsageError if one face at a time does not fit.
   FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
-             const FaceBuilder& builder, const TextureBlender* textures,
+             const FaceBuilder& builder, const FaceTextures& textures,
              const FaceAttachments* attachments, const FaceShapes& shapes,
              const std::vector<CastFace>& crowd, std::uint64_t memory);
 
@@ -56,7 +56,7 @@ class FaceStages {
   bool writes_meshes_;
   MeshWriters writers_;
   const FaceBuilder& builder_;
-  const TextureBlender* textures_;
+  const FaceTextures& textures_;
   const FaceAttachments* attachments_;
   const FaceShapes& shapes_;
   AttachmentWriters attachment_writers_;

@@ -250,7 +250,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
-                                           cast_job.textures.get().blender(),
+                                           cast_job.textures.get().colours(),
                                            cast_job.shapes.get());
   });
   const StageBusy busy = timed(stages, "build", [&] {
@@ -314,10 +314,9 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   if (!options.shard.whole()) crowd = planned_job(job, options, stages);
   if (!crowd) crowd = cast_job(job, options, stages);
   Lazy<FaceStages> face_stages([&] {
-    return std::make_unique<FaceStages>(job.config, job.inputs, crowd->prepared,
-                                        crowd->builder.get(), crowd->textures.get().blender(),
-                                        &crowd->attachments.get(), crowd->shapes.get(),
-                                        crowd->cast.crowd, memory_for(options));
+    return std::make_unique<FaceStages>(
+        job.config, job.inputs, crowd->prepared, crowd->builder.get(), crowd->textures.get(),
+        &crowd->attachments.get(), crowd->shapes.get(), crowd->cast.crowd, memory_for(options));
   });
   if (is_new && !crowd->cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
   const CrowdLock lock(directory, options.shard);

@@ -15,6 +15,7 @@
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/vertex_colours.h"
+#include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 namespace {
@@ -62,25 +63,62 @@ std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& input
   return overlay;
 }
 
-/// A material for each that faces have, together with what they are and with their own textures' picture.
-void add_materials(const Inputs& inputs, const Surfaces& surfaces, GlbOptions& options) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, SurfaceKind>, std::uint32_t> known;
+/// Which image of a GLB file each face shows of one kind, or kNoIndex; empty: none does.
+std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const Inputs& inputs,
+                                     TextureKind kind) {
+  std::size_t first = 0;
+  const auto of_textures = [&](const HeadTextures& textures) {
+    std::vector<std::uint32_t> images;
+    for (const std::uint32_t picture : textures.blended.layout.of_face) {
+      const auto image = std::find_if(held.begin(), held.end(), [&](const GlbPicture& one) {
+        return picture != kNoIndex && one.picture == first + picture;
+      });
+      images.push_back(image == held.end() ? kNoIndex
+                                           : static_cast<std::uint32_t>(image - held.begin()));
+    }
+    return images;
+  };
+  if (kind == TextureKind::kColour) {
+    return inputs.textures.blend() ? of_textures(inputs.textures) : std::vector<std::uint32_t>();
+  }
+  first = inputs.textures.names.size();
+  for (const HeadTextures& maps : inputs.maps) {
+    if (maps.names.front().kind == kind) return of_textures(maps);
+    first += maps.names.size();
+  }
+  return {};
+}
+
+/// A material for each that faces have, together with what they are and with their own textures' pictures.
+void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
+                   const Surfaces& surfaces, GlbOptions& options) {
+  const std::vector<std::uint32_t> colours = images_of(held, inputs, TextureKind::kColour);
+  const std::vector<std::uint32_t> normals = images_of(held, inputs, TextureKind::kNormal);
+  const std::vector<std::uint32_t> roughness = images_of(held, inputs, TextureKind::kRoughness);
+  const auto at = [](const std::vector<std::uint32_t>& images, std::size_t face) {
+    return images.empty() ? kNoIndex : images[face];
+  };
+  const auto image = [](std::uint32_t number) {
+    return number == kNoIndex ? std::nullopt : std::optional<std::size_t>(number);
+  };
+  using Look = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, SurfaceKind>;
+  std::map<Look, std::uint32_t> known;
   for (std::size_t f = 0; f < options.face_materials.size(); ++f) {
     const std::uint32_t material = options.face_materials[f];
-    const std::uint32_t picture =
-        options.images > 0 ? inputs.textures.blended.layout.of_face[f] : kNoIndex;
+    const std::uint32_t picture = at(colours, f);
     const SurfaceKind kind = surfaces.kinds[f];
-    const auto [row, is_new] = known.emplace(std::tuple(material, picture, kind),
-                                             static_cast<std::uint32_t>(known.size()));
+    const auto [row, is_new] =
+        known.emplace(Look(material, picture, at(normals, f), at(roughness, f), kind),
+                      static_cast<std::uint32_t>(known.size()));
     options.face_materials[f] = row->second;
     if (!is_new) continue;
     const auto paint = surfaces.paints.empty() ? std::nullopt : surfaces.paints[f];
     GlbMaterial made = glb_material(inputs.materials.names[material], kind, paint);
     made.overlay = options.overlay && kind == SurfaceKind::kEye && !paint && picture == kNoIndex;
-    if (picture != kNoIndex) {
-      made.colour = {1, 1, 1, made.colour[3]};
-      made.image = picture;
-    }
+    if (picture != kNoIndex) made.colour = {1, 1, 1, made.colour[3]};
+    made.image = image(picture);
+    made.normal_image = image(at(normals, f));
+    made.roughness_image = image(at(roughness, f));
     options.materials.push_back(std::move(made));
   }
   const auto is_overlaid = [](const GlbMaterial& material) { return material.overlay; };
@@ -102,13 +140,14 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   for (const Shape& shape : inputs.shapes.shapes) {
     options.targets.push_back({shape.name, shape.moves.vertices});
   }
-  if (inputs.textures.blend()) {
-    options.images = inputs.textures.names.size();
-    if (config.textures.formats.front() == TextureFormat::kJpeg) options.image_type = "image/jpeg";
+  const std::vector<GlbPicture> held = glb_pictures(config, inputs);
+  for (const GlbPicture& picture : held) {
+    options.image_types.emplace_back(picture.format == TextureFormat::kJpeg ? "image/jpeg"
+                                                                            : "image/png");
   }
   const Surfaces surfaces = surfaces_of(config, inputs);
   options.overlay = painted_eyes(config, inputs, surfaces);
-  add_materials(inputs, surfaces, options);
+  add_materials(inputs, held, surfaces, options);
   return options;
 }
 

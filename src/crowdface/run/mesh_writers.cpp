@@ -216,7 +216,7 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
     meshes.push_back({name, encode(name, whole)});
     if (name.format != MeshFormat::kObj) continue;
     const auto shared = libraries_.find(face.recipe.target);
-    if (!textures.empty()) {
+    if (has_own_textures(inputs_)) {
       meshes.back().file.replace_line("mtllib", concat("mtllib ", material_file_name(face.id)));
     } else if (shared != libraries_.end() && !shared->second.empty()) {
       meshes.back().file.replace_line("mtllib", shared->second);

@@ -2,25 +2,75 @@
 #include "crowdface/run/own_textures.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/tile_files.h"
+#include "crowdface/render/shading.h"
 
 namespace crowdface {
 namespace {
 
+std::string_view ending_of(TextureFormat format) {
+  switch (format) {
+    case TextureFormat::kPng:
+      return ".png";
+    case TextureFormat::kJpeg:
+      return ".jpg";
+    case TextureFormat::kExr:
+      return ".exr";
+  }
+  throw BrokenPrecondition("ending_of: an unknown format");
+}
+
 /// \param tile  a number, or <UDIM>; empty for a picture that is no tile.
 std::string file_name(const std::string& id, const PictureName& picture, std::string_view tile,
                       TextureFormat format) {
+  const bool is_colour = picture.kind == TextureKind::kColour;
   return concat(kBlendedFolder, '/', id, picture.part.empty() ? "" : ".", picture.part,
-                tile.empty() ? "" : ".", tile, format == TextureFormat::kJpeg ? ".jpg" : ".png");
+                is_colour ? "" : concat('.', statement_of(picture.kind).name),
+                tile.empty() ? "" : ".", tile, ending_of(format));
 }
 
-std::string encode_picture(const BlendedPicture& picture, TextureFormat format) {
+std::string file_name(const std::string& id, const PictureName& picture, TextureFormat format) {
+  return file_name(id, picture, picture.tile == 0 ? "" : std::to_string(picture.tile), format);
+}
+
+std::string encode_exr_of(const BlendedPicture& picture) {
+  std::vector<float> pixels;
+  if (picture.words.empty()) {
+    const std::array<float, 256>& light = light_of_srgb8();
+    for (const std::uint8_t value : picture.srgb) pixels.push_back(light[value]);
+  } else {
+    for (const std::uint16_t word : picture.words) {
+      pixels.push_back(picture.low + picture.step * static_cast<float>(word));
+    }
+  }
+  return encode_exr(picture.width, picture.height, picture.channels, pixels);
+}
+
+std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
+  if (!as_bytes) {
+    return encode_png16(picture.width, picture.height, picture.channels, picture.words);
+  }
+  constexpr int kWordsAByte = 257;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(picture.words.size());
+  for (const int word : picture.words) {
+    bytes.push_back(static_cast<std::uint8_t>((word + kWordsAByte / 2) / kWordsAByte));
+  }
+  return encode_png(picture.width, picture.height, picture.channels, bytes, PngEffort::kFast);
+}
+
+std::string encode_picture(const BlendedPicture& picture, const PictureName& name,
+                           TextureFormat format) {
+  if (format == TextureFormat::kExr) return encode_exr_of(picture);
+  if (!picture.words.empty()) return encode_words(picture, name.of_bytes);
   return format == TextureFormat::kJpeg
              ? encode_jpeg(picture.width, picture.height, picture.srgb)
              : encode_png(picture.width, picture.height, 3, picture.srgb, PngEffort::kFast);
@@ -30,8 +80,9 @@ bool has(std::span<const MeshFormat> meshes, MeshFormat format) {
   return std::find(meshes.begin(), meshes.end(), format) != meshes.end();
 }
 
-std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs, Index head) {
-  const TextureLayout& layout = inputs.textures.blended.layout;
+/// Which picture of a layout each material of a head shows.
+std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
+                                                         const TextureLayout& layout, Index head) {
   const FaceMaterials materials = face_materials(
       inputs.files[static_cast<std::size_t>(head)].materials, inputs.faces.topology.face_count());
   std::map<std::string, std::size_t> pictures;
@@ -48,16 +99,49 @@ std::string material_file_name(const std::string& id) {
   return id + ".mtl";
 }
 
+std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture) {
+  if (picture.kind == TextureKind::kColour) return config.textures.formats;
+  const bool is_height =
+      picture.kind == TextureKind::kDisplacement || picture.kind == TextureKind::kBump;
+  if (is_height && picture.of_floats) return {TextureFormat::kExr};
+  std::vector<TextureFormat> formats;
+  for (TextureFormat format : config.textures.formats) {
+    if (format == TextureFormat::kJpeg) format = TextureFormat::kPng;
+    if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
+      formats.push_back(format);
+    }
+  }
+  return formats;
+}
+
+std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs) {
+  std::vector<GlbPicture> result;
+  const std::vector<PictureName> pictures = own_pictures(inputs);
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    const TextureKind kind = pictures[p].kind;
+    if (kind != TextureKind::kColour && kind != TextureKind::kNormal &&
+        kind != TextureKind::kRoughness) {
+      continue;
+    }
+    for (const TextureFormat format : formats_of(config, pictures[p])) {
+      if (format == TextureFormat::kExr) continue;
+      result.push_back({p, format});
+      break;
+    }
+  }
+  return result;
+}
+
 std::vector<std::string> own_file_names(const Config& config, const Inputs& inputs,
                                         std::span<const MeshFormat> meshes, const std::string& id) {
   std::vector<std::string> names;
+  const std::vector<PictureName> pictures = own_pictures(inputs);
   const bool all_glb = std::all_of(meshes.begin(), meshes.end(),
                                    [](MeshFormat format) { return format == MeshFormat::kGlb; });
-  if (!inputs.textures.blend() || all_glb) return names;
-  for (const PictureName& picture : inputs.textures.names) {
-    for (const TextureFormat format : config.textures.formats) {
-      names.push_back(
-          file_name(id, picture, picture.tile == 0 ? "" : std::to_string(picture.tile), format));
+  if (pictures.empty() || all_glb) return names;
+  for (const PictureName& picture : pictures) {
+    for (const TextureFormat format : formats_of(config, picture)) {
+      names.push_back(file_name(id, picture, format));
     }
   }
   if (has(meshes, MeshFormat::kObj)) names.push_back(material_file_name(id));
@@ -67,42 +151,64 @@ std::vector<std::string> own_file_names(const Config& config, const Inputs& inpu
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id) {
   std::vector<std::string> names;
-  if (!inputs.textures.blend()) return names;
-  for (const PictureName& picture : inputs.textures.names) {
-    names.push_back("./" + file_name(id, picture,
-                                     picture.tile == 0 ? "" : std::to_string(picture.tile),
-                                     config.textures.formats.front()));
+  const std::vector<PictureName> pictures = own_pictures(inputs);
+  for (const GlbPicture& held : glb_pictures(config, inputs)) {
+    const PictureName& picture = pictures[held.picture];
+    names.push_back("./" + file_name(id, picture, formats_of(config, picture).front()));
   }
   return names;
 }
 
 OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
                          std::span<const CastFace> crowd, const std::string& shared)
-    : config_(config), inputs_(inputs) {
+    : config_(config), inputs_(inputs), pictures_(own_pictures(inputs)) {
   for (const CastFace& face : crowd) {
     const Index target = face.recipe.target;
     if (of_target_.contains(target)) continue;
     const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
-    of_target_.emplace(target, Materials{OwnMaterials(file.path, file.material_libraries, shared),
-                                         pictures_of_materials(inputs, target)});
+    Materials materials{OwnMaterials(file.path, file.material_libraries, shared), {}};
+    std::size_t first = 0;
+    const auto add = [&](const HeadTextures& textures) {
+      if (!textures.blend()) return;
+      auto& of_kind = materials.pictures[textures.names.front().kind];
+      of_kind = pictures_of_materials(inputs, textures.blended.layout, target);
+      for (auto& [material, picture] : of_kind) picture += first;
+      first += textures.names.size();
+    };
+    add(inputs.textures);
+    for (const HeadTextures& maps : inputs.maps) add(maps);
+    of_target_.emplace(target, std::move(materials));
   }
 }
 
 std::vector<std::string> OwnTextures::encode(const std::vector<BlendedPicture>& pictures) const {
-  const auto& formats = config_.textures.formats;
-  std::vector<std::string> encoded(pictures.size() * formats.size());
+  std::vector<std::pair<std::size_t, TextureFormat>> files;
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    for (const TextureFormat format : formats_of(config_, pictures_[p])) {
+      files.emplace_back(p, format);
+    }
+  }
+  std::vector<std::string> encoded(files.size());
   parallel_for_each(encoded.size(), [&](std::size_t i) {
-    encoded[i] = encode_picture(pictures[i / formats.size()], formats[i % formats.size()]);
+    const auto [picture, format] = files[i];
+    encoded[i] = encode_picture(pictures[picture], pictures_[picture], format);
   });
   return encoded;
 }
 
 std::vector<std::string_view> OwnTextures::of_mesh(const std::vector<std::string>& encoded) const {
-  std::vector<std::string_view> first;
-  for (std::size_t i = 0; i < encoded.size(); i += config_.textures.formats.size()) {
-    first.emplace_back(encoded[i]);
+  std::vector<std::string_view> held;
+  const std::vector<GlbPicture> wanted = glb_pictures(config_, inputs_);
+  std::size_t file = 0;
+  for (std::size_t p = 0; p < pictures_.size(); ++p) {
+    for (const TextureFormat format : formats_of(config_, pictures_[p])) {
+      const bool is_held = held.size() < wanted.size() && wanted[held.size()].picture == p &&
+                           wanted[held.size()].format == format;
+      if (is_held) held.emplace_back(encoded[file]);
+      ++file;
+    }
   }
-  return first;
+  return held;
 }
 
 std::vector<OwnFile> OwnTextures::files(const CastFace& face, std::span<const MeshFormat> meshes,
@@ -115,22 +221,28 @@ std::vector<OwnFile> OwnTextures::files(const CastFace& face, std::span<const Me
   for (std::size_t i = 0; i < encoded.size(); ++i) files[i].bytes = std::move(encoded[i]);
   if (!has(meshes, MeshFormat::kObj)) return files;
   const Materials& materials = of_target_.at(face.recipe.target);
-  std::map<std::string, std::string> colours;
-  for (const auto& [material, index] : materials.pictures) {
-    const PictureName& picture = inputs_.textures.names[index];
-    colours[material] = file_name(face.id, picture, picture.tile == 0 ? "" : kTileWord,
-                                  config_.textures.formats.front());
+  OwnMaterials::Replacements textures;
+  for (const auto& [kind, pictures] : materials.pictures) {
+    for (const auto& [material, index] : pictures) {
+      const PictureName& picture = pictures_[index];
+      textures[kind][material] = file_name(face.id, picture, picture.tile == 0 ? "" : kTileWord,
+                                           formats_of(config_, picture).front());
+    }
   }
-  files.back().bytes = materials.file.text(colours);
+  files.back().bytes = materials.file.text(textures);
   return files;
 }
 
 std::uint64_t OwnTextures::encode_bytes() const {
   std::uint64_t texels = 0;
-  for (const TextureLayout::Picture& picture : inputs_.textures.blended.layout.pictures) {
-    texels +=
-        static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height);
-  }
+  const auto add = [&](const HeadTextures& textures) {
+    for (const TextureLayout::Picture& picture : textures.blended.layout.pictures) {
+      texels +=
+          static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height);
+    }
+  };
+  add(inputs_.textures);
+  for (const HeadTextures& maps : inputs_.maps) add(maps);
   return 12 * texels;  // files and their copies, then what is rendered
 }
 

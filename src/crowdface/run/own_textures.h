@@ -10,6 +10,7 @@
 
 #include "crowdface/cast/cast_face.h"
 #include "crowdface/config/config.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/io/own_materials.h"
 
@@ -27,8 +28,19 @@ struct OwnFile {
 std::vector<std::string> own_file_names(const Config& config, const Inputs& inputs,
                                         std::span<const MeshFormat> meshes, const std::string& id);
 
-/// Where a face's pictures lie for its mesh, one each, in the first of the formats: "./blended/ID.png".
-/// None if faces get no textures of their own.
+/// The formats that a face's picture is written in. Of colours those of the config. What is not colour is
+/// never JPEG, which would blur it, but PNG; and heights that a head has in floats are EXR alone.
+std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture);
+
+/// A picture that a GLB file holds. It knows no EXR, and nothing but colours, normals and roughness.
+struct GlbPicture {
+  std::size_t picture = 0;  ///< of own_pictures
+  TextureFormat format = TextureFormat::kPng;
+};
+std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
+
+/// Where the pictures of glb_pictures lie for a face's mesh, in the first of their formats:
+/// "./blended/ID.png". None if faces get no textures of their own.
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id);
 
@@ -43,9 +55,9 @@ class OwnTextures {
   OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd,
               const std::string& shared = {});
 
-  /// The pictures in each of the formats, picture by picture.
+  /// The pictures as own_pictures has them in each of their formats, picture by picture.
   std::vector<std::string> encode(const std::vector<BlendedPicture>& pictures) const;
-  /// Of those in all formats, the ones that a mesh refers to: the first of each picture.
+  /// Of those in all formats, the ones that a GLB file holds: see glb_pictures.
   std::vector<std::string_view> of_mesh(const std::vector<std::string>& encoded) const;
   /// Those of own_file_names.
   std::vector<OwnFile> files(const CastFace& face, std::span<const MeshFormat> meshes,
@@ -55,14 +67,15 @@ class OwnTextures {
   std::uint64_t encode_bytes() const;
 
  private:
-  /// The materials of a target, and which picture each of them shows.
+  /// The materials of a target, and which picture each of them shows: of own_pictures.
   struct Materials {
     OwnMaterials file;
-    std::map<std::string, std::size_t> pictures;
+    std::map<TextureKind, std::map<std::string, std::size_t>> pictures;
   };
 
   const Config& config_;
   const Inputs& inputs_;
+  std::vector<PictureName> pictures_;
   std::map<Index, Materials> of_target_;
 };
 

@@ -40,7 +40,7 @@ void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
 
 }  // namespace
 
-void write_face(const Job& job, const TextureBlender* textures, const CastFace& face,
+void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file) {
   const MeshWriters writers(job.config, job.inputs, {format}, {&face, 1});
   std::vector<WornAttachment> worn;
@@ -52,12 +52,12 @@ void write_face(const Job& job, const TextureBlender* textures, const CastFace& 
   if (writers.holds_shapes()) {
     moves = FaceShapes(job.config, job.inputs).of_face(face.recipe, as_written(positions));
   }
-  if (textures == nullptr) {
+  if (!textures.any()) {
     write_mesh(writers.encode(face, positions, moves, {}, worn).front(), file);
     return;
   }
   const OwnTextures own(job.config, job.inputs, {&face, 1});
-  std::vector<std::string> encoded = own.encode(textures->blend(face.recipe));
+  std::vector<std::string> encoded = own.encode(textures.blend(face.recipe));
   const std::vector<std::string_view> of_mesh = own.of_mesh(encoded);
   write_mesh(writers.encode(face, positions, moves, of_mesh, worn).front(), file);
   for (const OwnFile& beside : own.files(face, std::span(&format, 1), std::move(encoded))) {

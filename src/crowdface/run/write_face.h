@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "crowdface/cast/cast_face.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/run/pipeline.h"
-#include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
 
@@ -14,7 +14,7 @@ namespace crowdface {
 /// \param textures   blends those, or null: it has none
 /// \param positions  #V by 3
 /// \throws CannotCreate, IoError
-void write_face(const Job& job, const TextureBlender* textures, const CastFace& face,
+void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file);
 
 }  // namespace crowdface

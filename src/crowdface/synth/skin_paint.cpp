@@ -7,6 +7,7 @@
 
 #include "crowdface/core/smooth_step.h"
 #include "crowdface/synth/knots.h"
+#include "crowdface/synth/skin_surface.h"
 
 namespace crowdface::synth {
 namespace {
@@ -241,6 +242,19 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
   }
   cover(colour, look_.brow_hair, brow_cover(p));
   return colour.max(0.0).min(1.0);
+}
+
+double SkinPaint::roughness_at(const SkinPlace& place) const {
+  const Vector& p = place.skin.position;
+  double hair = brow_cover(p);
+  if (look_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
+    hair = std::max(hair, beard_length(p) * beard_cover(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
+  }
+  if (place.skin.relief >= 0.5 && hair_.reaches(p)) {
+    hair = std::max(hair, hair_.cover(p, hair_.strand(p)));
+  }
+  const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
+  return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.aged());
 }
 
 }  // namespace crowdface::synth

@@ -15,6 +15,8 @@ class SkinPaint {
   SkinPaint(std::uint64_t seed, std::uint64_t index);
 
   ScreenColour at(const SkinPlace& place) const;
+  /// 0 … 1.
+  double roughness_at(const SkinPlace& place) const;
 
  private:
   using Vector = Eigen::Vector3d;

@@ -103,6 +103,10 @@ Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) con
   return out;
 }
 
+double SyntheticHeads::edge_cm() const {
+  return state_->edge_cm;
+}
+
 Positions SyntheticHeads::average() const {
   Positions out(state_->topology.vertex_count, 3);
   for (std::size_t i = 0; i < state_->mean.size(); ++i)

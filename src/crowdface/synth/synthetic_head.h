@@ -45,6 +45,8 @@ class SyntheticHeads {
   /// between the eyes' height and the ears. The same surface at every resolution, the same bits on
   /// every machine.
   Positions positions(std::uint64_t seed, std::uint64_t index) const;
+  /// The usual length of an edge, centimetres: finer relief the mesh does not have.
+  double edge_cm() const;
   /// The average head, bare and smooth, on which hair in cards sits.
   Positions average() const;
 

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/synth/synthetic_skin.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/synth/skin_atlas.h"
 #include "crowdface/synth/skin_paint.h"
+#include "crowdface/synth/skin_surface.h"
 
 namespace crowdface {
 struct SyntheticSkins::State {
   int size;
   std::vector<synth::SkinPlace> atlas;
+  double texel_cm = 0;
 };
 
 SyntheticSkins::SyntheticSkins(int size) {
   require(size >= 64 && size <= 8192, "textures of ", size, " texels");
   state_ = std::make_unique<State>(State{size, synth::skin_atlas(size)});
+  state_->texel_cm = synth::texel_cm(size, state_->atlas);
 }
 SyntheticSkins::~SyntheticSkins() = default;
 SyntheticSkins::SyntheticSkins(SyntheticSkins&&) noexcept = default;
@@ -37,6 +41,27 @@ std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64
         const double value = std::floor(255 * colour[static_cast<Eigen::Index>(c)] + 0.5);
         bytes[3 * i + c] = static_cast<std::uint8_t>(value);
       }
+    }
+  });
+  return bytes;
+}
+
+std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
+                                                  double edge_cm) const {
+  const synth::Identity identity(seed, index);
+  // A texture holds waves of two texels, a mesh those of four edges and more.
+  const double finest = state_->texel_cm / 2;
+  return synth::skin_normals(state_->size, state_->atlas, synth::Relief(identity, finest),
+                             synth::Relief(identity, std::max(finest, edge_cm)));
+}
+
+std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
+  const synth::SkinPaint paint(seed, index);
+  std::vector<std::uint8_t> bytes(state_->atlas.size());
+  parallel_blocks(static_cast<std::ptrdiff_t>(bytes.size()), 4096, [&](auto begin, auto end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      bytes[i] =
+          static_cast<std::uint8_t>(std::floor(255 * paint.roughness_at(state_->atlas[i]) + 0.5));
     }
   });
   return bytes;

@@ -20,11 +20,15 @@ struct CrowdTextures {
   HeadMaps maps;
 };
 
-/// Colours of one face in one picture.
+/// What one face has in one picture: colours, or numbers.
 struct BlendedPicture {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> srgb;  ///< height · width · 3, first row on top
+  /// Or height · width · `channels`: number = low + step · word; of normals x, y, z, 0 … 1 as in files.
+  std::vector<std::uint16_t> words = {};
+  int channels = 3;
+  float low = 0, step = 1.0F / 65535;
 };
 
 }  // namespace crowdface

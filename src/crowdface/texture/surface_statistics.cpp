@@ -26,10 +26,15 @@ struct Sample {
   std::array<float, 3> shares = {};
 };
 
-Eigen::Array3f densities_at(const TextureMap& map, std::uint32_t texel) {
-  const std::size_t plane = map.planes.size() / 3;
-  return {static_cast<float>(map.planes[texel]), static_cast<float>(map.planes[plane + texel]),
-          static_cast<float>(map.planes[2 * plane + texel])};
+/// The numbers of a texel, 0 where the map has less than three.
+Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
+  const auto channels = static_cast<std::size_t>(map.coding.channels);
+  const std::size_t plane = map.planes.size() / channels;
+  Eigen::Array3f numbers = Eigen::Array3f::Zero();
+  for (std::size_t c = 0; c < channels; ++c) {
+    numbers[static_cast<Index>(c)] = map.number(map.planes[c * plane + texel]);
+  }
+  return numbers;
 }
 
 /// Calls `put(vertex, sample)` for every step-th texel of every step-th row, at the vertex that it lies
@@ -113,7 +118,7 @@ Colours coarse_colours(const Grouped<Sample>& samples, const HeadMaps& maps, std
     for (const Sample& sample : samples.of(v)) {
       const TextureMap* map = maps[sample.picture][head].get();
       if (map == nullptr) continue;
-      sums.row(v).head(3) += densities_at(*map, sample.texel).cast<double>().matrix().transpose();
+      sums.row(v).head(3) += numbers_at(*map, sample.texel).cast<double>().matrix().transpose();
       count += 1;
     }
     if (count == 0) return;
@@ -141,7 +146,7 @@ void multiply_details(const Grouped<Sample>& samples, const HeadMaps& maps,
           const TextureMap* map = maps[sample.picture][h].get();
           has[h] = map != nullptr;
           if (!has[h]) continue;
-          detail[h] = densities_at(*map, sample.texel);
+          detail[h] = numbers_at(*map, sample.texel);
           for (std::size_t c = 0; c < 3; ++c) {
             detail[h] -=
                 sample.shares[c] * statistics.coarse[h].row(sample.vertices[c]).array().transpose();

@@ -9,14 +9,14 @@
 
 namespace crowdface {
 
-/// Colours of heads as far as vertices can hold them. Taken on the mesh and not in the pictures, so that
+/// The numbers of heads' maps as far as vertices can hold them. Taken on the mesh and not in the pictures, so that
 /// no value knows of the texture's seams.
 struct SurfaceStatistics {
   using Colours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   std::vector<Colours>
-      coarse;  ///< #heads, each #V by 3: densities without detail, smoothed over the mesh
-  /// How the detail of two heads goes together around a vertex: the mean product of what their densities
+      coarse;  ///< #heads, each #V by 3: numbers without detail, smoothed over the mesh
+  /// How the detail of two heads goes together around a vertex: the mean product of what their numbers
   /// differ from `coarse` by, summed over the channels.
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {
     return covariances[vertex * pairs + pair(a, b)];

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "crowdface/core/parallel.h"
@@ -12,12 +14,13 @@
 
 namespace crowdface {
 
-/// What a picture is computed from for one face, at the vertices that it shows: three densities to begin
-/// with, and the factor of each head's own. Between vertices all of it runs straight.
+/// What a picture is computed from for one face, at the vertices that it shows: numbers to begin with, and
+/// the factor of what each head has stored. Between vertices all of it runs straight.
 struct TextureBlender::Fields {
+  std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< those that lend anything, ascending
-  std::vector<float> values;       ///< #vertices by 3 + #heads
-  std::size_t width() const { return 3 + heads.size(); }
+  std::vector<float> values;       ///< #vertices by #channels + #heads
+  std::size_t width() const { return channels + heads.size(); }
 };
 
 namespace {
@@ -141,27 +144,28 @@ void add_products(const Density* densities, const float* factors, int begin, int
   for (int x = begin; x < end; ++x) sum[x] += factors[x] * static_cast<float>(densities[x]);
 }
 
-/// The mean colour of the covered texels is that of all beyond the gutter.
-void fill_rest(const SurfaceTexels& texels, std::vector<std::uint8_t>& srgb) {
-  std::array<std::uint64_t, 3> sums = {};
+/// The mean of the covered texels is what all beyond the gutter have.
+/// \param values  height · width · `channels`
+template <class Value>
+void fill_rest(const SurfaceTexels& texels, std::size_t channels, std::vector<Value>& values) {
+  std::vector<std::uint64_t> sums(channels);
   for (int y = 0; y < texels.height(); ++y) {
     for (const SurfaceTexels::Span& span : texels.row(y)) {
       const std::size_t row =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.width());
       for (std::size_t i = row + span.begin; i < row + span.end; ++i) {
-        for (std::size_t c = 0; c < 3; ++c) sums[c] += srgb[3 * i + c];
+        for (std::size_t c = 0; c < channels; ++c) sums[c] += values[channels * i + c];
       }
     }
   }
   const std::uint64_t count = std::max<std::size_t>(1, texels.covered());
-  const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>(sums[c] / count); };
-  const std::array<std::uint8_t, 3> fill = {mean(0), mean(1), mean(2)};
+  std::vector<Value> fill;
+  for (const std::uint64_t sum : sums) fill.push_back(static_cast<Value>(sum / count));
   for (int y = 0; y < texels.height(); ++y) {
     std::size_t x = static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.width());
     const std::size_t row = x, end = x + static_cast<std::size_t>(texels.width());
     const auto fill_to = [&](std::size_t stop) {
-      for (; x < stop; ++x)
-        std::copy(fill.begin(), fill.end(), srgb.begin() + 3 * static_cast<std::ptrdiff_t>(x));
+      for (; x < stop; ++x) std::copy(fill.begin(), fill.end(), values.data() + channels * x);
     };
     for (const SurfaceTexels::Span& span : texels.row(y)) {
       fill_to(row + span.begin);
@@ -170,10 +174,76 @@ void fill_rest(const SurfaceTexels& texels, std::vector<std::uint8_t>& srgb) {
     fill_to(end);
   }
   for (const SurfaceTexels::Gutter& texel : texels.gutter()) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      srgb[3 * std::size_t{texel.to} + c] = srgb[3 * std::size_t{texel.from} + c];
+    for (std::size_t c = 0; c < channels; ++c) {
+      values[channels * std::size_t{texel.to} + c] = values[channels * std::size_t{texel.from} + c];
     }
   }
+}
+
+std::uint16_t word_of(float share) {
+  return static_cast<std::uint16_t>(std::clamp(65535 * share + 0.5F, 0.0F, 65535.0F));
+}
+
+/// A row's colours. \param sum  the densities of a channel, a texel each.
+void write_colours(std::span<const SurfaceTexels::Span> spans, RowBuffer& sums, std::uint8_t* out) {
+  const std::vector<std::uint8_t>& srgb8 = srgb8_of_densities();
+  for (const SurfaceTexels::Span& span : spans) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float* sum = sums.of(c);
+      for (std::size_t x = span.begin; x < span.end; ++x) {
+        const float density = std::clamp(sum[x] + 0.5F, 0.0F, kMostDensity);
+        out[3 * x + c] = srgb8[static_cast<std::size_t>(static_cast<int>(density))];
+      }
+    }
+  }
+}
+
+/// Slopes become unit normals.
+void write_normals(std::span<const SurfaceTexels::Span> spans, RowBuffer& sums,
+                   std::uint16_t* out) {
+  for (const SurfaceTexels::Span& span : spans) {
+    for (std::size_t x = span.begin; x < span.end; ++x) {
+      const Eigen::Vector3f normal = Eigen::Vector3f(sums.of(0)[x], sums.of(1)[x], 1).normalized();
+      for (Index c = 0; c < 3; ++c) {
+        out[3 * x + static_cast<std::size_t>(c)] = word_of((normal[c] + 1) / 2);
+      }
+    }
+  }
+}
+
+void write_values(std::span<const SurfaceTexels::Span> spans, RowBuffer& sums,
+                  const BlendedPicture& picture, std::uint16_t* out) {
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  for (const SurfaceTexels::Span& span : spans) {
+    for (std::size_t c = 0; c < channels; ++c) {
+      const float* sum = sums.of(c);
+      for (std::size_t x = span.begin; x < span.end; ++x) {
+        out[channels * x + c] = word_of((sum[x] - picture.low) / (65535 * picture.step));
+      }
+    }
+  }
+}
+
+/// What all maps of a picture have in common, and the numbers that a blend of them can have: an overshoot
+/// of detail beyond those of all heads is cut.
+MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& maps) {
+  std::optional<MapCoding> common;
+  float high = 0;
+  for (const auto& map : maps) {
+    if (!map) continue;
+    const float top = map->number(65535);
+    if (!common) {
+      common = map->coding;
+      high = top;
+    }
+    require(map->coding.content == common->content && map->coding.channels == common->channels,
+            "maps of different kinds in one picture");
+    common->low = std::min(common->low, map->coding.low);
+    high = std::max(high, top);
+  }
+  if (!common) return {};
+  if (common->content == MapContent::kValues) common->step = (high - common->low) / 65535;
+  return *common;
 }
 
 }  // namespace
@@ -214,6 +284,7 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
       require(!map || (map->width == texels_[p].width() && map->height == texels_[p].height()),
               "a texture of another size than the layout's");
     }
+    codings_.push_back(common_coding(textures.maps[p]));
   }
   statistics_ = surface_statistics(adjacency, texels_, textures.maps, options_.scale);
 
@@ -231,8 +302,10 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
 }
 
 TextureBlender::Fields TextureBlender::fields(std::size_t picture, const Recipe& recipe) const {
-  const FaceWeights weights = face_weights(recipe, textures_.maps[picture], region_shares_);
+  const auto& maps = textures_.maps[picture];
+  const FaceWeights weights = face_weights(recipe, maps, region_shares_);
   Fields fields;
+  fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
     double most = options_.of_target.empty() ? 0.0 : weights.of_target[h];
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
@@ -266,14 +339,18 @@ TextureBlender::Fields TextureBlender::fields(std::size_t picture, const Recipe&
           Eigen::Array3d base = Eigen::Array3d::Zero();
           float* out = fields.values.data() + i * width;
           for (std::size_t s = 0; s < lent.size(); ++s) {
-            base -= gain * lent[s] * coarse(fields.heads[s]);
-            out[3 + s] = static_cast<float>(gain * lent[s]);
+            const MapCoding& coding = maps[fields.heads[s]]->coding;
+            base += gain * lent[s] * (double{coding.low} - coarse(fields.heads[s]));
+            out[fields.channels + s] =
+                static_cast<float>(gain * lent[s] * static_cast<double>(coding.step));
           }
           const HeadWeights& of_coarse = is_part ? weights.of_target : weights.of_face;
           for (std::size_t h = 0; h < of_coarse.size(); ++h) {
             if (of_coarse[h] > 0) base += of_coarse[h] * coarse(h);
           }
-          for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(base[c]);
+          for (std::size_t c = 0; c < fields.channels; ++c) {
+            out[c] = static_cast<float>(base[static_cast<Index>(c)]);
+          }
         }
       });
   return fields;
@@ -281,10 +358,21 @@ TextureBlender::Fields TextureBlender::fields(std::size_t picture, const Recipe&
 
 BlendedPicture TextureBlender::paint(std::size_t picture, const Fields& fields) const {
   const SurfaceTexels& texels = texels_[picture];
-  const std::vector<std::uint8_t>& srgb8 = srgb8_of_densities();
+  const MapCoding& coding = codings_[picture];
   BlendedPicture result{texels.width(), texels.height(), {}};
   const auto width = static_cast<std::size_t>(texels.width());
-  result.srgb.resize(3 * width * static_cast<std::size_t>(texels.height()));
+  const std::size_t count = width * static_cast<std::size_t>(texels.height());
+  if (coding.content == MapContent::kColours) {
+    result.srgb.resize(3 * count);
+  } else {
+    if (coding.content == MapContent::kValues) {
+      result.channels = coding.channels;
+      result.low = coding.low;
+      result.step = coding.step;
+    }
+    result.words.resize(static_cast<std::size_t>(result.channels) * count);
+  }
+  const auto channels = static_cast<std::size_t>(result.channels);
   parallel_blocks(texels.height(), kRowsPerBlock, [&](int begin, int end) {
     RowBuffer buffer(texels.width(), fields.width());
     for (int y = begin; y < end; ++y) {
@@ -294,24 +382,26 @@ BlendedPicture TextureBlender::paint(std::size_t picture, const Fields& fields) 
       const int first = spans.front().begin, last = spans.back().end;
       for (std::size_t s = 0; s < fields.heads.size(); ++s) {
         const TextureMap& map = *textures_.maps[picture][fields.heads[s]];
-        for (int c = 0; c < 3; ++c) {
-          add_products(map.row(c, y), buffer.of(3 + s), first, last,
-                       buffer.of(static_cast<std::size_t>(c)));
+        for (std::size_t c = 0; c < fields.channels; ++c) {
+          add_products(map.row(static_cast<int>(c), y), buffer.of(fields.channels + s), first, last,
+                       buffer.of(c));
         }
       }
-      std::uint8_t* out = result.srgb.data() + 3 * width * static_cast<std::size_t>(y);
-      for (const SurfaceTexels::Span& span : spans) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          const float* sum = buffer.of(c);
-          for (std::size_t x = span.begin; x < span.end; ++x) {
-            const float density = std::clamp(sum[x] + 0.5F, 0.0F, kMostDensity);
-            out[3 * x + c] = srgb8[static_cast<std::size_t>(static_cast<int>(density))];
-          }
-        }
+      const std::size_t row = channels * width * static_cast<std::size_t>(y);
+      if (coding.content == MapContent::kColours) {
+        write_colours(spans, buffer, result.srgb.data() + row);
+      } else if (coding.content == MapContent::kSlopes) {
+        write_normals(spans, buffer, result.words.data() + row);
+      } else {
+        write_values(spans, buffer, result, result.words.data() + row);
       }
     }
   });
-  fill_rest(texels, result.srgb);
+  if (result.words.empty()) {
+    fill_rest(texels, channels, result.srgb);
+  } else {
+    fill_rest(texels, channels, result.words);
+  }
   return result;
 }
 
@@ -334,10 +424,13 @@ std::size_t TextureBlender::memory_bytes() const {
 }
 
 std::size_t TextureBlender::blend_bytes() const {
+  constexpr std::size_t kBytesATexel = 3, kBytesAWord = 2;
   std::size_t bytes = 0, most_vertices = 0;
-  for (const SurfaceTexels& texels : texels_) {
-    bytes +=
-        3 * static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(texels.height());
+  for (std::size_t p = 0; p < texels_.size(); ++p) {
+    const SurfaceTexels& texels = texels_[p];
+    const bool is_colour = codings_[p].content == MapContent::kColours;
+    bytes += kBytesATexel * (is_colour ? 1 : kBytesAWord) *
+             static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(texels.height());
     most_vertices = std::max(most_vertices, texels.vertices().size());
   }
   return bytes + most_vertices * (3 + statistics_.coarse.size()) * sizeof(float);

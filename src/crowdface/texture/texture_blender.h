@@ -20,8 +20,8 @@ struct TextureBlending {
   std::vector<bool> of_target;
 };
 
-/// Gives each face a texture of its own, from those of the heads (docs/textures.md). With the densities
-/// D_h of the heads and their coarse part C_h,
+/// Gives each face a texture of its own, from those of the heads (docs/textures.md). With the numbers D_h of
+/// the heads' maps, densities of colours or slopes of normals, and their coarse part C_h,
 ///
 ///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
 ///
@@ -53,6 +53,7 @@ class TextureBlender {
   const CrowdTextures& textures_;
   TextureBlending options_;
   std::vector<SurfaceTexels> texels_;  ///< #pictures
+  std::vector<MapCoding> codings_;     ///< #pictures: what all maps have in common
   SurfaceStatistics statistics_;
   std::vector<double> region_shares_;  ///< #regions, how much of the face each covers
 };

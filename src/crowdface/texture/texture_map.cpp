@@ -46,13 +46,19 @@ void add_row(const Row& row, float weight, Row& sum) {
 
 }  // namespace
 
-TextureMap make_texture_map(int width, int height, const LightRows& picture) {
+Density MapCoding::stored(float number) const {
+  return static_cast<Density>(std::clamp(std::floor((number - low) / step + 0.5F), 0.0F, 65535.0F));
+}
+
+TextureMap make_texture_map(int width, int height, const LightRows& picture,
+                            const MapCoding& coding) {
   require(width > 0 && height > 0 && picture.width > 0 && picture.height > 0, "a texture of ",
           width, " x ", height, " texels of one of ", picture.width, " x ", picture.height);
   const std::vector<Taps> across = taps_of(picture.width, width);
   const std::vector<Taps> down = taps_of(picture.height, height);
-  TextureMap map{width, height, {}};
-  map.planes.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  TextureMap map{width, height, {}, coding};
+  map.planes.resize(static_cast<std::size_t>(coding.channels) * static_cast<std::size_t>(width) *
+                    static_cast<std::size_t>(height));
   parallel_blocks(height, kRowsPerBlock, [&](int begin, int end) {
     Row row(static_cast<std::size_t>(picture.width)), sum(row.size());
     for (int y = begin; y < end; ++y) {
@@ -68,7 +74,10 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture) {
         for (std::size_t t = 0; t < texels.weights.size(); ++t) {
           light += texels.weights[t] * sum[static_cast<std::size_t>(texels.first) + t];
         }
-        for (int c = 0; c < 3; ++c) map.row(c, y)[x] = density_of_light(light[c]);
+        for (int c = 0; c < coding.channels; ++c) {
+          map.row(c, y)[x] = coding.content == MapContent::kColours ? density_of_light(light[c])
+                                                                    : coding.stored(light[c]);
+        }
       }
     }
   });

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace crowdface {
+
+/// What a texture tells of a surface, as material files have it.
+enum class TextureKind { kColour, kNormal, kRoughness, kSpecular, kDisplacement, kBump };
+
+struct TextureStatement {
+  TextureKind kind;
+  std::string_view word;  ///< of a material file, as we write it
+  std::string_view name;  ///< in names of files
+};
+
+/// In the order of TextureKind. `map_Bump`, which is also spelled `map_bump` and `bump`, names heights, or
+/// with many programs normals.
+inline constexpr std::array kTextureStatements = {
+    TextureStatement{TextureKind::kColour, "map_Kd", "colour"},
+    TextureStatement{TextureKind::kNormal, "norm", "normal"},
+    TextureStatement{TextureKind::kRoughness, "map_Pr", "roughness"},
+    TextureStatement{TextureKind::kSpecular, "map_Ks", "specular"},
+    TextureStatement{TextureKind::kDisplacement, "disp", "displacement"},
+    TextureStatement{TextureKind::kBump, "map_Bump", "bump"}};
+
+constexpr const TextureStatement& statement_of(TextureKind kind) {
+  return kTextureStatements[static_cast<std::size_t>(kind)];
+}
+
+/// The kind of a statement's texture; nothing for a word that names none of these.
+constexpr std::optional<TextureKind> texture_kind_of(std::string_view word) {
+  if (word == "map_bump" || word == "bump") return TextureKind::kBump;
+  for (const TextureStatement& statement : kTextureStatements) {
+    if (statement.word == word) return statement.kind;
+  }
+  return std::nullopt;
+}
+
+}  // namespace crowdface
