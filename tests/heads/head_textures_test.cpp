@@ -51,7 +51,7 @@ Read read(const TemporaryFolder& folder, const std::string& materials) {
 }
 
 HeadTextures load(const Read& read, int most_px) {
-  return load_coats(find_worn_textures(read.faces, read.files), most_px);
+  return load_coats(find_worn_textures(read.faces, read.files).front(), most_px);
 }
 
 TEST(HeadTextures, ComeFromTheMaterialOfEachFaceInLinearLight) {
@@ -92,7 +92,7 @@ TEST(HeadTextures, AMissingOneIsAWarning) {
   ASSERT_FALSE(textures.warnings.empty());
   EXPECT_THAT(textures.warnings.back(), HasSubstr("no.png"));
   const Read none = read(folder, "newmtl skin left\nnewmtl right\n");
-  EXPECT_FALSE(find_worn_textures(none.faces, none.files).any());
+  EXPECT_FALSE(find_worn_textures(none.faces, none.files).front().any());
 }
 
 TEST(HeadTextures, ADamagedOneIsRefusedByName) {
