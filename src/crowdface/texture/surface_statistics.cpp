@@ -171,6 +171,42 @@ void multiply_details(const Grouped<Sample>& samples, const HeadMaps& maps,
   known.assign(is_known.begin(), is_known.end());
 }
 
+/// Pairs of heads that have something at the same vertices are smoothed together, some at a time.
+void smooth_covariances(const SmoothingOperator& smoothing, std::uint64_t level,
+                        const std::vector<bool>& known, SurfaceStatistics& statistics) {
+  constexpr std::size_t kMostAtOnce = 8;
+  const std::size_t pairs = statistics.pairs, vertices = known.size() / pairs;
+  const auto alike = [&](std::size_t a, std::size_t b) {
+    for (std::size_t v = 0; v < vertices; ++v) {
+      if (known[v * pairs + a] != known[v * pairs + b]) return false;
+    }
+    return true;
+  };
+  for (std::size_t first = 0; first < pairs;) {
+    throw_if_interrupted();
+    std::size_t end = first + 1;
+    while (end < pairs && end - first < kMostAtOnce && alike(first, end)) ++end;
+    const auto count = static_cast<Index>(end - first);
+    Columns values = Columns::Zero(static_cast<Index>(vertices), count + 1);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      if (!known[v * pairs + first]) continue;
+      const auto row = static_cast<Index>(v);
+      for (Index p = 0; p < count; ++p) {
+        values(row, p) = statistics.covariances[v * pairs + first + static_cast<std::size_t>(p)];
+      }
+      values(row, count) = 1;
+    }
+    smooth_known(smoothing, level, values);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      for (Index p = 0; p < count; ++p) {
+        statistics.covariances[v * pairs + first + static_cast<std::size_t>(p)] =
+            static_cast<float>(values(static_cast<Index>(v), p));
+      }
+    }
+    first = end;
+  }
+}
+
 }  // namespace
 
 SurfaceStatistics surface_statistics(const Adjacency& adjacency,
@@ -190,19 +226,7 @@ SurfaceStatistics surface_statistics(const Adjacency& adjacency,
   statistics.covariances.assign(vertices * statistics.pairs, 0);
   std::vector<bool> known(statistics.covariances.size());
   multiply_details(samples, maps, statistics, known);
-  for (std::size_t p = 0; p < statistics.pairs; ++p) {
-    throw_if_interrupted();
-    Columns values = Columns::Zero(static_cast<Index>(vertices), 2);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      const std::size_t at = v * statistics.pairs + p;
-      if (known[at]) values.row(static_cast<Index>(v)) << double{statistics.covariances[at]}, 1;
-    }
-    smooth_known(smoothing, scale.strength, values);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      statistics.covariances[v * statistics.pairs + p] =
-          static_cast<float>(values(static_cast<Index>(v), 0));
-    }
-  }
+  smooth_covariances(smoothing, scale.strength, known, statistics);
   return statistics;
 }
 
