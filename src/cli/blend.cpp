@@ -57,7 +57,7 @@ void declare(CLI::App& command, Options& options) {
   add_option(command, "--recipe", options.recipe, "PLAN.jsonl#ID",
              "Which: the plan's file, #, the face's id")
       ->required();
-  add_option(command, "-o,--output", options.out, "OUT.obj|ply|glb|npy",
+  add_option(command, "-o,--output", options.out, "OUT.obj|ply|glb|npy|usda",
              "The mesh to write; its ending says the format")
       ->required();
   command.add_flag("--any-settings", options.any_settings,
@@ -68,7 +68,7 @@ void blend(const Options& options) {
   const auto format = mesh_format_of(options.out);
   if (!format) {
     throw UsageError(
-        concat("--output: expected a file name that ends in .obj, .ply, .glb or .npy, "
+        concat("--output: expected a file name that ends in .obj, .ply, .glb, .npy or .usda, "
                "found ",
                quoted(options.out)));
   }

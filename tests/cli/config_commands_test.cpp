@@ -66,9 +66,28 @@ TEST(Blend, WritesTheFormatThatTheNameEndsIn) {
                 read_text(folder.out() / ("meshes/mob_0002." + ending)))
         << ending;
   }
-  blend(64, "face.stl", {"--output", ".obj, .ply, .glb or .npy", "face.stl"});
+  blend(64, "face.stl", {"--output", ".obj, .ply, .glb, .npy or .usda", "face.stl"});
   EXPECT_FALSE(fs::exists(folder / "face.stl"));
   blend(73, "nowhere/face.glb", {"nowhere/face.glb"});
+}
+
+// A layer names the eyes' iris beside itself.
+TEST(Blend, BringsAlongWhatALayerNames) {
+  const TemporaryFolder folder;
+  const std::string heads = (folder / "heads").string(), out = (folder / "out").string();
+  const std::string cache = (folder / "cache").string();
+  const std::string config = (folder / "crowd.yaml").string();
+  crowdface(0, {"synth", "-o", heads, "--count", "2", "--vertices", "5000"});
+  folder.write("crowd.yaml",
+               "schema: 1\ncrowd: {name: mob, count: 1}\nfaces: {directory: heads, units: cm}\n"
+               "output: {directory: out, meshes: [usd], contact_sheet: none}\n");
+  crowdface(0, {"generate", config, "--cache", cache});
+  crowdface(0, {"blend", config, "--cache", cache, "--recipe", out + "/plan.jsonl#mob_0001", "-o",
+                (folder / "face.usda").string()});
+  EXPECT_EQ(read_text(folder / "face.usda"), read_text(folder / "out/meshes/mob_0001.usda"));
+  EXPECT_THAT(read_text(folder / "face.usda"), ::testing::HasSubstr("@./topology/iris.png@"));
+  EXPECT_EQ(read_text(folder / "topology/iris.png"),
+            read_text(folder / "out/meshes/topology/iris.png"));
 }
 
 TEST(Check, GoodConfigsPassAndNothingIsWritten) {

@@ -10,6 +10,7 @@
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/run/attachment_writers.h"
+#include "crowdface/run/glb_form.h"
 #include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/own_textures.h"
 
@@ -38,6 +39,16 @@ void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
   }
 }
 
+/// The eyes' iris, which a USD layer names beside itself.
+void write_iris(const Job& job, MeshFormat format, const fs::path& folder) {
+  if (format != MeshFormat::kUsd) return;
+  const GlbOptions options = glb_options(job.config, job.inputs);
+  if (!options.overlay) return;
+  const fs::path file = folder / GlbOverlay::kFile;
+  make_directories(file.parent_path());
+  write_file(file, options.overlay->png);
+}
+
 }  // namespace
 
 void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
@@ -48,6 +59,7 @@ void write_face(const Job& job, const FaceTextures& textures, const CastFace& fa
     worn = FaceAttachments(job.config, job.inputs).worn_by(face, positions);
   }
   write_attachments(job, face, format, worn, file);
+  write_iris(job, format, file.parent_path());
   std::vector<Displacements> moves;
   if (writers.holds_shapes()) {
     moves = FaceShapes(job.config, job.inputs).of_face(face.recipe, as_written(positions));
