@@ -24,15 +24,17 @@ double uniform(std::uint64_t index, const char* purpose) {
 struct Crowd {
   Crowd(Index heads, Index rank, Index vertices, std::size_t count) {
     faces.topology.vertex_count = vertices;
-    fields.resize(static_cast<std::size_t>(heads * 3 * rank * vertices));
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      fields[i] = static_cast<float>(i * 2654435761U % 1000) * 1e-3F;
+    const std::size_t of_head =
+        LevelFields::size(static_cast<std::size_t>(vertices), static_cast<std::size_t>(rank));
+    numbers.resize(static_cast<std::size_t>(heads) * of_head);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i] = static_cast<std::int16_t>(i * 2654435761U % 1000);
     }
-    const std::size_t of_head = fields.size() / static_cast<std::size_t>(heads);
     for (Index h = 0; h < heads; ++h) {
       faces.heads.push_back({"head", Positions::Constant(vertices, 3, static_cast<double>(h))});
-      const auto own = std::span(fields).subspan(static_cast<std::size_t>(h) * of_head, of_head);
-      levels.push_back({rank, own, [rank](std::uint64_t level) {
+      const auto own = std::span(numbers).subspan(static_cast<std::size_t>(h) * of_head, of_head);
+      const std::vector<double> steps(static_cast<std::size_t>(rank), 1e-3);
+      levels.push_back({{vertices, steps, own, {}}, [rank](std::uint64_t level) {
                           return std::vector<double>(static_cast<std::size_t>(rank),
                                                      1.0 / (1.0 + static_cast<double>(level)));
                         }});
@@ -60,7 +62,7 @@ struct Crowd {
     for (const Recipe& recipe : recipes) pointers.push_back(&recipe);
   }
   FaceSet faces;
-  std::vector<float> fields;
+  std::vector<std::int16_t> numbers;
   std::vector<HeadLevels> levels;
   RegionWeights regions;
   std::vector<Recipe> recipes;

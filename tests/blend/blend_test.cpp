@@ -53,7 +53,7 @@ class Blend : public ::testing::Test {
   static std::vector<HeadLevels> levels_of(const std::vector<CubicFit>& fits) {
     std::vector<HeadLevels> levels;
     for (const CubicFit& fit : fits) {
-      levels.push_back({CubicFit::kRank, fit.fields, [&fit](std::uint64_t level) {
+      levels.push_back({fit.fields, [&fit](std::uint64_t level) {
                           const auto basis = cubic_basis(level, fit.max_level);
                           return std::vector<double>(basis.begin(), basis.end());
                         }});
@@ -152,16 +152,7 @@ TEST_F(Blend, BandsAreTheSumOfTheirDifferences) {
 TEST_F(Blend, BandsOfFittedLevelsAreTheSumOfTheirDifferences) {
   const auto fits = cubic_fits(60);
   const auto fitted = [&](std::size_t h, std::uint64_t l) -> Positions {
-    Positions at = head(h);
-    const auto basis = cubic_basis(l, fits[h].max_level);
-    for (std::size_t p = 0; p < basis.size(); ++p) {
-      for (Index i = 0; i < at.size(); ++i) {
-        at.data()[i] +=
-            basis[p] * static_cast<double>(fits[h].fields[p * static_cast<std::size_t>(at.size()) +
-                                                          static_cast<std::size_t>(i)]);
-      }
-    }
-    return at;
+    return testing::evaluate(fits[h], head(h), l);
   };
   EXPECT_LT(difference(blender(fits, two_).blend(banded()), term_by_term(banded(), two_, fitted)),
             1e-4);

@@ -9,11 +9,11 @@ namespace crowdface::testing {
 
 /// x + Σ_p functions[p]·fields_p
 template <class Functions>
-Positions sum_of_fields(const Positions& x, const Functions& functions, const float* fields) {
+Positions sum_of_fields(const Positions& x, const Functions& functions, const LevelFields& fields) {
   Positions result = x;
-  for (const double function : functions) {
+  for (Index p = 0; p < fields.rank(); ++p) {
     for (Index i = 0; i < result.size(); ++i) {
-      result.data()[i] += function * static_cast<double>(*fields++);
+      result.data()[i] += functions[static_cast<std::size_t>(p)] * fields.value(p, i / 3, i % 3);
     }
   }
   return result;
@@ -21,12 +21,12 @@ Positions sum_of_fields(const Positions& x, const Functions& functions, const fl
 
 /// S̃_L x of the head the fit was made from.
 inline Positions evaluate(const CubicFit& fit, const Positions& positions, std::uint64_t level) {
-  return sum_of_fields(positions, cubic_basis(level, fit.max_level), fit.fields.data());
+  return sum_of_fields(positions, cubic_basis(level, fit.max_level), fit.fields);
 }
 
 inline Positions evaluate(const LevelBasis& basis, const LevelNodes& nodes,
                           const Positions& positions, std::uint64_t level) {
-  return sum_of_fields(positions, basis_functions(nodes, basis.mixing, level), basis.fields.data());
+  return sum_of_fields(positions, basis_functions(nodes, basis.mixing, level), basis.fields);
 }
 
 }  // namespace crowdface::testing

@@ -11,8 +11,9 @@
 #include "crowdface/core/require.h"
 
 namespace crowdface {
-
 namespace {
+
+constexpr std::size_t kTileValues = 3 * kFieldTile;
 
 bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
   return a.weights == b.weights && a.iterations == b.iterations &&
@@ -37,10 +38,17 @@ CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
   require(levels_.size() == faces.heads.size(), "blend: fitted levels of ", levels_.size(),
           " heads for ", faces.heads.size());
   for (const HeadLevels& head : levels_) {
-    require(head.fields.size() == static_cast<std::size_t>(3 * head.rank * vertices),
-            "blend: ", head.fields.size(), " numbers for ", head.rank, " fields of ", vertices,
+    const LevelFields& fields = head.fields;
+    const std::size_t rank = fields.steps.size();
+    require(fields.vertex_count == vertices &&
+                fields.numbers.size() ==
+                    LevelFields::size(static_cast<std::size_t>(vertices), rank),
+            "blend: ", fields.numbers.size(), " numbers for ", rank, " fields of ", vertices,
             " vertices");
-    for (Index p = 0; p < head.rank; ++p) fields_.push_back(head.fields.data() + 3 * p * vertices);
+    for (std::size_t p = 0; p < rank; ++p) {
+      fields_.push_back({fields.numbers.data() + p * kTileValues, rank * kTileValues,
+                         fields.steps[p]});
+    }
   }
   require(regions.alpha.rows() == vertices, "blend: masks of ", regions.alpha.rows(),
           " vertices for ", vertices);
@@ -61,7 +69,7 @@ void CrowdBlender::cut_into_blocks() {
     for (std::size_t begin = 0; begin < vertices.size(); begin += kBlockVertices) {
       Block block{{}, std::min(kBlockVertices, vertices.size() - begin), regions};
       for (std::size_t i = begin; i < begin + block.count; ++i) {
-        if (block.runs.empty() ||
+        if (block.runs.empty() || vertices[i] % kFieldTile == 0 ||
             vertices[i] != block.runs.back().first + block.runs.back().count) {
           block.runs.push_back({vertices[i], 0});
         }
@@ -89,10 +97,14 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
           sums[f++] += shares[h] * function;  // Eq. 5
         }
       }
-      first += static_cast<std::size_t>(levels_[h].rank);
+      first += levels_[h].fields.steps.size();
     }
   }
-  return {sums.begin(), sums.end()};
+  std::vector<float> in_steps;
+  for (std::size_t f = 0; f < sums.size(); ++f) {
+    in_steps.push_back(static_cast<float>(sums[f] * fields_[f].step));
+  }
+  return in_steps;
 }
 
 CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recipes,
@@ -113,24 +125,24 @@ CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recip
   return factors;
 }
 
-/// The block's values of the fields that are used: #chunks by #fields; what is past its last vertex, or
-/// of another field, is any number.
+const std::int16_t* CrowdBlender::Field::at(const Run& run) const {
+  return numbers + run.first / kFieldTile * stride + 3 * (run.first % kFieldTile);
+}
+
+/// The block's values of the fields that are used: #chunks by #fields and one row for what `unpack` writes too
+/// much; what is past its last vertex, or of another field, is any number.
 void CrowdBlender::pack(const Block& block, const std::vector<bool>& used,
                         std::vector<Chunk>& packed) const {
-  packed.resize(kBlockChunks * fields_.size());
+  packed.resize(kBlockChunks * packed_rows());
   for (std::size_t field = 0; field < fields_.size(); ++field) {
     if (!used[field]) continue;
     std::size_t to = 0;
     for (const Run& run : block.runs) {
-      const float* value = fields_[field] + std::size_t{3} * run.first;
-      for (const std::size_t end = to + std::size_t{3} * run.count; to < end;) {
-        const std::size_t in_chunk = to % kChunkValues;
-        const std::size_t count = std::min(kChunkValues - in_chunk, end - to);
-        std::copy_n(value, count,
-                    packed[to / kChunkValues * fields_.size() + field].values + in_chunk);
-        value += count;
-        to += count;
-      }
+      const std::size_t count = std::size_t{3} * run.count;
+      unpack(fields_[field].at(run), count, to % kChunkValues,
+             packed[to / kChunkValues * packed_rows() + field].values,
+             packed_rows() * kChunkValues);
+      to += count;
     }
   }
 }
@@ -158,10 +170,38 @@ void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& p
     const Factors& factors = of_region[block.regions[k]];
     if (factors.fields.empty()) continue;
     for (std::size_t i = 0; i < 3 * block.count; i += kChunkValues) {
-      add_product(packed[i / kChunkValues * fields_.size()].values, factors.fields.data(),
+      add_product(packed[i / kChunkValues * packed_rows()].values, factors.fields.data(),
                   factors.fields.size(), factors.coefficients.data(), alpha[k].data() + i,
                   result[0].data() + i, kBlockValues);
     }
+  }
+}
+
+/// The same of one face, straight from the fields: nobody else would use what is unpacked.
+/// \param of_region  #regions by #fields
+void CrowdBlender::displacement(const Block& block, const std::vector<BlockValues>& alpha,
+                                const std::vector<std::vector<float>>& of_region,
+                                BlockValues& result) const {
+  result.fill(0);
+  BlockValues sums;
+  for (std::size_t k = 0; k < block.regions.size(); ++k) {
+    sums.fill(0);
+    const float* coefficients = of_region[block.regions[k]].data();
+    const Field* field = fields_.data();
+    for (const HeadLevels& head : levels_) {
+      const std::size_t rank = head.fields.steps.size();
+      if (std::any_of(coefficients, coefficients + rank, [](float c) { return c != 0; })) {
+        std::size_t to = 0;
+        for (const Run& run : block.runs) {
+          const std::size_t count = std::size_t{3} * run.count;
+          add_fields(field->at(run), count, kTileValues, coefficients, rank, sums.data() + to);
+          to += count;
+        }
+      }
+      coefficients += rank;
+      field += rank;
+    }
+    for (std::size_t i = 0; i < 3 * block.count; ++i) result[i] += alpha[k][i] * sums[i];
   }
 }
 
@@ -197,8 +237,12 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes, std::span<Posit
     results[f].resize(faces_.topology.vertex_count, 3);
   }
   const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
-  std::vector<Factors> all_factors;  // #groups by #regions
-  for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
+  std::vector<std::vector<float>> alone;  // #regions by #fields, of a single face
+  std::vector<Factors> all_factors;       // #groups by #regions, of several
+  for (std::size_t k = 0; k < regions && recipes.size() == 1; ++k) {
+    alone.push_back(coefficients(*recipes[0], k));
+  }
+  for (std::size_t first = 0; first < recipes.size() && alone.empty(); first += kChunkFaces) {
     const auto group = recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first));
     for (std::size_t k = 0; k < regions; ++k) all_factors.push_back(factors(group, k));
   }
@@ -214,12 +258,17 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes, std::span<Posit
     for (Index b = begin; b < end; ++b) {
       const Block& block = blocks_[static_cast<std::size_t>(b)];
       if (!wanted(block)) continue;
+      spread_alpha(block, alpha);
+      if (!alone.empty()) {
+        displacement(block, alpha, alone, added[0]);
+        write(block, *recipes[0], added[0], results[0]);
+        continue;
+      }
       std::vector<bool> in_block(fields_.size(), false);
       for (const std::uint32_t k : block.regions) {
         for (std::size_t f = 0; f < in_block.size(); ++f) in_block[f] = in_block[f] || used[k][f];
       }
       pack(block, in_block, packed);
-      spread_alpha(block, alpha);
       for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
         displacements(block, packed, alpha,
                       std::span(all_factors).subspan(first / kChunkFaces * regions, regions),

@@ -11,14 +11,14 @@
 #include "crowdface/blend/recipe.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/region/region_weights.h"
+#include "crowdface/smooth/level_fields.h"
 
 namespace crowdface {
 
 /// The levels of a head as fields: S̃_L x = x + Σ_p φ_p(L)·c_p, fitted once (LevelBasis, or the
 /// paper's CubicFit).
 struct HeadLevels {
-  Index rank = 0;
-  std::span<const float> fields;  ///< rank times #V by 3: all of c_0, then all of c_1, …
+  LevelFields fields;             ///< c_p
   std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
 };
 
@@ -33,7 +33,7 @@ struct HeadLevels {
 /// and with any instruction set; one that adds nothing (the target with itself) keeps the target's.
 class CrowdBlender {
  public:
-  /// \param levels   one for each head of the face set; their fields must outlive the blender.
+  /// \param levels   one for each head of the face set.
   /// \param regions  α, #V by #regions, rows summing to one.
   /// \throws BrokenPrecondition if these do not fit together.
   CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels, const RegionWeights& regions);
@@ -56,7 +56,7 @@ class CrowdBlender {
   static constexpr std::size_t kBlockChunks = kBlockValues / kChunkValues;
   static_assert(kBlockValues % kChunkValues == 0);
 
-  /// Vertices that follow each other in the mesh.
+  /// Vertices that follow each other in the mesh, of one tile of the fields.
   struct Run {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -66,6 +66,13 @@ class CrowdBlender {
     std::vector<Run> runs;               ///< ascending
     std::size_t count = 0;               ///< of all runs
     std::vector<std::uint32_t> regions;  ///< those with a weight there
+  };
+  /// One field of a head: where its first tile is, and how far from one to the next.
+  struct Field {
+    const std::int16_t* numbers;
+    std::size_t stride;
+    double step;
+    const std::int16_t* at(const Run& run) const;
   };
   /// The coefficients of up to kChunkFaces faces in one region.
   struct Factors {
@@ -85,18 +92,21 @@ class CrowdBlender {
   template <class Wanted>
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results,
              const Wanted& wanted) const;
+  std::size_t packed_rows() const { return fields_.size() + 1; }
   void pack(const Block& block, const std::vector<bool>& used, std::vector<Chunk>& packed) const;
   void spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const;
   void displacements(const Block& block, const std::vector<Chunk>& packed,
                      const std::vector<BlockValues>& alpha, std::span<const Factors> of_region,
                      std::array<BlockValues, kChunkFaces>& result) const;
+  void displacement(const Block& block, const std::vector<BlockValues>& alpha,
+                    const std::vector<std::vector<float>>& of_region, BlockValues& result) const;
   void write(const Block& block, const Recipe& recipe, const BlockValues& added,
              Positions& result) const;
 
   const FaceSet& faces_;
   std::vector<HeadLevels> levels_;
   const RegionWeights& regions_;
-  std::vector<const float*> fields_;  ///< of all heads, #V by 3 each
+  std::vector<Field> fields_;  ///< of all heads
   std::vector<Block> blocks_;
 };
 

@@ -6,6 +6,7 @@
 #include "hwy/foreach_target.h"
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
 #include <algorithm>
+#include <cmath>
 
 #include "crowdface/core/fused_lanes-inl.h"
 
@@ -15,6 +16,68 @@
 HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+template <class Lanes>
+HWY_INLINE hn::VFromD<Lanes> widened(Lanes lanes, const std::int16_t* numbers) {
+  const hn::Rebind<std::int32_t, Lanes> whole;
+  const hn::Rebind<std::int16_t, Lanes> narrow;
+  return hn::ConvertTo(lanes, hn::PromoteTo(whole, hn::LoadU(narrow, numbers)));
+}
+
+void unpack(const std::int16_t* numbers, std::size_t count, std::size_t in_row, float* row,
+            std::size_t stride) {
+  const hn::CappedTag<float, kChunkValues / 2> lanes;
+  const std::size_t width = hn::Lanes(lanes);
+  while (count > 0) {
+    const std::size_t here = std::min(kChunkValues - in_row, count);
+    std::size_t i = 0;
+    for (; i < here && i + width <= count; i += width) {
+      hn::StoreU(widened(lanes, numbers + i), lanes, row + in_row + i);
+    }
+    for (; i < here; ++i) row[in_row + i] = static_cast<float>(numbers[i]);
+    numbers += here;
+    count -= here;
+    row += stride;
+    in_row = 0;
+  }
+}
+
+/// The sums of kVectors vectors stay in registers.
+template <std::size_t kVectors>
+void add_vectors(const std::int16_t* numbers, std::size_t stride, const float* coefficients,
+                 std::size_t fields, float* sums) {
+  const hn::CappedTag<float, kChunkValues / 2> lanes;
+  const std::size_t width = hn::Lanes(lanes);
+  hn::VFromD<decltype(lanes)> sum[kVectors];
+  for (std::size_t v = 0; v < kVectors; ++v) sum[v] = hn::LoadU(lanes, sums + v * width);
+  for (std::size_t f = 0; f < fields; ++f, numbers += stride) {
+    if (coefficients[f] == 0) continue;
+    const auto factor = hn::Set(lanes, coefficients[f]);
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      sum[v] = fused(factor, widened(lanes, numbers + v * width), sum[v]);
+    }
+  }
+  for (std::size_t v = 0; v < kVectors; ++v) hn::StoreU(sum[v], lanes, sums + v * width);
+}
+
+void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
+                const float* coefficients, std::size_t fields, float* sums) {
+  const hn::CappedTag<float, kChunkValues / 2> lanes;
+  const std::size_t width = hn::Lanes(lanes);
+  std::size_t i = 0;
+  for (; i + 6 * width <= count; i += 6 * width) {
+    add_vectors<6>(numbers + i, stride, coefficients, fields, sums + i);
+  }
+  for (; i + width <= count; i += width) {
+    add_vectors<1>(numbers + i, stride, coefficients, fields, sums + i);
+  }
+  for (; i < count; ++i) {
+    for (std::size_t f = 0; f < fields; ++f) {
+      if (coefficients[f] == 0) continue;
+      sums[i] = std::fma(coefficients[f], static_cast<float>(numbers[f * stride + i]), sums[i]);
+    }
+  }
+}
 
 /// Two vectors of values times six faces: twelve sums stay in registers.
 void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,
@@ -77,9 +140,21 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
+HWY_EXPORT(unpack);
+HWY_EXPORT(add_fields);
 HWY_EXPORT(add_product);
 HWY_EXPORT(write_sums);
 HWY_EXPORT(finish_writing);
+
+void unpack(const std::int16_t* numbers, std::size_t count, std::size_t in_row, float* row,
+            std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, in_row, row, stride);
+}
+
+void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
+                const float* coefficients, std::size_t fields, float* sums) {
+  HWY_DYNAMIC_DISPATCH(add_fields)(numbers, count, stride, coefficients, fields, sums);
+}
 
 void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,
                  const float* coefficients, const float* alpha, float* sums, std::size_t stride) {

@@ -11,6 +11,16 @@ namespace crowdface {
 inline constexpr std::size_t kChunkValues = 32;
 inline constexpr std::size_t kChunkFaces = 6;
 
+/// Numbers of a field into rows of kChunkValues floats, `stride` apart, from place `in_row` of the first on. May
+/// write up to 15 floats past the end of a row.
+void unpack(const std::int16_t* numbers, std::size_t count, std::size_t in_row, float* row,
+            std::size_t stride);
+
+/// sums[i] += Σ_f coefficients[f]·numbers[f][i], for one face, in the order and rounding of `add_product`.
+/// \param numbers  `fields` rows of `count`, `stride` apart
+void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
+                const float* coefficients, std::size_t fields, float* sums);
+
 /// sums[face][i] += alpha[i]·Σ_f coefficients[f][face]·chunk[fields[f]][i] (Eq. 7), the products added
 /// in the order of f with one rounding a term.
 /// \param chunk         #fields by kChunkValues

@@ -13,7 +13,7 @@ inline constexpr int kPartsVersion =
 inline constexpr int kMirrorVersion =
     1;  ///< the other side of each vertex; in `settings` where faces may be mirrored
 /// Entries of the cache, and so the faces made of them.
-inline constexpr int kPrepareVersion = 4;
+inline constexpr int kPrepareVersion = 5;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
 inline constexpr int kFaceFilesVersion = 12;
 inline constexpr int kShapesVersion =

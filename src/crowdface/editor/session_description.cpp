@@ -225,24 +225,12 @@ std::string EditSession::mesh() const {
 
 std::string EditSession::head(Index head) const {
   const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
-  const auto vertices = static_cast<std::size_t>(job_.inputs.faces.topology.vertex_count);
-  const auto rank = static_cast<std::size_t>(levels.rank);
-  const std::size_t shown = 3 * preview_.vertices.size();
-  std::vector<std::int16_t> fields(rank * shown);
-  std::vector<double> scales(rank, 1.0);
-  parallel_for_each(rank, [&](std::size_t p) {
-    const float* field = levels.fields.data() + 3 * p * vertices;
-    const auto value = [&](std::size_t i) {
-      return field[std::size_t{3} * preview_.vertices[i / 3] + i % 3];
-    };
-    float largest = 0;
-    for (std::size_t i = 0; i < shown; ++i) largest = std::max(largest, std::abs(value(i)));
-    if (largest == 0) return;
-    scales[p] = static_cast<double>(largest) / std::numeric_limits<std::int16_t>::max();
-    for (std::size_t i = 0; i < shown; ++i) {
-      fields[p * shown + i] = static_cast<std::int16_t>(std::lround(value(i) / scales[p]));
+  std::vector<std::int16_t> fields;
+  for (Index p = 0; p < levels.fields.rank(); ++p) {
+    for (const std::uint32_t vertex : preview_.vertices) {
+      for (Index c = 0; c < 3; ++c) fields.push_back(levels.fields.number(p, vertex, c));
     }
-  });
+  }
   std::vector<float> functions;
   for (int step = 0; step <= kLevels; ++step) {
     for (const double value :
@@ -253,8 +241,8 @@ std::string EditSession::head(Index head) const {
   const std::vector<float> positions =
       points(job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions);
   BinaryAnswer answer;
-  answer.head["rank"] = rank;
-  answer.head["scale"] = scales;
+  answer.head["rank"] = levels.fields.rank();
+  answer.head["scale"] = levels.fields.steps;
   answer.add("positions", std::span(positions));
   answer.add("fields", std::span(std::as_const(fields)));
   answer.add("functions", std::span(std::as_const(functions)));

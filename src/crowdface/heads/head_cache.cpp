@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// The first 128 bytes of an entry, little-endian.
 struct Header {
   char magic[8] = {'C', 'F', 'H', 'E', 'A', 'D', '\r', '\n'};
-  std::uint32_t version = 2;
+  std::uint32_t version = 3;
   std::uint32_t levels = 0;  ///< how they are represented, see code_of
   std::uint64_t key_high = 0, key_low = 0;
   std::uint64_t vertices = 0;  ///< rows of a field; 0 if rank is 0
@@ -46,15 +46,16 @@ std::uint32_t code_of(Levels levels) {
   return 2;
 }
 
-/// Where the parts of an entry begin: header, mixing, trajectory, fields (at a multiple of 64, so
+/// Where the parts of an entry begin: header, steps, mixing, trajectory, fields (at a multiple of 64, so
 /// that they can be used where they lie).
 struct Places {
   explicit Places(const Header& header)
-      : trajectory(sizeof(Header) + header.nodes * header.rank * sizeof(double)),
+      : mixing(sizeof(Header) + header.rank * sizeof(double)),
+        trajectory(mixing + header.nodes * header.rank * sizeof(double)),
         fields((trajectory + 3 * header.samples * header.trajectory_levels * sizeof(float) + 63) /
                64 * 64),
-        end(fields + 3 * header.vertices * header.rank * sizeof(float)) {}
-  std::size_t trajectory, fields, end;
+        end(fields + LevelFields::size(header.vertices, header.rank) * sizeof(std::int16_t)) {}
+  std::size_t mixing, trajectory, fields, end;
 };
 
 /// What the header of an entry of this shape must be, but for what the fit decided.
@@ -85,7 +86,8 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   if (bytes.size() < sizeof header) throw bad_entry(path, "of the wrong size");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (shape.levels == Levels::kBasis) {  // what the fit decided is not known beforehand
-    expected.rank = std::min(header.rank, header.nodes);
+    // A field that 16 bits round too coarsely is two.
+    expected.rank = std::min(header.rank, 2 * header.nodes);
     expected.error_max = header.error_max;
     expected.error_rms = header.error_rms;
     expected.error_level = header.error_level;
@@ -103,21 +105,27 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
                 static_cast<std::size_t>(head.trajectory.size()) * sizeof(float));
   }
   StoredLevels& levels = head.levels;
-  levels.rank = static_cast<Index>(header.rank);
   levels.error = {header.error_max, header.error_rms, header.error_level};
-  levels.mixing.resize(static_cast<Index>(header.nodes), header.nodes == 0 ? 0 : levels.rank);
+  levels.mixing.resize(static_cast<Index>(header.nodes),
+                       header.nodes == 0 ? 0 : static_cast<Index>(header.rank));
   if (levels.mixing.size() > 0) {
-    std::memcpy(levels.mixing.data(), bytes.data() + sizeof header,
+    std::memcpy(levels.mixing.data(), bytes.data() + places.mixing,
                 static_cast<std::size_t>(levels.mixing.size()) * sizeof(double));
   }
+  levels.fields.vertex_count = static_cast<Index>(header.vertices);
+  levels.fields.steps.resize(header.rank);
+  if (header.rank > 0) {
+    std::memcpy(levels.fields.steps.data(), bytes.data() + sizeof header,
+                header.rank * sizeof(double));
+  }
   // The file is mapped at a page and the fields stand at a multiple of 64.
-  levels.fields = {reinterpret_cast<const float*>(bytes.data() + places.fields),
-                   static_cast<std::size_t>(3 * header.vertices * header.rank)};
-  levels.mapped = entry->file;
+  levels.fields.numbers = {reinterpret_cast<const std::int16_t*>(bytes.data() + places.fields),
+                           LevelFields::size(header.vertices, header.rank)};
+  levels.fields.owner = levels.mapped = entry->file;
   // A checksum tells damage from what was written, not what was written from anything else.
   const std::span<const float> trajectory(head.trajectory.data(),
                                           static_cast<std::size_t>(head.trajectory.size()));
-  if (!levels.mixing.allFinite() || !(seen.digest() || are_coordinates(levels.fields)) ||
+  if (!levels.mixing.allFinite() || !are_coordinates(levels.fields.steps) ||
       !are_coordinates(trajectory)) {
     throw bad_entry(path, "damaged (it holds numbers that no head has)");
   }
@@ -130,7 +138,7 @@ void write_cached_head(const fs::path& cache, const Digest& key, const HeadCache
                        const PreparedHead& head) {
   const StoredLevels& levels = head.levels;
   Header header = header_of(key, shape);
-  header.rank = static_cast<std::uint64_t>(levels.rank);
+  header.rank = levels.fields.steps.size();
   header.error_max = levels.error.max;
   header.error_rms = levels.error.rms;
   header.error_level = levels.error.level;
@@ -139,12 +147,12 @@ void write_cached_head(const fs::path& cache, const Digest& key, const HeadCache
                                 static_cast<std::size_t>(head.trajectory.size()) * sizeof(float),
                             '\0');
   write_entry(cache_entry(cache, key, kPreparedEnding),
-              {bytes_of(&header, sizeof header),
+              {bytes_of(&header, sizeof header), bytes_of(std::span(levels.fields.steps)),
                bytes_of(levels.mixing.data(),
                         static_cast<std::size_t>(levels.mixing.size()) * sizeof(double)),
                bytes_of(head.trajectory.data(),
                         static_cast<std::size_t>(head.trajectory.size()) * sizeof(float)),
-               padding, bytes_of(levels.fields)});
+               padding, bytes_of(levels.fields.numbers)});
 }
 
 }  // namespace crowdface

@@ -47,13 +47,6 @@ double missed_by_nodes(const Config& config) {
   return std::min(kSharePerMm * config.smoothing.tolerance_mm, kLargest);
 }
 
-/// Puts fields that were just computed in the same form as those from the cache.
-void own_fields(StoredLevels& levels, std::vector<float> fields) {
-  const auto owner = std::make_shared<const std::vector<float>>(std::move(fields));
-  levels.fields = *owner;
-  levels.owner = owner;
-}
-
 /// Computes heads when the cache does not have them; the filter is made for the first.
 class HeadPreparation {
  public:
@@ -75,16 +68,14 @@ class HeadPreparation {
     const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
     result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.traced);
     if (config_.smoothing.levels == Levels::kCubic) {
-      result.levels.rank = CubicFit::kRank;
-      own_fields(result.levels, fit_cubic(filter(), head.positions, inputs_.max_level).fields);
+      result.levels.fields = fit_cubic(filter(), head.positions, inputs_.max_level).fields;
     }
     if (config_.smoothing.levels == Levels::kBasis) {
       const double tolerance = config_.smoothing.tolerance_mm / mm_per(config_.faces.units);
       LevelBasis basis = fit_level_basis(filter(), nodes, fields, tolerance);
-      result.levels.rank = basis.rank();
+      result.levels.fields = std::move(basis.fields);
       result.levels.mixing = std::move(basis.mixing);
       result.levels.error = basis.error;
-      own_fields(result.levels, std::move(basis.fields));
     }
     return result;
   }
@@ -237,7 +228,7 @@ void require_whole(const Prepared& prepared) {
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared) {
   std::vector<HeadLevels> result;
   for (const StoredLevels& stored : prepared.levels) {
-    HeadLevels levels{stored.rank, stored.fields, {}};
+    HeadLevels levels{stored.fields, {}};
     if (config.smoothing.levels == Levels::kCubic) {
       levels.functions = [max_level = prepared.nodes->max_level()](std::uint64_t level) {
         const auto basis = cubic_basis(level, max_level);

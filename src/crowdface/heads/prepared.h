@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "crowdface/cast/face_samples.h"
@@ -19,10 +18,7 @@ namespace crowdface {
 /// Fitted levels of one head, as they are kept. The fields may lie in a mapped file of the cache,
 /// so that they cost no memory of ours.
 struct StoredLevels {
-  Index rank = 0;
-  std::span<const float> fields;  ///< rank times #V by 3: all of c_0, then all of c_1, …
-  std::shared_ptr<const std::vector<float>>
-      owner;                                 ///< of the fields, if they lie in memory of ours
+  LevelFields fields;
   std::shared_ptr<const MappedFile> mapped;  ///< of the fields, if they lie in a file
   Eigen::MatrixXd mixing;                    ///< `levels: basis`: #nodes by rank, see LevelBasis
   BasisError error;                          ///< `levels: basis`

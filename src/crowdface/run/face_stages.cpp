@@ -69,7 +69,7 @@ std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
 std::uint64_t level_bytes(const Prepared& prepared) {
   std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
-    if (!levels.mapped) bytes += levels.fields.size_bytes();
+    if (!levels.mapped) bytes += levels.fields.numbers.size_bytes();
   }
   return bytes;
 }

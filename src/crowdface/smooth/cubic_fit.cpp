@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/cubic_fit.h"
 
+#include <vector>
+
 #include <Eigen/QR>
 
 #include "crowdface/smooth/level_size.h"
@@ -35,14 +37,11 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
       sum[0] -= fit(p, l);  // − x = − T_0(W) x
     }
   }
-  CubicFit result;
-  result.max_level = max_level;
+  std::vector<float> fields;
   for (const Positions& field : filter_many(filter, positions, std::move(combined))) {
-    for (Index i = 0; i < field.size(); ++i) {
-      result.fields.push_back(static_cast<float>(field.data()[i]));
-    }
+    for (Index i = 0; i < field.size(); ++i) fields.push_back(static_cast<float>(field.data()[i]));
   }
-  return result;
+  return {max_level, in_16_bits(fields, positions.rows())};
 }
 
 }  // namespace crowdface

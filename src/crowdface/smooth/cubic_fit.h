@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "crowdface/smooth/chebyshev_filter.h"
+#include "crowdface/smooth/level_fields.h"
 
 namespace crowdface {
 
@@ -15,7 +15,7 @@ namespace crowdface {
 struct CubicFit {
   static constexpr int kRank = 4;
   std::uint64_t max_level = 1;
-  std::vector<float> fields;  ///< kRank times #V by 3, in the positions' unit: all of c_0, …
+  LevelFields fields;  ///< c_0 … c_3
 };
 
 /// The fit uses the levels_dense_at_start of so many steps, as the paper has it.

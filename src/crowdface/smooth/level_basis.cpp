@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
@@ -24,6 +25,8 @@ constexpr std::size_t kProbes = 1024;
 /// Vertices that choose the principal directions and the rank; the error is then measured at all.
 constexpr std::size_t kSampleRows = 4096;
 constexpr Index kMeasureBlock = 256;
+/// Of the tolerance, what 16 bits may round away.
+constexpr double kRoundingShare = 0.05;
 
 /// Every n-th of `count` rows, `most` at most.
 std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
@@ -209,6 +212,56 @@ ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
   return {std::sqrt(most), std::sqrt(sum / static_cast<double>(probes * exact.rows()))};
 }
 
+/// How far each field, rounded to whole steps, may take a vertex away: √3 times half a step in each
+/// coordinate, at the level that uses it most.
+std::vector<double> rounding_of(const LevelFields& fields, const Eigen::MatrixXd& functions) {
+  std::vector<double> rounding;
+  for (Index p = 0; p < functions.cols(); ++p) {
+    rounding.push_back(functions.col(p).cwiseAbs().maxCoeff() * std::sqrt(0.75) *
+                       fields.steps[static_cast<std::size_t>(p)]);
+  }
+  return rounding;
+}
+
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// The fields in 16 bits. Where that rounds away more than it may, what is left of the fields that lose most
+/// becomes fields of their own, with the same functions.
+/// \param fields     #columns by #V by 3
+/// \param functions  #levels by #columns, and columns of the mixing likewise; grow with the fields.
+/// \return what may be rounded away.
+double round_fields(std::vector<float>& fields, double most, Index vertex_count,
+                    Eigen::MatrixXd& functions, Eigen::MatrixXd& mixing, LevelFields& rounded) {
+  rounded = in_16_bits(fields, vertex_count);
+  std::vector<double> rounding = rounding_of(rounded, functions);
+  std::vector<Index> lossy;
+  for (double left = sum_of(rounding); left > most;) {
+    const auto worst = std::max_element(rounding.begin(), rounding.end());
+    left -= *worst;
+    *worst = 0;
+    lossy.push_back(worst - rounding.begin());
+  }
+  if (lossy.empty()) return sum_of(rounding);
+  for (const Index p : lossy) {
+    for (Index v = 0; v < vertex_count; ++v) {
+      for (Index c = 0; c < 3; ++c) {
+        const float value = fields[static_cast<std::size_t>(3 * (p * vertex_count + v) + c)];
+        fields.push_back(static_cast<float>(static_cast<double>(value) - rounded.value(p, v, c)));
+      }
+    }
+    for (Eigen::MatrixXd* matrix : {&functions, &mixing}) {
+      matrix->conservativeResize(Eigen::NoChange, matrix->cols() + 1);
+      matrix->rightCols(1) = matrix->col(p);
+    }
+  }
+  rounded = in_16_bits(fields, vertex_count);
+  std::vector<double> left = rounding_of(rounded, functions);
+  for (const Index p : lossy) left[static_cast<std::size_t>(p)] = 0;
+  return sum_of(left);
+}
+
 }  // namespace
 
 std::vector<double> basis_functions(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
@@ -252,25 +305,29 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
         const std::uint32_t vertex = probes.vertices[static_cast<std::size_t>(v)];
         return displacements[static_cast<std::size_t>(n)][filter.row_of_vertex()[vertex]].value[c];
       });
-  const double budget = tolerance - of_nodes.max;
+  const double rounding = kRoundingShare * tolerance;
+  const double budget = tolerance - of_nodes.max - rounding;
   constexpr double kMargin = 0.9;  // for vertices beside the sample
   const Directions directions =
       principal_directions(tested, sample_displacements(displacements), kMargin * budget);
 
   LevelBasis basis;
   basis.max_level = nodes.max_level();
-  basis.vertex_count = filter.vertex_count();
+  std::vector<float> fields;
   for (Index rank = directions.rank; rank <= directions.mixing.cols(); ++rank) {
-    const Worst worst = write_fields(filter, directions, displacements, rank, budget, basis.fields);
+    const Worst worst = write_fields(filter, directions, displacements, rank, budget, fields);
     if (std::sqrt(worst.squared) > budget) continue;  // a vertex beside the sample is worse
+    Eigen::MatrixXd functions = directions.functions.leftCols(rank);
     basis.mixing = directions.mixing.leftCols(rank);
-    basis.error.max = std::sqrt(worst.squared) + of_nodes.max;
+    const double rounded = round_fields(fields, rounding, filter.vertex_count(), functions,
+                                        basis.mixing, basis.fields);
+    basis.error.max = std::sqrt(worst.squared) + of_nodes.max + rounded;
     basis.error.level = tested.levels[static_cast<std::size_t>(worst.level)];
-    basis.error.rms = probe_error(exact, directions.functions.leftCols(rank),
-                                  [&](Index v, Index p, Index c) -> double {
-                                    const Index vertex =
-                                        probes.vertices[static_cast<std::size_t>(v)];
-                                    return basis.field(p)[static_cast<std::size_t>(3 * vertex + c)];
+    basis.error.rms = probe_error(exact, functions,
+                                  [&](Index v, Index p, Index c) {
+                                    const auto vertex = static_cast<Index>(
+                                        probes.vertices[static_cast<std::size_t>(v)]);
+                                    return basis.fields.value(p, vertex, c);
                                   })
                           .rms;
     return basis;

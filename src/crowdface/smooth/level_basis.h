@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "crowdface/smooth/chebyshev_filter.h"
+#include "crowdface/smooth/level_fields.h"
 #include "crowdface/smooth/level_nodes.h"
 
 namespace crowdface {
@@ -21,17 +21,11 @@ struct BasisError {
 /// itself.
 struct LevelBasis {
   std::uint64_t max_level = 1;
-  Index vertex_count = 0;
-  Eigen::MatrixXd mixing;     ///< #nodes by rank: φ_p(L) = Σ_n w_n(L) mixing(n, p)
-  std::vector<float> fields;  ///< rank times #V by 3: all of c_0, then all of c_1, …
+  Eigen::MatrixXd mixing;  ///< #nodes by rank: φ_p(L) = Σ_n w_n(L) mixing(n, p)
+  LevelFields fields;      ///< c_p
   BasisError error;
 
   Index rank() const { return mixing.cols(); }
-  /// c_p, #V by 3, row by row.
-  std::span<const float> field(Index p) const {
-    const auto size = static_cast<std::size_t>(3 * vertex_count);
-    return std::span(fields).subspan(static_cast<std::size_t>(p) * size, size);
-  }
 };
 
 /// φ_p(L) of a basis whose mixing this is.
@@ -52,7 +46,7 @@ NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
 /// Fits one head: finds the directions in which its own vertices move most (principal_directions),
 /// and keeps as few as keep the error under the tolerance. The error is measured: what the rank
 /// leaves out at every vertex and every tested level, and on top of it what the nodes leave out, at
-/// the probes against the filter itself.
+/// the probes against the filter itself, and what 16 bits may round away.
 /// \param tolerance  in the positions' unit, > 0.
 /// \throws InvalidInput if no rank reaches the tolerance: the message says what was reached.
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
