@@ -53,6 +53,9 @@ void add_vectors(const std::int16_t* numbers, std::size_t stride, const float* c
   for (std::size_t f = 0; f < fields; ++f, numbers += stride) {
     if (coefficients[f] == 0) continue;
     const auto factor = hn::Set(lanes, coefficients[f]);
+    for (std::size_t v = 0; v < kVectors; v += 2) {  // of the next tile
+      hwy::Prefetch(numbers + fields * stride + v * width);
+    }
     for (std::size_t v = 0; v < kVectors; ++v) {
       sum[v] = fused(factor, widened(lanes, numbers + v * width), sum[v]);
     }

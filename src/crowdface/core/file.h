@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,16 @@ class MappedFile {
 /// \throws CannotCreate, IoError; the temporary file is removed.
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// A file that is to be written, one piece after the other.
+struct FileToWrite {
+  std::filesystem::path path;
+  std::vector<std::string_view> pieces;
+};
+/// Writes each as `write_file` does, but waits for the disk once and not file by file: all are written before the
+/// first is synced and named, and each folder is synced once. Some of them may be there if this throws.
+/// \throws CannotCreate, IoError; their temporary files are removed.
+void write_files(std::span<const FileToWrite> files);
 
 /// Removes the temporary files that killed runs left in this folder (not in those below it), and
 /// none that is still being written, here or on another machine. A folder that is not there has

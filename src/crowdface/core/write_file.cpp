@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of file.h that writes.
 #include <atomic>
+#include <list>
+#include <set>
 #include <system_error>
 
 #include <fcntl.h>
@@ -72,6 +74,11 @@ class TemporaryFile {
     if (!write_all(file_.get(), bytes)) fail("writing");
   }
 
+  /// Does not wait for the disk; whether it worked shows in `finish`.
+  void start_writing_back() {
+    ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);
+  }
+
   /// Nothing of it is in doubt any more when this returns.
   void finish() {
     if (!sync(file_.get())) fail("writing to disk");
@@ -112,11 +119,22 @@ void sync_directory(const fs::path& directory) {
 
 }  // namespace
 
+void write_files(std::span<const FileToWrite> files) {
+  std::list<TemporaryFile> written;
+  std::set<fs::path> folders;
+  for (const FileToWrite& file : files) {
+    TemporaryFile& temporary = written.emplace_back(file.path);
+    for (const std::string_view piece : file.pieces) temporary.write(piece);
+    temporary.start_writing_back();
+    folders.insert(file.path.has_parent_path() ? file.path.parent_path() : fs::path("."));
+  }
+  for (TemporaryFile& temporary : written) temporary.finish();
+  for (const fs::path& folder : folders) sync_directory(folder);
+}
+
 void write_file(const fs::path& path, const std::vector<std::string_view>& pieces) {
-  TemporaryFile file(path);
-  for (const std::string_view piece : pieces) file.write(piece);
-  file.finish();
-  sync_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  const FileToWrite file{path, pieces};
+  write_files({&file, 1});
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {

@@ -183,17 +183,20 @@ std::optional<LedgerEntry> Ledger::proven(const std::string& item, const Digest&
   return std::nullopt;
 }
 
-void Ledger::record(LedgerEntry entry) {
-  file_->append(format_ledger_line(entry) + '\n');
+void Ledger::record(std::vector<LedgerEntry> entries) {
+  if (entries.empty()) return;
+  file_->append(format_all(entries));
   const std::lock_guard lock(mutex_);
   settled_.clear();
-  const std::string item = entry.item;
-  done_[item] = std::move(entry);
+  for (LedgerEntry& entry : entries) {
+    std::string item = entry.item;
+    done_[std::move(item)] = std::move(entry);
+  }
 }
 
 void Ledger::record(const std::string& item, const Digest& key,
                     const std::vector<std::string>& names) {
-  record({item, key, files_now(names), {}});
+  record({{item, key, files_now(names), {}}});
 }
 
 std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>& names) const {
@@ -207,14 +210,14 @@ void Ledger::write(const std::string& name, std::string_view bytes) {
   if (proven(name, content.digest)) return;
   const LedgerEntry entry{name, content.digest, {{name, content}}, {}};
   if (!files_match(root_, entry)) write_file(root_ / name, bytes);
-  record(entry);
+  record({entry});
 }
 
 void Ledger::adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files) {
   if (files == entry.files) return;
   entry.files = std::move(files);
   entry.key = Hasher().add(entry.key).add("made anew").digest();
-  record(std::move(entry));
+  record({std::move(entry)});
 }
 
 void Ledger::adopt(const std::string& item, const std::vector<std::string>& names,

@@ -69,8 +69,8 @@ class Ledger {
   /// An entry of the item that has this key and whose files match: nothing needs to be done.
   std::optional<LedgerEntry> proven(const std::string& item, const Digest& key);
 
-  /// Appends a line. Its files must have been written by `write_file`. \throws IoError.
-  void record(LedgerEntry entry);
+  /// Appends a line for each. Their files must have been written by `write_file` or `write_files`. \throws IoError.
+  void record(std::vector<LedgerEntry> entries);
   /// The same for files whose hashes are not known yet. \param names  relative to the folder.
   void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
 

@@ -2,7 +2,6 @@
 #include "crowdface/io/encoded_file.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "crowdface/core/file.h"
@@ -15,15 +14,22 @@ void EncodedFile::refer_to(std::string_view bytes) {
   size_ += bytes.size();
 }
 
-void EncodedFile::add(std::string_view text) {
-  char* bytes = reserve(text.size());
-  std::memcpy(bytes, text.data(), text.size());
-  refer_to({bytes, text.size()});
+void EncodedFile::add(std::string text) {
+  const auto owner = std::make_shared<const std::string>(std::move(text));
+  keep(owner);
+  memory_bytes_ += owner->size();
+  refer_to(*owner);
+}
+
+void EncodedFile::keep(std::shared_ptr<const void> owner) {
+  owners_.push_back(std::move(owner));
 }
 
 char* EncodedFile::reserve(std::size_t capacity) {
-  memory_.push_back(std::make_unique_for_overwrite<char[]>(capacity));
-  return memory_.back().get();
+  const auto memory = std::make_shared_for_overwrite<char[]>(capacity);
+  keep(memory);
+  memory_bytes_ += capacity;
+  return memory.get();
 }
 
 bool EncodedFile::replace_line(std::string_view word, std::string_view line) {
@@ -42,7 +48,7 @@ bool EncodedFile::replace_line(std::string_view word, std::string_view line) {
       if (!begins || after >= piece.size() || (piece[after] != ' ' && piece[after] != '\t'))
         continue;
       refer_to(piece.substr(kept, at - kept));
-      if (!found) add(line);
+      if (!found) add(std::string(line));
       found = true;
       kept = std::min(piece.find_first_of("\r\n", after), piece.size());
     }

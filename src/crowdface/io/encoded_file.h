@@ -18,8 +18,10 @@ class EncodedFile {
  public:
   /// Adds bytes that lie elsewhere and must stay there until this object is done with.
   void refer_to(std::string_view bytes);
-  /// Adds a copy of these bytes.
-  void add(std::string_view text);
+  /// Adds these bytes.
+  void add(std::string text);
+  /// Keeps what it refers to for as long as it lives.
+  void keep(std::shared_ptr<const void> owner);
   /// Takes `capacity` bytes of memory, not initialised, for pieces that refer_to is told of.
   char* reserve(std::size_t capacity);
 
@@ -28,17 +30,22 @@ class EncodedFile {
   bool replace_line(std::string_view word, std::string_view line);
 
   std::uint64_t size() const { return size_; }
+  /// Of its own, beside what is referred to.
+  std::size_t memory_bytes() const { return memory_bytes_; }
   /// hash_bytes of the whole.
   Digest digest() const;
+  /// All of it in order, for `write_files`.
+  const std::vector<std::string_view>& pieces() const { return pieces_; }
   /// The whole as one text.
   std::string text() const;
   /// \throws CannotCreate, IoError; then there is no such file (see write_file).
   void write(const std::filesystem::path& path) const;
 
  private:
-  std::vector<std::unique_ptr<char[]>> memory_;
+  std::vector<std::shared_ptr<const void>> owners_;
   std::vector<std::string_view> pieces_;
   std::uint64_t size_ = 0;
+  std::size_t memory_bytes_ = 0;
 };
 
 }  // namespace crowdface

@@ -48,26 +48,19 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory,
   }
 }
 
-WrittenPictures CrowdRenders::write(const CrowdDirectory& directory, const std::string& id,
-                                    Index target, const Positions& positions,
-                                    std::span<const Displacements> moves,
-                                    const std::vector<BlendedPicture>* textures,
-                                    const std::vector<WornAttachment>& worn) const {
+FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
+                                std::span<const Displacements> moves,
+                                const std::vector<BlendedPicture>* textures,
+                                const std::vector<WornAttachment>& worn) const {
   const Positions single = as_written(positions);
-  const auto put = [](const std::filesystem::path& path, const std::string& bytes) {
-    write_file(path, bytes);
-    return FileDigest{bytes.size(), hash_bytes(bytes)};
-  };
   const std::optional<TextureCoat> coat =
       textures != nullptr ? own_coat(*textures) : coat_of(target);
   const TextureCoat* painted = coat ? &*coat : nullptr;
-  WrittenPictures written{put(directory.render(id), render_png(single, nullptr, painted, worn)),
-                          std::nullopt};
+  FacePictures pictures{render_png(single, nullptr, painted, worn), std::nullopt};
   if (gallery_ != nullptr) {
-    written.preview =
-        put(directory.gallery_face(id), gallery_->face_script(id, single, moves, painted, worn));
+    pictures.preview = gallery_->face_script(id, single, moves, painted, worn);
   }
-  return written;
+  return pictures;
 }
 
 Rgb8Image CrowdRenders::render_front(const Positions& positions,

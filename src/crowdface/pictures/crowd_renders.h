@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "crowdface/config/config.h"
-#include "crowdface/core/file.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/inputs.h"
@@ -18,10 +17,10 @@
 
 namespace crowdface {
 
-/// What was written of one face.
-struct WrittenPictures {
-  FileDigest picture;
-  std::optional<FileDigest> preview;  ///< if there is a gallery
+/// What is shown of one face: files' bytes.
+struct FacePictures {
+  std::string picture;                 ///< PNG
+  std::optional<std::string> preview;  ///< for the gallery, if there is one
 };
 
 /// Pictures of one crowd: one camera a view, fitted once to the input heads, so that sizes compare.
@@ -30,23 +29,23 @@ class CrowdRenders {
   /// \param inputs  must outlive this object.
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs);
 
-  /// From now on `write` leaves a face's mesh for the gallery, too. Must outlive this object.
+  /// From now on `draw` makes a face's mesh for the gallery, too. Must outlive this object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
-  /// Whether `write` needs a face's shapes.
+  /// Whether `draw` needs a face's shapes.
   bool show_shapes() const { return gallery_ != nullptr; }
 
   const WornSurfaces& worn_surfaces() const { return worn_surfaces_; }
 
-  /// The folders that `write` needs.
+  /// The folders that these files go into.
   void make_folders(const CrowdDirectory& directory, const std::vector<CastFace>& faces) const;
-  /// Writes a face's picture, and what the gallery shows of it.
+  /// A face's picture, and what the gallery shows of it.
   /// \param moves     its displacements in each shape, if they are shown.
   /// \param textures  of its own, or null: it bears its target's, if there are any.
   /// \param worn      its attachments.
-  WrittenPictures write(const CrowdDirectory& directory, const std::string& id, Index target,
-                        const Positions& positions, std::span<const Displacements> moves,
-                        const std::vector<BlendedPicture>* textures,
-                        const std::vector<WornAttachment>& worn = {}) const;
+  FacePictures draw(const std::string& id, Index target, const Positions& positions,
+                    std::span<const Displacements> moves,
+                    const std::vector<BlendedPicture>* textures,
+                    const std::vector<WornAttachment>& worn = {}) const;
 
   /// All views of a face side by side, as a PNG file's bytes.
   /// \param textures  of its own.

@@ -46,7 +46,8 @@ CrowdPictures::CrowdPictures(const Config& config, const Config::ContactSheet& s
   renders_.add_gallery(*gallery_);
 }
 
-void CrowdPictures::write_heads() const {
+void CrowdPictures::write_heads() {
+  if (heads_are_written_) return;
   make_directories(directory_.head_render("").parent_path());
   const std::vector<Head>& heads = inputs_.faces.heads;
   for (std::size_t h = 0; h < heads.size(); ++h) {
@@ -54,6 +55,7 @@ void CrowdPictures::write_heads() const {
     write_file(directory_.head_render(heads[h].name),
                renders_.render_png(heads[h].positions, static_cast<Index>(h)));
   }
+  heads_are_written_ = true;
 }
 
 void CrowdPictures::write_founder(const std::string& family, const Positions& positions,
@@ -77,8 +79,12 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
         read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count);
     std::vector<Displacements> moves;
     if (renders_.show_shapes()) moves = shapes_.of_face(face.recipe, positions);
-    renders_.write(directory_, face.id, face.recipe.target, positions, moves,
-                   textures.empty() ? nullptr : &textures, attachments.worn_by(face, positions));
+    const FacePictures pictures =
+        renders_.draw(face.id, face.recipe.target, positions, moves,
+                      textures.empty() ? nullptr : &textures, attachments.worn_by(face, positions));
+    std::vector<FileToWrite> files = {{directory_.render(face.id), {pictures.picture}}};
+    if (pictures.preview) files.push_back({directory_.gallery_face(face.id), {*pictures.preview}});
+    write_files(files);
     progress.step();
   });
 }

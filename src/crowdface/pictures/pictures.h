@@ -27,7 +27,8 @@ class CrowdPictures {
 
   const CrowdRenders& renders() const { return renders_; }
 
-  void write_heads() const;
+  /// The pictures of the heads, once however often it is called.
+  void write_heads();
   /// The picture of a family's founder, whom no mesh file of the crowd holds.
   void write_founder(const std::string& family, const Positions& positions,
                      const Recipe& recipe) const;
@@ -48,6 +49,7 @@ class CrowdPictures {
   CrowdRenders renders_;
   std::optional<std::filesystem::path> page_;  ///< of the gallery, if there is to be one
   std::unique_ptr<GalleryMeshes> gallery_;
+  bool heads_are_written_ = false;
 };
 
 /// All files in the folder that `finish` and what goes before it wrote, sorted; not the faces' own

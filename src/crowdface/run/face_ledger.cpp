@@ -139,7 +139,7 @@ std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   return files;
 }
 
-void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
+LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceFiles& files) const {
   LedgerEntry entry{item_of(face), key_of(face), {}, {}};
   for (const MeshFile& mesh : files.meshes) {
     entry.files.push_back({directory_.relative(mesh_path(directory_, face.id, mesh.name)),
@@ -158,8 +158,14 @@ void FaceLedger::record(const CastFace& face, const FaceFiles& files) const {
     entry.files.push_back({directory_.relative(directory_.gallery_face(face.id)), *files.preview});
   }
   if (files.skin) entry.note = to_json(*files.skin).dump();
-  ledger_.record(std::move(entry));
-  recorded_();
+  return entry;
+}
+
+void FaceLedger::record(std::span<const MadeFace> faces) const {
+  std::vector<LedgerEntry> entries;
+  for (const MadeFace& made : faces) entries.push_back(entry_of(*made.face, made.files));
+  ledger_.record(std::move(entries));
+  for (std::size_t f = 0; f < faces.size(); ++f) recorded_();
 }
 
 }  // namespace crowdface

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/ledger.h"
@@ -19,6 +20,12 @@ struct FaceExtras {
 };
 FaceExtras face_extras(const Job& job);
 
+/// A face and what its files are.
+struct MadeFace {
+  const CastFace* face = nullptr;
+  FaceFiles files;
+};
+
 /// The faces of a crowd in its ledger. A face is one item: its meshes, its picture and what was
 /// found about its skin, so that a run that goes on writes the same sheets and the same report.
 class FaceLedger {
@@ -29,10 +36,12 @@ class FaceLedger {
 
   /// A face's files if all of them are there as an earlier run wrote them.
   std::optional<FaceFiles> done(const CastFace& face) const;
-  void record(const CastFace& face, const FaceFiles& files) const;
+  /// Once all files of these faces are there.
+  void record(std::span<const MadeFace> faces) const;
 
  private:
   Digest key_of(const CastFace& face) const;
+  LedgerEntry entry_of(const CastFace& face, const FaceFiles& files) const;
 
   Ledger& ledger_;
   const Job& job_;

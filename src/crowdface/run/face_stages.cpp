@@ -17,9 +17,12 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/io/single_precision.h"
+#include "crowdface/run/face_writer.h"
 
 namespace crowdface {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Faces blended together at most: they share the reading of the fields, and by then blending is a small
 /// part of what a face takes.
@@ -103,13 +106,19 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
       std::min<std::uint64_t>((memory - standing) / (2 * one_face), kMostAtOnce));
 }
 
-/// Encodes, writes and renders one face after the other, on any thread.
+EncodedFile as_file(std::string bytes) {
+  EncodedFile file;
+  file.add(std::move(bytes));
+  return file;
+}
+
+/// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
 class FaceOutput {
  public:
   FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const FaceTextures& textures,
              const OwnTextures* own, std::span<const MeshFormat> formats,
              const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
-             const FaceLedger& ledger, const FaceAttachments* attachments, const FaceShapes& shapes,
+             FaceWriter& writer, const FaceAttachments* attachments, const FaceShapes& shapes,
              const AttachmentWriters& attachment_writers)
       : builder_(builder),
         writers_(writers),
@@ -119,14 +128,14 @@ class FaceOutput {
         directory_(directory),
         renders_(renders),
         check_(check),
-        ledger_(ledger),
+        writer_(writer),
         attachments_(attachments),
         shapes_(shapes),
         attachment_writers_(attachment_writers) {}
 
-  FaceFiles write(const CastFace& face, const Positions& positions) {
+  FaceFiles make(const CastFace& face, const Positions& positions) {
     throw_if_interrupted();
-    FaceFiles files;
+    MadeFace made{&face, {}};
     std::vector<BlendedPicture> pictures;
     if (textures_.any()) {
       const Busy busy(blend_);
@@ -142,57 +151,70 @@ class FaceOutput {
       const Busy busy(encode_);
       moves = shapes_.of_face(face.recipe, as_written(positions));
     }
-    write_meshes(face, positions, moves, worn, pictures, files);
+    std::vector<ReadyFile> ready = encode(face, positions, moves, worn, pictures, made.files);
     if (renders_ != nullptr) {
       const Busy busy(render_);
-      const WrittenPictures written =
-          renders_->write(directory_, face.id, face.recipe.target, positions, moves,
-                          textures_.colours() != nullptr ? &pictures : nullptr, worn);
-      files.picture = written.picture;
-      files.preview = written.preview;
+      FacePictures drawn =
+          renders_->draw(face.id, face.recipe.target, positions, moves,
+                         textures_.colours() != nullptr ? &pictures : nullptr, worn);
+      made.files.picture = add(directory_.render(face.id), as_file(std::move(drawn.picture)), ready);
+      if (drawn.preview) {
+        made.files.preview =
+            add(directory_.gallery_face(face.id), as_file(std::move(*drawn.preview)), ready);
+      }
     }
     if (check_ != nullptr) {
       const Busy busy(check_seconds_);
-      files.skin = builder_.defects(*check_, face.recipe, positions);
+      made.files.skin = builder_.defects(*check_, face.recipe, positions);
     }
-    ledger_.record(face, files);
+    FaceFiles files = made.files;
+    writer_.add(std::move(made), std::move(ready));
     return files;
   }
 
   void add_to(StageBusy& busy) const {
     busy.blend += blend_;
     busy.encode += encode_;
-    busy.write += write_;
+    busy.write += writer_.busy_seconds();
     busy.render += render_;
     busy.check += check_seconds_;
   }
 
  private:
-  void write_meshes(const CastFace& face, const Positions& positions,
-                    std::span<const Displacements> moves, const std::vector<WornAttachment>& worn,
-                    const std::vector<BlendedPicture>& pictures, FaceFiles& files) {
-    if (formats_.empty()) return;
-    std::vector<std::string> textures;
+  static FileDigest add(fs::path path, EncodedFile file, std::vector<ReadyFile>& to) {
+    const FileDigest content{file.size(), file.digest()};
+    to.push_back({std::move(path), std::move(file)});
+    return content;
+  }
+
+  /// The face's meshes, what it wears and its textures. \param files  of which they are noted.
+  std::vector<ReadyFile> encode(const CastFace& face, const Positions& positions,
+                                std::span<const Displacements> moves,
+                                const std::vector<WornAttachment>& worn,
+                                const std::vector<BlendedPicture>& pictures, FaceFiles& files) {
+    std::vector<ReadyFile> ready;
+    if (formats_.empty()) return ready;
+    const Busy busy(encode_);
+    auto textures = std::make_shared<const std::vector<std::string>>();
     std::vector<std::string_view> of_mesh;
-    std::vector<EncodedMesh> meshes;
-    {
-      const Busy busy(encode_);
-      if (own_ != nullptr) {
-        textures = own_->encode(pictures);
-        of_mesh = own_->of_mesh(textures);
-      }
-      meshes = writers_.encode(face, positions, moves, of_mesh, worn);
-      if (attachments_have_files(formats_)) attachment_writers_.add_to(meshes, face.id, worn);
+    if (own_ != nullptr) {
+      textures = std::make_shared<const std::vector<std::string>>(own_->encode(pictures));
+      of_mesh = own_->of_mesh(*textures);
     }
-    const Busy busy(write_);
-    for (const EncodedMesh& mesh : meshes) {
-      files.meshes.push_back(write_mesh(mesh, mesh_path(directory_, face.id, mesh.name)));
+    std::vector<EncodedMesh> meshes = writers_.encode(face, positions, moves, of_mesh, worn);
+    if (attachments_have_files(formats_)) attachment_writers_.add_to(meshes, face.id, worn);
+    for (EncodedMesh& mesh : meshes) {
+      mesh.file.keep(textures);
+      const fs::path path = mesh_path(directory_, face.id, mesh.name);
+      const FileDigest content = add(path, std::move(mesh.file), ready);
+      files.meshes.push_back({mesh.name, content.digest, content.bytes});
     }
-    if (own_ == nullptr) return;
-    for (const OwnFile& file : own_->files(face, formats_, std::move(textures))) {
-      write_file(directory_.meshes_of(face.id) / file.name, file.bytes);
-      files.own.push_back({file.bytes.size(), hash_bytes(file.bytes)});
+    if (own_ == nullptr) return ready;
+    for (OwnFile& file : own_->files(face, formats_, *textures)) {
+      files.own.push_back(add(directory_.meshes_of(face.id) / file.name,
+                              as_file(std::move(file.bytes)), ready));
     }
+    return ready;
   }
 
   const FaceBuilder& builder_;
@@ -203,11 +225,11 @@ class FaceOutput {
   const CrowdDirectory& directory_;
   const CrowdRenders* renders_;
   const SkinCheck* check_;
-  const FaceLedger& ledger_;
+  FaceWriter& writer_;
   const FaceAttachments* attachments_;
   const FaceShapes& shapes_;
   const AttachmentWriters& attachment_writers_;
-  std::atomic<double> blend_ = 0, encode_ = 0, write_ = 0, render_ = 0, check_seconds_ = 0;
+  std::atomic<double> blend_ = 0, encode_ = 0, render_ = 0, check_seconds_ = 0;
 };
 
 /// A group of faces in memory, and what is still being done with it.
@@ -255,7 +277,9 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     standing += attachments_->memory_bytes() + worn_bytes(config, inputs, crowd);
     of_thread += attachments_->worn_bytes();
   }
-  standing += static_cast<std::uint64_t>(thread_count()) * of_thread;
+  // Files wait for the writer and are with it, beside those that threads are at.
+  standing += static_cast<std::uint64_t>(thread_count() + 2) * of_thread +
+              2 * FaceWriter::kMostWaitingBytes;
   at_once_ = faces_at_once(standing, builder.bytes(1), memory);
 }
 
@@ -268,11 +292,12 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   }
   if (renders != nullptr) renders->make_folders(directory, faces);
 
+  Progress progress("faces", faces.size());
+  FaceWriter writer(ledger, [&] { progress.step(); });
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
-                    renders, check_ ? &*check_ : nullptr, ledger, attachments_, shapes_,
+                    renders, check_ ? &*check_ : nullptr, writer, attachments_, shapes_,
                     attachment_writers_);
   std::atomic<double> blend_seconds = 0;
-  Progress progress("faces", faces.size());
   std::array<Slot, 2> slots;
   std::size_t turn = 0;
   for (std::size_t first = 0; first < faces.size(); first += at_once_, turn ^= 1) {
@@ -289,12 +314,12 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
     }
     for (std::size_t f = 0; f < count; ++f) {
       slot.tasks.run([&, f, first, positions = &slot.positions[f]] {
-        built.files[first + f] = output.write(faces[first + f], *positions);
-        progress.step();
+        built.files[first + f] = output.make(faces[first + f], *positions);
       });
     }
   }
   for (Slot& slot : slots) slot.tasks.wait();
+  writer.finish();
   output.add_to(built.busy);
   built.busy.blend += blend_seconds;
   return built;

@@ -13,6 +13,7 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/memory.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/ledger.h"
@@ -225,9 +226,11 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   };
   write(directory.config(), config_in_folder(job.config, directory));
   if (!cast_job.planned()) write_plan(job, directory, cast, write);
+  std::vector<LedgerEntry> plan_files;
   for (const LedgerEntry::File& file : cast_job.plan_files) {
-    ledger.record({file.name, file.content.digest, {file}, {}});
+    plan_files.push_back({file.name, file.content.digest, {file}, {}});
   }
+  ledger.record(std::move(plan_files));
 
   const auto& sheet = job.config.output.contact_sheet;
   const FaceLedger face_ledger(ledger, job, directory, face_extras(job), [&] {
@@ -256,7 +259,14 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   const StageBusy busy = timed(stages, "build", [&] {
     const CrowdRenders* renders =
         sheet && !so_far.todo.empty() ? &pictures.get().renders() : nullptr;
-    return build_missing(directory, crowd, face_ledger, face_stages, renders, so_far);
+    BackgroundTasks beside;
+    if (renders != nullptr && options.shard.whole()) {
+      beside.run([&] { pictures.get().write_heads(); });
+    }
+    const StageBusy built_in =
+        build_missing(directory, crowd, face_ledger, face_stages, renders, so_far);
+    beside.wait();
+    return built_in;
   });
   face_stages.release();
   if (!options.shard.whole()) {

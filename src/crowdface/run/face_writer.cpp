@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/face_writer.h"
+
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+#include "crowdface/core/file.h"
+
+namespace crowdface {
+namespace {
+
+/// Descriptors that are open at a time are few in number.
+constexpr std::size_t kMostFiles = 200;
+
+}  // namespace
+
+FaceWriter::FaceWriter(const FaceLedger& ledger, std::function<void()> recorded)
+    : ledger_(ledger), recorded_(std::move(recorded)), thread_([this] { run(); }) {}
+
+FaceWriter::~FaceWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closing_ = true;
+    waiting_ = {};
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void FaceWriter::add(MadeFace face, std::vector<ReadyFile> files) {
+  std::size_t bytes = 0;
+  for (const ReadyFile& file : files) bytes += file.bytes.memory_bytes();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] {
+    return error_ != nullptr || waiting_.faces.empty() ||
+           (waiting_.bytes + bytes <= kMostWaitingBytes && waiting_.files.size() < kMostFiles);
+  });
+  if (error_) std::rethrow_exception(error_);
+  waiting_.faces.push_back(std::move(face));
+  std::move(files.begin(), files.end(), std::back_inserter(waiting_.files));
+  waiting_.bytes += bytes;
+  changed_.notify_all();
+}
+
+void FaceWriter::finish() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return error_ != nullptr || (waiting_.faces.empty() && !is_at_work_); });
+  if (error_) std::rethrow_exception(error_);
+}
+
+void FaceWriter::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return is_closing_ || !waiting_.faces.empty(); });
+    if (waiting_.faces.empty()) return;
+    Waiting some = std::exchange(waiting_, {});
+    is_at_work_ = true;
+    changed_.notify_all();
+    lock.unlock();
+    const auto start = std::chrono::steady_clock::now();
+    std::exception_ptr error;
+    try {
+      write(some);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    some = {};
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    lock.lock();
+    busy_seconds_ += took.count();
+    is_at_work_ = false;
+    error_ = error;
+    changed_.notify_all();
+    if (error_) return;
+  }
+}
+
+void FaceWriter::write(const Waiting& some) {
+  std::vector<FileToWrite> files;
+  for (const ReadyFile& file : some.files) {
+    files.push_back({file.path, file.bytes.pieces()});
+    if (files.size() < kMostFiles) continue;
+    write_files(files);
+    files.clear();
+  }
+  write_files(files);
+  ledger_.record(some.faces);
+  for (std::size_t f = 0; f < some.faces.size(); ++f) recorded_();
+}
+
+}  // namespace crowdface
