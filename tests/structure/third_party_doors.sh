@@ -30,7 +30,7 @@ door 'hwy/' 'crowdface/core/fused_lanes-inl\.h' 'crowdface/core/[a-z_]*\.cpp' \
 door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/openimageio_codec\.cpp'
 door 'ft2build|freetype' 'crowdface/render/text_label\.cpp'
-door 'embree' 'crowdface/render/[a-z_]*\.cpp' 'crowdface/validity/[a-z_]*\.cpp'
+door 'embree' 'crowdface/render/[a-z_]*\.cpp'
 door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'
 door 'yaml-cpp/' 'crowdface/config/[a-z_]*\.cpp'
 door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|crowd/face_json|run/casting_report)\.h' \

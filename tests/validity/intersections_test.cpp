@@ -106,6 +106,31 @@ TEST(Intersections, NearPairsGrowWithTheMargin) {
   }
 }
 
+TEST(TriangleScene, PairsAreTheSameWhateverTheTreeWasMadeOf) {
+  const Sheet sheet;
+  const Positions positions = sheet.lie(bent);
+  std::vector<TrianglePair> expected;  // by trying all
+  for (std::uint32_t a = 0; a < sheet.triangles.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < sheet.triangles.size(); ++b) {
+      const Triangle &s = sheet.triangles[a], &t = sheet.triangles[b];
+      bool apart = share_vertex(s, t);
+      for (Index c = 0; c < 3; ++c) {
+        const auto [s_low, s_high] =
+            std::minmax({positions(s[0], c), positions(s[1], c), positions(s[2], c)});
+        const auto [t_low, t_high] =
+            std::minmax({positions(t[0], c), positions(t[1], c), positions(t[2], c)});
+        apart = apart || s_low - t_high > 0.74 || t_low - s_high > 0.74;
+      }
+      if (!apart) expected.emplace_back(a, b);
+    }
+  }
+  ASSERT_GT(expected.size(), 2000U);
+  for (const auto& place : {flat, domed, bent}) {
+    const TriangleTree tree(sheet.triangles, sheet.lie(place));
+    EXPECT_EQ(TriangleScene(sheet.triangles, tree, positions, 0.37).near_pairs(), expected);
+  }
+}
+
 TEST(SkinCheck, CountsWhatTheTargetHasNot) {
   const Sheet sheet;
   const std::vector<Head> heads = {{"flat", sheet.lie(flat)}, {"bent", sheet.lie(bent)}};
@@ -148,7 +173,8 @@ TEST(SkinCheck, MeasuresSkinThatShowsItsBack) {
 TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
   const Sheet sheet;
   const Positions positions = sheet.lie(bent);
-  const TriangleScene scene(sheet.triangles, positions, 1e-4);
+  const TriangleTree tree(sheet.triangles, sheet.lie(flat));
+  const TriangleScene scene(sheet.triangles, tree, positions, 1e-4);
   const auto crosses = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                            const Triangle& triangle) {
     Eigen::Matrix3d edges;

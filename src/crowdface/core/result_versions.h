@@ -15,7 +15,7 @@ inline constexpr int kMirrorVersion =
 /// Entries of the cache, and so the faces made of them.
 inline constexpr int kPrepareVersion = 5;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
-inline constexpr int kFaceFilesVersion = 12;
+inline constexpr int kFaceFilesVersion = 13;
 inline constexpr int kShapesVersion =
     4;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions

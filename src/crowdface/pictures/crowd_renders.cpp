@@ -24,7 +24,7 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
 }
 
 std::string to_png(const Rgb8Image& image) {
-  return encode_png(image.width, image.height, 3, image.pixels);
+  return encode_png(image.width, image.height, 3, image.pixels, PngEffort::kFast);
 }
 
 }  // namespace

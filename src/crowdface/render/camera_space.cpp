@@ -2,6 +2,7 @@
 #include "crowdface/render/camera_space.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -31,17 +32,22 @@ Eigen::Vector3f to_camera(const Camera& camera, Axis axis) {
 }
 
 std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
+  std::vector<float> points;
+  to_camera(positions, camera, points);
+  return points;
+}
+
+void to_camera(const Positions& positions, const Camera& camera, std::vector<float>& points) {
   check_finite(positions);
   Eigen::Matrix3d axes;
   axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
   axes /= camera.half_extent();
-  std::vector<float> points(static_cast<std::size_t>(positions.rows()) * 3);
-  points.reserve(points.size() + 1);  // RayScene adds one
+  points.reserve(static_cast<std::size_t>(positions.rows()) * 3 + 1);  // RayScene adds one
+  points.resize(static_cast<std::size_t>(positions.rows()) * 3);
   parallel_for_each(positions.rows(), kVertexBlock, [&](Index i) {
     const Eigen::Vector3f point = (axes * (row3(positions, i) - camera.target)).cast<float>();
     std::copy_n(point.data(), 3, points.begin() + 3 * i);
   });
-  return points;
 }
 
 float winding(const Topology& topology, const Positions& positions) {
@@ -66,11 +72,18 @@ float winding(const Topology& topology, const Positions& positions) {
 
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign) {
+  CameraNormals result;
+  result.compute(topology, fans, points, sign);
+  return std::move(result.normals);
+}
+
+void CameraNormals::compute(const Topology& topology, const NormalFans& fans,
+                            const std::vector<float>& points, float sign) {
   using Vector = Eigen::Vector3f;
   const auto point = [&](std::uint32_t vertex) {
     return Eigen::Map<const Vector>(points.data() + std::size_t{3} * vertex);
   };
-  std::vector<Vector> areas(static_cast<std::size_t>(topology.face_count()));
+  areas.resize(static_cast<std::size_t>(topology.face_count()));
   parallel_for_each(topology.face_count(), kVertexBlock, [&](Index f) {
     const auto face = topology.face(f);
     Vector sum = Vector::Zero();
@@ -79,7 +92,7 @@ std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Norm
     }
     areas[static_cast<std::size_t>(f)] = sum;
   });
-  std::vector<Vector> normals(static_cast<std::size_t>(fans.rows()));
+  normals.resize(static_cast<std::size_t>(fans.rows()));
   parallel_for_each(fans.rows(), kVertexBlock, [&](Index i) {
     Vector sum = Vector::Zero();
     for (const std::uint32_t face : fans.around(i)) sum += areas[face];
@@ -87,7 +100,6 @@ std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Norm
     normals[static_cast<std::size_t>(i)] =
         length > 0 ? Vector(sum * (sign / length)) : Vector(sign * Vector::UnitZ());
   });
-  return normals;
 }
 
 }  // namespace crowdface

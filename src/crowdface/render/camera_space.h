@@ -18,6 +18,8 @@ namespace crowdface {
 
 /// x, y, z of each vertex. \throws InvalidInput if a position is not finite.
 std::vector<float> to_camera(const Positions& positions, const Camera& camera);
+/// The same into memory that is there already.
+void to_camera(const Positions& positions, const Camera& camera, std::vector<float>& points);
 
 /// An axis of the file as a unit vector.
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
@@ -31,5 +33,14 @@ float winding(const Topology& topology, const Positions& positions);
 /// \param points  as to_camera gives them.
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign);
+
+/// Normals, and the memory that finding them takes.
+struct CameraNormals {
+  std::vector<Eigen::Vector3f> areas;    ///< of the faces
+  std::vector<Eigen::Vector3f> normals;  ///< #V
+
+  void compute(const Topology& topology, const NormalFans& fans, const std::vector<float>& points,
+               float sign);
+};
 
 }  // namespace crowdface

@@ -26,47 +26,32 @@ namespace crowdface {
 
 namespace {
 
-/// Scenes that are used again and again, each by one thread at a time. All have the same tree, that
-/// of the typical face, so that it does not matter which face gets which.
-class ScenePool {
+/// What rendering a face takes: large, and used again for the next face.
+struct Workspace {
+  std::vector<float> points;
+  CameraNormals normals;
+  std::unique_ptr<RayScene> scene;
+};
+
+/// Workspaces, each for one thread at a time. All have the same tree, that of the typical face, so that it does
+/// not matter which face gets which.
+class WorkspacePool {
  public:
-  /// \param typical  empty: scenes are built for once.
-  void start(const RayDevice& device, const std::vector<Quad>& quads, std::vector<float> typical) {
-    device_ = &device;
-    quads_ = &quads;
-    typical_ = std::move(typical);
-  }
-
-  std::unique_ptr<RayScene> take(std::vector<float> points) {
-    if (typical_.empty()) return std::make_unique<RayScene>(*device_, std::move(points), *quads_);
-    std::unique_ptr<RayScene> scene = take_idle();
-    if (scene == nullptr) {
-      scene = std::make_unique<RayScene>(*device_, typical_, *quads_, RayScene::Tree::kForMoves);
-    }
-    scene->move_points(std::move(points));
-    return scene;
-  }
-
-  void give_back(std::unique_ptr<RayScene> scene) {
-    if (typical_.empty()) return;
+  std::unique_ptr<Workspace> take() {
     const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(scene));
+    if (idle_.empty()) return std::make_unique<Workspace>();
+    std::unique_ptr<Workspace> workspace = std::move(idle_.back());
+    idle_.pop_back();
+    return workspace;
+  }
+  void give_back(std::unique_ptr<Workspace> workspace) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(workspace));
   }
 
  private:
-  std::unique_ptr<RayScene> take_idle() {
-    const std::lock_guard lock(mutex_);
-    if (idle_.empty()) return nullptr;
-    std::unique_ptr<RayScene> scene = std::move(idle_.back());
-    idle_.pop_back();
-    return scene;
-  }
-
-  const RayDevice* device_ = nullptr;
-  const std::vector<Quad>* quads_ = nullptr;
-  std::vector<float> typical_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<RayScene>> idle_;
+  std::vector<std::unique_ptr<Workspace>> idle_;
 };
 
 }  // namespace
@@ -82,7 +67,8 @@ struct FaceRenderer::Prepared {
   std::vector<TexturedQuad> quad_uvs;             ///< or empty: no texture coordinates
   Eyeballs eyeballs;
   RayDevice device;
-  ScenePool scenes;
+  std::vector<float> typical;  ///< points of the typical face; empty: scenes are built for once
+  WorkspacePool workspaces;
   std::optional<float> winding;  ///< of the typical face, which all others share
 
   Prepared(const Topology& mesh, const RenderOptions& choice)
@@ -90,6 +76,19 @@ struct FaceRenderer::Prepared {
         fans(mesh),
         options(choice),
         sampling(choice.samples_per_side, choice.light_rays) {}
+
+  /// Has the workspace's points in its scene.
+  void put_into_scene(Workspace& workspace) const {
+    if (typical.empty()) {
+      workspace.scene = std::make_unique<RayScene>(device, std::move(workspace.points), quads);
+      return;
+    }
+    if (workspace.scene == nullptr) {
+      workspace.scene =
+          std::make_unique<RayScene>(device, typical, quads, RayScene::Tree::kForMoves);
+    }
+    workspace.scene->move_points(workspace.points);
+  }
 };
 
 namespace {
@@ -156,9 +155,9 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
     prepared_->quad_paints.resize(prepared_->quads.size(),
                                   paint ? std::optional<Light>(from_srgb(*paint)) : std::nullopt);
   }
-  std::vector<float> first;  // whatever the camera: it turns a tree and scales it, no more
-  if (typical != nullptr) first.assign(typical->data(), typical->data() + typical->size());
-  prepared_->scenes.start(prepared_->device, prepared_->quads, std::move(first));
+  if (typical == nullptr) return;
+  // Whatever the camera: it turns a tree and scales it, no more.
+  prepared_->typical.assign(typical->data(), typical->data() + typical->size());
 }
 FaceRenderer::~FaceRenderer() = default;
 
@@ -171,21 +170,22 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
           "render: colours of another number than vertices");
   require(coat == nullptr || static_cast<Index>(coat->of_face.size()) == topology.face_count(),
           "render: textures of another number than faces");
-  std::vector<float> points = to_camera(positions, camera);
+  std::unique_ptr<Workspace> workspace = prepared_->workspaces.take();
+  to_camera(positions, camera, workspace->points);
   const Eigen::Vector3f gaze = to_camera(camera, prepared_->options.front);
-  std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, points, gaze);
+  std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, workspace->points, gaze);
   // A crowd is wound like its heads: there is no need to find that out for every face.
   const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
-  std::vector<Eigen::Vector3f> normals = camera_normals(topology, prepared_->fans, points, sign);
-  std::unique_ptr<RayScene> scene = prepared_->scenes.take(std::move(points));
+  workspace->normals.compute(topology, prepared_->fans, workspace->points, sign);
+  prepared_->put_into_scene(*workspace);
   std::optional<WornStage> worn_stage;
   if (!worn.empty()) worn_stage.emplace(prepared_->device, worn, camera);
   std::vector<float> skin_lightnesses;
   if (coat != nullptr) {
     for (const auto& texture : coat->textures) skin_lightnesses.push_back(skin_lightness(*texture));
   }
-  const Stage stage{*scene,
-                    std::move(normals),
+  const Stage stage{*workspace->scene,
+                    workspace->normals.normals,
                     sign,
                     colours,
                     prepared_->quads,
@@ -207,7 +207,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
     render_tile(stage, prepared_->sampling, static_cast<int>(tile % tiles) * kTile,
                 static_cast<int>(tile / tiles) * kTile, image);
   });
-  prepared_->scenes.give_back(std::move(scene));
+  prepared_->workspaces.give_back(std::move(workspace));
   return image;
 }
 

@@ -142,10 +142,10 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
 
 RayScene::~RayScene() = default;
 
-void RayScene::move_points(std::vector<float> points) {
+void RayScene::move_points(std::vector<float>& points) {
   require(points.size() + 1 == state_->points.size(), "ray scene: ", points.size() / 3,
           " points in place of ", state_->points.size() / 3);
-  state_->points = std::move(points);
+  state_->points.swap(points);
   state_->points.push_back(0);
   state_->commit_points();
 }

@@ -70,8 +70,8 @@ class RayScene {
   /// Puts the vertices elsewhere and keeps the tree, in which only sizes change: at 1.2 million
   /// vertices a fifteenth of the time of building it, and rays are as quick if the new points lie
   /// about as the first did. The tree is that of the first points whatever came between.
-  /// \param points  as many as before.
-  void move_points(std::vector<float> points);
+  /// \param points  as many as before; gets the memory of those before.
+  void move_points(std::vector<float>& points);
 
   /// What each ray meets first, if anything. Rays that stand beside each other in the list are traced together,
   /// which is quick if they run alike.

@@ -154,7 +154,8 @@ struct Summary {
   bool empty = true;
 };
 
-/// One square of the image, and a rim of pixels around it that lend what they know of their lights.
+/// One square of the image; a rim of pixels around it that lend what they know of their lights, and one more that tells
+/// where these change.
 class Tile {
  public:
   Tile(const Stage& stage, const Sampling& sampling, int left, int top, int size)
@@ -165,17 +166,26 @@ class Tile {
         top_(top),
         right_(std::min(left + kTile, size)),
         bottom_(std::min(top + kTile, size)),
-        outer_left_(std::max(left - 1, 0)),
-        outer_top_(std::max(top - 1, 0)),
-        outer_right_(std::min(right_ + 1, size)),
-        outer_bottom_(std::min(bottom_ + 1, size)),
+        rim_left_(std::max(left - 1, 0)),
+        rim_top_(std::max(top - 1, 0)),
+        rim_right_(std::min(right_ + 1, size)),
+        rim_bottom_(std::min(bottom_ + 1, size)),
+        outer_left_(std::max(left - 2, 0)),
+        outer_top_(std::max(top - 2, 0)),
+        outer_right_(std::min(right_ + 2, size)),
+        outer_bottom_(std::min(bottom_ + 2, size)),
         pixels_(static_cast<std::size_t>(outer_right_ - outer_left_) *
                 static_cast<std::size_t>(outer_bottom_ - outer_top_)) {}
 
   void render(Rgb8Image& image) {
-    look(sampling_.coarse, [](const Pixel&) { return true; });
-    for (Pixel& pixel : pixels_) pixel.changes = changes(pixel);
-    look(sampling_.fine, [](const Pixel& pixel) { return pixel.changes; });
+    look(stage_.worn != nullptr ? sampling_.coarse : sampling_.middle,
+         [](const Pixel&) { return true; });
+    if (sampling_.fine.size() > 1) {
+      for (int y = rim_top_; y < rim_bottom_; ++y) {
+        for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).changes = changes(x, y);
+      }
+      look(sampling_.fine, [](const Pixel& pixel) { return pixel.changes; });
+    }
     ask_key();
     if (stage_.occlusion) ask_sky();
     summarize();
@@ -255,20 +265,29 @@ class Tile {
     return std::span(meetings_).subspan(pixel.first, pixel.end - pixel.first);
   }
 
-  /// Whether a pixel's samples show more than one smooth piece of surface in one colour.
-  bool changes(const Pixel& pixel) {
-    const std::span<const Meeting> meetings = meetings_of(pixel);
-    if (meetings.empty()) return false;
-    if (pixel.missed > 0) return true;
-    const Meeting& first = meetings.front();
-    return std::any_of(meetings.begin() + 1, meetings.end(), [&](const Meeting& other) {
-      const float height = (other.point - first.point).dot(first.surface.normal);
-      return other.surface.kind != first.surface.kind ||
-             other.surface.inside != first.surface.inside ||
-             other.surface.normal.dot(first.surface.normal) < kSameNormal ||
-             std::abs(height) > pixel_side() ||
-             (other.surface.albedo - first.surface.albedo).abs().maxCoeff() > kSameAlbedo;
-    });
+  /// Whether a pixel and those beside it show more than one smooth piece of surface in one colour.
+  bool changes(int x, int y) {
+    const Pixel& at = pixel(x, y);
+    const std::span<const Meeting> meetings = meetings_of(at);
+    if (!meetings.empty() && at.missed > 0) return true;
+    const auto differs = [&](const Meeting& other) { return !are_alike(meetings.front(), other); };
+    if (std::any_of(meetings.begin(), meetings.end(), differs)) return true;
+    if (stage_.worn != nullptr) return false;  // its samples tell
+    for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
+      if (i < outer_left_ || i >= outer_right_ || j < outer_top_ || j >= outer_bottom_) continue;
+      const std::span<const Meeting> beside = meetings_of(pixel(i, j));
+      if (beside.empty() != meetings.empty()) return true;
+      if (!beside.empty() && differs(beside.front())) return true;
+    }
+    return false;
+  }
+
+  bool are_alike(const Meeting& one, const Meeting& other) const {
+    const float height = (other.point - one.point).dot(one.surface.normal);
+    return other.surface.kind == one.surface.kind && other.surface.inside == one.surface.inside &&
+           other.surface.normal.dot(one.surface.normal) >= kSameNormal &&
+           std::abs(height) <= pixel_side() &&
+           (other.surface.albedo - one.surface.albedo).abs().maxCoeff() <= kSameAlbedo;
   }
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
@@ -285,10 +304,10 @@ class Tile {
       for (int shift_x = 0; shift_x < kInterleave; ++shift_x) {
         for (std::size_t k = 0; k < rays; ++k) {
           const Eigen::Vector2f& disc = sampling_.lights.point(
-              outer_left_ + shift_x, outer_top_ + shift_y, static_cast<int>(k));
+              rim_left_ + shift_x, rim_top_ + shift_y, static_cast<int>(k));
           const auto lot = static_cast<std::uint32_t>(number++ * kGoldenLot) & 0xffffU;
-          for (int y = outer_top_ + shift_y; y < outer_bottom_; y += kInterleave) {
-            for (int x = outer_left_ + shift_x; x < outer_right_; x += kInterleave) {
+          for (int y = rim_top_ + shift_y; y < rim_bottom_; y += kInterleave) {
+            for (int x = rim_left_ + shift_x; x < rim_right_; x += kInterleave) {
               const Pixel& at = pixel(x, y);
               const std::span<Meeting> meetings = meetings_of(at);
               if (meetings.empty()) continue;
@@ -403,8 +422,8 @@ class Tile {
     Openness key, sky;
     key.add(meeting.key, kOwnWeight);
     sky.add(meeting.sky, kOwnWeight);
-    for (int j = std::max(y - 1, outer_top_); j < std::min(y + 2, outer_bottom_); ++j) {
-      for (int i = std::max(x - 1, outer_left_); i < std::min(x + 2, outer_right_); ++i) {
+    for (int j = std::max(y - 1, rim_top_); j < std::min(y + 2, rim_bottom_); ++j) {
+      for (int i = std::max(x - 1, rim_left_); i < std::min(x + 2, rim_right_); ++i) {
         const Summary& other = pixel(i, j).summary;
         if (other.empty) continue;
         const float weight = likeness(meeting, other);
@@ -448,6 +467,7 @@ class Tile {
   const Sampling& sampling_;
   int size_;
   int left_, top_, right_, bottom_;
+  int rim_left_, rim_top_, rim_right_, rim_bottom_;
   int outer_left_, outer_top_, outer_right_, outer_bottom_;
   std::vector<Pixel> pixels_;
   std::vector<Meeting> meetings_;

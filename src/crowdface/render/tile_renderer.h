@@ -31,7 +31,7 @@ struct TexturedQuad {
 /// the image's side as unit.
 struct Stage {
   const RayScene& scene;
-  std::vector<Eigen::Vector3f> normals;  ///< #V, outwards
+  const std::vector<Eigen::Vector3f>& normals;  ///< #V, outwards
   float winding;                         ///< −1 where the faces' own normals look inwards
   const VertexColours* colours;          ///< #V in place of all others, or nullptr
   const std::vector<Quad>& quads;
@@ -50,13 +50,15 @@ struct Stage {
 
 /// Where rays go.
 struct Sampling {
-  std::vector<Eigen::Vector2f> coarse;  ///< places in every pixel
-  std::vector<Eigen::Vector2f> fine;    ///< and in those where the picture changes
+  std::vector<Eigen::Vector2f> middle;  ///< the place in every pixel
+  std::vector<Eigen::Vector2f> coarse;  ///< those where something is worn, which may be there in part
+  std::vector<Eigen::Vector2f> fine;    ///< those where the picture changes
   int light_rays;                       ///< a pixel, towards each light
   InterleavedDisc lights;
 
   Sampling(int samples_per_side, int rays)
-      : coarse(places_in_pixel(std::min(2, samples_per_side))),
+      : middle(places_in_pixel(1)),
+        coarse(places_in_pixel(std::min(2, samples_per_side))),
         fine(places_in_pixel(samples_per_side)),
         light_rays(rays),
         lights(rays) {}

@@ -13,7 +13,7 @@ class Lazy {
  public:
   explicit Lazy(std::function<std::unique_ptr<T>()> make) : make_(std::move(make)) {}
 
-  const T& get() {
+  T& get() {
     if (!made_) made_ = make_();
     return *made_;
   }

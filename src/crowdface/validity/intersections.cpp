@@ -7,8 +7,8 @@ namespace crowdface {
 
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin) {
-  if (triangles.empty()) return {};
-  return TriangleScene(triangles, positions, margin).near_pairs();
+  return TriangleScene(triangles, TriangleTree(triangles, positions), positions, margin)
+      .near_pairs();
 }
 
 std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,

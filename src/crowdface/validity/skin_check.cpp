@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// By which boxes are grown, so that a ray in single precision misses none.
+/// By which boxes are grown, so that rounding lets no ray miss one.
 double margin_of(const Positions& positions) {
   return 1e-5 * (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
 }
@@ -34,10 +34,10 @@ struct Crossing {
   double exposed;
 };
 
-Crossing crossing_of(const std::vector<Triangle>& triangles, const Positions& positions,
-                     const TriangleNeighbours& neighbours, const Viewing& viewing) {
-  if (triangles.empty()) return {{}, 0};
-  const TriangleScene scene(triangles, positions, margin_of(positions));
+Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree& tree,
+                     const Positions& positions, const TriangleNeighbours& neighbours,
+                     const Viewing& viewing) {
+  const TriangleScene scene(triangles, tree, positions, margin_of(positions));
   std::vector<TrianglePair> pairs = intersecting(triangles, positions, scene.near_pairs());
   const double exposed = exposed_back(scene, triangles, positions, neighbours, pairs, viewing);
   return {std::move(pairs), exposed};
@@ -50,6 +50,7 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
                      Viewing viewing)
     : triangles_(outward(triangles_of(topology, components, components.largest()),
                          heads.front().positions)),
+      tree_(triangles_, heads.front().positions),
       neighbours_(triangles_, topology.vertex_count),
       viewing_(std::move(viewing)) {
   for (const Index target : targets) {
@@ -58,7 +59,7 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
 }
 
 SkinCheck::Target SkinCheck::prepared(const Positions& positions) const {
-  const Crossing crossing = crossing_of(triangles_, positions, neighbours_, viewing_);
+  const Crossing crossing = crossing_of(triangles_, tree_, positions, neighbours_, viewing_);
   return {TargetTriangles(triangles_, positions),
           NewIntersections(triangles_, positions.rows(), crossing.pairs), crossing.exposed};
 }
@@ -74,7 +75,7 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Positions& targ
 SkinDefects SkinCheck::compare(const Positions& positions, const Target& target) const {
   SkinDefects defects;
   defects.local = target.triangles.compare(positions);
-  const Crossing crossing = crossing_of(triangles_, positions, neighbours_, viewing_);
+  const Crossing crossing = crossing_of(triangles_, tree_, positions, neighbours_, viewing_);
   defects.intersecting = target.intersections.count(crossing.pairs);
   defects.exposed_mm2 = std::max(0.0, crossing.exposed - target.exposed) * viewing_.mm_per_unit *
                         viewing_.mm_per_unit;
@@ -82,7 +83,8 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Target& target)
 }
 
 std::uint64_t SkinCheck::memory_bytes() const {
-  std::uint64_t bytes = triangles_.size() * (sizeof(Triangle) + 4 * sizeof(std::uint32_t));
+  std::uint64_t bytes = triangles_.size() * (sizeof(Triangle) + 5 * sizeof(std::uint32_t)) +
+                        tree_.nodes.size() * sizeof(TriangleTree::Node);
   for (const auto& [head, target] : targets_) {
     bytes += target.triangles.memory_bytes() + triangles_.size() / 8;
   }

@@ -36,7 +36,7 @@ class SkinCheck {
 
   /// What this object itself takes.
   std::uint64_t memory_bytes() const;
-  /// What one `compare` takes while it runs, at most: boxes, a tree of them and pairs.
+  /// What one `compare` takes while it runs, at most: boxes and pairs.
   std::uint64_t compare_bytes() const;
 
  private:
@@ -49,6 +49,7 @@ class SkinCheck {
   SkinDefects compare(const Positions& positions, const Target& target) const;
 
   std::vector<Triangle> triangles_;  ///< their backs to the inside
+  TriangleTree tree_;
   TriangleNeighbours neighbours_;
   Viewing viewing_;
   std::map<Index, Target> targets_;

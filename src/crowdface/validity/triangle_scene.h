@@ -1,30 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
-#include "crowdface/mesh/triangles.h"
+#include "crowdface/validity/triangle_tree.h"
 
 namespace crowdface {
 
 /// Two triangles by their numbers, the smaller first.
 using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Triangles in a tree of boxes (Embree's), to be asked which are near each other and what a ray
-/// meets. Embree only finds the boxes; triangles are tested here in double precision, so that the
-/// answers are the same whatever the processor.
+/// Triangles of one mesh in a tree of boxes, to be asked which are near each other and what a ray meets. Boxes are in
+/// single precision and never smaller than in double; triangles are tested in double precision.
 class TriangleScene {
  public:
-  /// \param triangles, positions  must outlive the scene.
+  /// \param triangles, tree, positions  must outlive the scene; the tree is of these triangles.
   /// \param margin  by which boxes are grown on all sides.
-  /// \throws IoError if there is too little memory.
-  TriangleScene(const std::vector<Triangle>& triangles, const Positions& positions, double margin);
-  ~TriangleScene();
-  TriangleScene(const TriangleScene&) = delete;
-  TriangleScene& operator=(const TriangleScene&) = delete;
+  TriangleScene(const std::vector<Triangle>& triangles, const TriangleTree& tree,
+                const Positions& positions, double margin);
 
   /// Pairs without a common vertex whose boxes overlap, ascending. Triangles at a vertex of more than a
   /// thousand are left out.
@@ -36,8 +32,27 @@ class TriangleScene {
              std::uint32_t start) const;
 
  private:
-  struct Embree;
-  std::unique_ptr<Embree> embree_;
+  /// Boxes of a leaf's triangles, coordinate by coordinate; of what it lacks empty.
+  struct LeafBoxes {
+    std::array<std::array<float, TriangleTree::kLeaf>, 3> low, high;
+  };
+  struct Box {
+    std::array<float, 3> low, high;
+  };
+  struct NodePair {
+    std::uint32_t a, b;
+  };
+
+  Box box_of(const LeafBoxes& leaf) const;
+  bool overlap(const NodePair& pair) const;
+  void split(const NodePair& pair, std::vector<NodePair>& into) const;
+  void compare_leaves(const NodePair& pair, std::vector<TrianglePair>& found) const;
+
+  const std::vector<Triangle>& triangles_;
+  const TriangleTree& tree_;
+  const Positions& positions_;
+  std::vector<LeafBoxes> leaves_;  ///< by `begin` of a leaf over kLeaf
+  std::vector<Box> boxes_;         ///< of the nodes
 };
 
 }  // namespace crowdface
