@@ -61,7 +61,10 @@ TEST(WornMesh, CoversWhatIsBehindItAsFarAsItIsThere) {
   const double bare = middle_red(scene.wearing({}));
   const double covered = middle_red(scene.render(black(1)));
   EXPECT_LT(covered, bare / 2);
-  EXPECT_EQ(scene.render(black(0)).pixels, scene.wearing({}).pixels);
+  const WornSurface surface(scene.card, scene.uvs, {black(1)}, {0});
+  Positions behind = scene.card_points;
+  behind.col(2).array() -= 1;
+  EXPECT_EQ(scene.render(black(0)).pixels, scene.wearing({{&surface, &behind}}).pixels);
   double before = bare;
   for (const float share : {0.25F, 0.5F, 0.75F, 1.0F}) {
     const double now = middle_red(scene.render(black(share)));
