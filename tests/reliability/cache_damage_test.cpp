@@ -119,9 +119,9 @@ TEST_F(DamagedCache, CutWhileItIsInUseItIsMadeAnewAndTheRunGoesOn) {
 TEST_F(DamagedCache, NumbersThatNoHeadHasAreNotUsed) {
   for (const fs::path& entry : list_cache(folder_.cache()).entries) {
     std::string bytes = read_text(entry);
-    const float huge = 1e30F;
-    bytes.replace(bytes.size() - sizeof(Digest) - sizeof huge, sizeof huge,
-                  reinterpret_cast<const char*>(&huge), sizeof huge);
+    constexpr std::size_t kFirstStep = 128;  // of its fields, docs/cache-format.md
+    const double huge = 1e30;
+    bytes.replace(kFirstStep, sizeof huge, reinterpret_cast<const char*>(&huge), sizeof huge);
     const Digest sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof sum));
     bytes.replace(bytes.size() - sizeof sum, sizeof sum, reinterpret_cast<const char*>(&sum),
                   sizeof sum);
