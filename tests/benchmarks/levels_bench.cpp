@@ -65,7 +65,8 @@ void print_row(const char* name, Index rank, const Levels& levels, double second
   }
   std::printf("| %-28s | %2td | %8.4f at %-6llu | %8.5f | %3td | %5.2f |\n", name, rank,
               kMmPerCm * largest, static_cast<unsigned long long>(where),
-              kMmPerCm * std::sqrt(squares / count), rank * 3 * Index{sizeof(std::int16_t)}, seconds);
+              kMmPerCm * std::sqrt(squares / count), rank * 3 * Index{sizeof(std::int16_t)},
+              seconds);
 }
 
 template <class Work>

@@ -36,8 +36,8 @@ TEST(LevelFields, AreOffByHalfAStepAtMost) {
       const double half = 0.5 * fields.steps[static_cast<std::size_t>(p)];
       double worst = 0;
       for (Index i = 0; i < 3 * vertices; ++i) {
-        worst = std::max(worst, std::abs(fields.value(p, i / 3, i % 3) -
-                                         static_cast<double>(*value++)));
+        worst = std::max(worst,
+                         std::abs(fields.value(p, i / 3, i % 3) - static_cast<double>(*value++)));
       }
       EXPECT_LE(worst, 1.01 * half) << p << " of " << vertices;
     }

@@ -40,14 +40,14 @@ CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
   for (const HeadLevels& head : levels_) {
     const LevelFields& fields = head.fields;
     const std::size_t rank = fields.steps.size();
-    require(fields.vertex_count == vertices &&
-                fields.numbers.size() ==
-                    LevelFields::size(static_cast<std::size_t>(vertices), rank),
-            "blend: ", fields.numbers.size(), " numbers for ", rank, " fields of ", vertices,
-            " vertices");
+    require(
+        fields.vertex_count == vertices &&
+            fields.numbers.size() == LevelFields::size(static_cast<std::size_t>(vertices), rank),
+        "blend: ", fields.numbers.size(), " numbers for ", rank, " fields of ", vertices,
+        " vertices");
     for (std::size_t p = 0; p < rank; ++p) {
-      fields_.push_back({fields.numbers.data() + p * kTileValues, rank * kTileValues,
-                         fields.steps[p]});
+      fields_.push_back(
+          {fields.numbers.data() + p * kTileValues, rank * kTileValues, fields.steps[p]});
     }
   }
   require(regions.alpha.rows() == vertices, "blend: masks of ", regions.alpha.rows(),

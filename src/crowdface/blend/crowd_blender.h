@@ -18,7 +18,7 @@ namespace crowdface {
 /// The levels of a head as fields: S̃_L x = x + Σ_p φ_p(L)·c_p, fitted once (LevelBasis, or the
 /// paper's CubicFit).
 struct HeadLevels {
-  LevelFields fields;             ///< c_p
+  LevelFields fields;                                                 ///< c_p
   std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
 };
 

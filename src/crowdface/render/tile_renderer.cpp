@@ -303,8 +303,8 @@ class Tile {
     for (int shift_y = 0; shift_y < kInterleave; ++shift_y) {
       for (int shift_x = 0; shift_x < kInterleave; ++shift_x) {
         for (std::size_t k = 0; k < rays; ++k) {
-          const Eigen::Vector2f& disc = sampling_.lights.point(
-              rim_left_ + shift_x, rim_top_ + shift_y, static_cast<int>(k));
+          const Eigen::Vector2f& disc =
+              sampling_.lights.point(rim_left_ + shift_x, rim_top_ + shift_y, static_cast<int>(k));
           const auto lot = static_cast<std::uint32_t>(number++ * kGoldenLot) & 0xffffU;
           for (int y = rim_top_ + shift_y; y < rim_bottom_; y += kInterleave) {
             for (int x = rim_left_ + shift_x; x < rim_right_; x += kInterleave) {

@@ -32,8 +32,8 @@ struct TexturedQuad {
 struct Stage {
   const RayScene& scene;
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outwards
-  float winding;                         ///< −1 where the faces' own normals look inwards
-  const VertexColours* colours;          ///< #V in place of all others, or nullptr
+  float winding;                                ///< −1 where the faces' own normals look inwards
+  const VertexColours* colours;                 ///< #V in place of all others, or nullptr
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;            ///< #quads
   const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
@@ -51,9 +51,10 @@ struct Stage {
 /// Where rays go.
 struct Sampling {
   std::vector<Eigen::Vector2f> middle;  ///< the place in every pixel
-  std::vector<Eigen::Vector2f> coarse;  ///< those where something is worn, which may be there in part
-  std::vector<Eigen::Vector2f> fine;    ///< those where the picture changes
-  int light_rays;                       ///< a pixel, towards each light
+  std::vector<Eigen::Vector2f>
+      coarse;                         ///< those where something is worn, which may be there in part
+  std::vector<Eigen::Vector2f> fine;  ///< those where the picture changes
+  int light_rays;                     ///< a pixel, towards each light
   InterleavedDisc lights;
 
   Sampling(int samples_per_side, int rays)

@@ -133,8 +133,8 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
   const FaceTextures textures(job.config, job.inputs);
   const FaceShapes shapes(job.config, job.inputs);
-  CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs,
-                               job.settings, directory, textures.colours(), shapes);
+  CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs, job.settings,
+                         directory, textures.colours(), shapes);
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   pictures.write_faces(

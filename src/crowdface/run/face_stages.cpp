@@ -157,7 +157,8 @@ class FaceOutput {
       FacePictures drawn =
           renders_->draw(face.id, face.recipe.target, positions, moves,
                          textures_.colours() != nullptr ? &pictures : nullptr, worn);
-      made.files.picture = add(directory_.render(face.id), as_file(std::move(drawn.picture)), ready);
+      made.files.picture =
+          add(directory_.render(face.id), as_file(std::move(drawn.picture)), ready);
       if (drawn.preview) {
         made.files.preview =
             add(directory_.gallery_face(face.id), as_file(std::move(*drawn.preview)), ready);
@@ -211,8 +212,8 @@ class FaceOutput {
     }
     if (own_ == nullptr) return ready;
     for (OwnFile& file : own_->files(face, formats_, *textures)) {
-      files.own.push_back(add(directory_.meshes_of(face.id) / file.name,
-                              as_file(std::move(file.bytes)), ready));
+      files.own.push_back(
+          add(directory_.meshes_of(face.id) / file.name, as_file(std::move(file.bytes)), ready));
     }
     return ready;
   }

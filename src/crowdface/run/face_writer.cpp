@@ -45,7 +45,8 @@ void FaceWriter::add(MadeFace face, std::vector<ReadyFile> files) {
 
 void FaceWriter::finish() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return error_ != nullptr || (waiting_.faces.empty() && !is_at_work_); });
+  changed_.wait(lock,
+                [&] { return error_ != nullptr || (waiting_.faces.empty() && !is_at_work_); });
   if (error_) std::rethrow_exception(error_);
 }
 

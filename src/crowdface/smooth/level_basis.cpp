@@ -323,13 +323,11 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
                                         basis.mixing, basis.fields);
     basis.error.max = std::sqrt(worst.squared) + of_nodes.max + rounded;
     basis.error.level = tested.levels[static_cast<std::size_t>(worst.level)];
-    basis.error.rms = probe_error(exact, functions,
-                                  [&](Index v, Index p, Index c) {
-                                    const auto vertex = static_cast<Index>(
-                                        probes.vertices[static_cast<std::size_t>(v)]);
-                                    return basis.fields.value(p, vertex, c);
-                                  })
-                          .rms;
+    basis.error.rms = probe_error(exact, functions, [&](Index v, Index p, Index c) {
+                        const auto vertex =
+                            static_cast<Index>(probes.vertices[static_cast<std::size_t>(v)]);
+                        return basis.fields.value(p, vertex, c);
+                      }).rms;
     return basis;
   }
   throw InvalidInput(concat("expected levels within ", tolerance, ", reached ", of_nodes.max,
