@@ -54,6 +54,30 @@ TEST(WriteFile, NamesTheFileThatCannotBeCreated) {
                [&] { write_file(folder.path() / "missing" / "a", "x"); });
 }
 
+TEST(WriteFiles, LeaveEachWholeInItsFolder) {
+  const TemporaryFolder folder;
+  make_directories(folder / "sub");
+  const std::string large(20'000'000, 'x');  // written in several pieces
+  write_files(std::vector<FileToWrite>{{folder / "a", {"one ", "two"}},
+                                       {folder / "sub" / "b", {large, "y"}},
+                                       {folder / "sub" / "c", {}}});
+  EXPECT_EQ(read_file(folder / "a"), "one two");
+  EXPECT_EQ(read_file(folder / "sub" / "b"), large + "y");
+  EXPECT_EQ(read_file(folder / "sub" / "c"), "");
+  EXPECT_EQ(entries_in(folder / "sub"), 2U);
+}
+
+TEST(WriteFiles, OneThatCannotBeCreatedLeavesNoneUnfinished) {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "old");
+  expect_error(ExitCode::kCannotCreate, {"missing"}, [&] {
+    write_files(std::vector<FileToWrite>{{folder / "a", {"new"}},
+                                         {folder.path() / "missing" / "b", {"new"}}});
+  });
+  EXPECT_EQ(read_file(folder / "a"), "old");
+  EXPECT_EQ(entries_in(folder.path()), 1U);
+}
+
 TEST(ReadFile, NamesWhatIsMissing) {
   const TemporaryFolder folder;
   expect_error(ExitCode::kMissingInput, {"none.obj"}, [&] { read_file(folder / "none.obj"); });
