@@ -36,9 +36,8 @@ std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vert
   }
   std::vector<bool> left_out;
   for (const Triangle& triangle : triangles) {
-    left_out.push_back(std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
-      return around[vertex] > kMostAround;
-    }));
+    left_out.push_back(std::ranges::any_of(
+        triangle, [&](std::uint32_t vertex) { return around[vertex] > kMostAround; }));
   }
   return left_out;
 }
@@ -184,7 +183,7 @@ std::vector<TrianglePair> TriangleScene::near_pairs() const {
   rtcCollide(embree_->scene.get(), embree_->scene.get(), keep_pairs, &collector);
   embree_->geometry.after.take();
   embree_->throw_if_failed();
-  std::sort(collector.found.begin(), collector.found.end());
+  std::ranges::sort(collector.found);
   collector.found.erase(std::unique(collector.found.begin(), collector.found.end()),
                         collector.found.end());
   return std::move(collector.found);
