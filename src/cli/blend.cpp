@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"

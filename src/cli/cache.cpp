@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"

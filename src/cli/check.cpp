@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
 
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
@@ -40,9 +39,9 @@ void describe(const Job& job) {
       job.config.file.string(), " is fine\n", "heads       ", job.names.heads.size(), ": ",
       join(job.names.heads), "\ntopology    ", inputs.faces.topology.vertex_count, " vertices, ",
       inputs.faces.topology.face_count(), " faces, ", inputs.components.count(), " components, ",
-      std::count(boundary.begin(), boundary.end(), true), " vertices on open rims\n",
-      "edges       ", format_fixed(inputs.edge_length_mm, 3), " mm (rms, on the skin)\n",
-      "smoothing   up to ", inputs.max_level, " iterations, a size of ",
+      std::ranges::count(boundary, true), " vertices on open rims\n", "edges       ",
+      format_fixed(inputs.edge_length_mm, 3), " mm (rms, on the skin)\n", "smoothing   up to ",
+      inputs.max_level, " iterations, a size of ",
       format_fixed(
           size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm), 1),
       " mm\n", "parts       ", describe_parts(job.config, inputs), "\nsymmetry    ",

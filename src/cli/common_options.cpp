@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <system_error>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/memory.h"
@@ -30,7 +30,7 @@ bool begins_like_a_log(const std::string& path) {
   constexpr std::string_view kForm = "dddd-dd-ddT";
   std::ifstream stream(path);
   if (stream.peek() == std::ifstream::traits_type::eof()) return true;
-  return std::all_of(kForm.begin(), kForm.end(), [&](char form) {
+  return std::ranges::all_of(kForm, [&](char form) {
     const int found = stream.get();
     return form == 'd' ? found >= '0' && found <= '9' : found == form;
   });
@@ -38,8 +38,7 @@ bool begins_like_a_log(const std::string& path) {
 
 void open_log(const std::string& path) {
   const std::filesystem::path file = output_file(path);
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored) && !begins_like_a_log(file)) {
+  if (is_there(file) && !begins_like_a_log(file)) {
     throw CannotCreate(
         concat(path, ": --log-file: expected a log, or no file yet, found another file"));
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/head_files.h"
 
-#include <system_error>
 #include <utility>
 
 #include "crowdface/core/file.h"
@@ -14,11 +13,7 @@
 namespace crowdface::cli {
 
 HeadFile text_file(const std::filesystem::path& path, std::string text) {
-  return {path, [text = std::move(text)] {
-            EncodedFile file;
-            file.add(text);
-            return file;
-          }};
+  return {path, [text = std::move(text)] { return text; }};
 }
 
 void write_head_files(const std::string& what, const std::vector<HeadFile>& files, bool replace) {
@@ -26,8 +21,7 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
   Problems problems;
   std::vector<const HeadFile*> missing;
   for (const HeadFile& file : files) {
-    std::error_code ignored;
-    const bool there = std::filesystem::exists(file.path, ignored);
+    const bool there = is_there(file.path);
     if (there) output_file(file.path);
     if (replace || !there) {
       missing.push_back(&file);

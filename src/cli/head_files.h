@@ -16,7 +16,6 @@ struct HeadFile {
   std::function<EncodedFile()> make;
 };
 
-/// A file with this text.
 HeadFile text_file(const std::filesystem::path& path, std::string text);
 
 /// Writes those that are not there yet, one after the other, with their folders. Those that are there

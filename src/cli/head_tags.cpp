@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/head_tags.h"
 
-#include <algorithm>
-
 #include "crowdface/core/text.h"
 
 namespace crowdface::cli {

@@ -176,11 +176,8 @@ void import_ict(const Options& options, const Wanted& wanted) {
       find_material_files(model.file().path, model.file().material_libraries);
   for (const std::string& warning : materials.warnings) log_warning(warning);
   for (const MaterialFile& material : materials.files) {
-    files.push_back({wanted.directory / material.relative, [from = material.from] {
-                       EncodedFile copy;
-                       copy.add(read_file(from));
-                       return copy;
-                     }});
+    files.push_back(
+        {wanted.directory / material.relative, [from = material.from] { return read_file(from); }});
   }
   add_masks(masks, "ict", wanted, files);
   write_head_files("ict heads", files, options.force);

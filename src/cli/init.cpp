@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <system_error>
 
 #include "crowdface/config/input_files.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/length_units.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
 #include "crowdface/heads/load_inputs.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
@@ -40,8 +39,7 @@ bool has_three_bands(const fs::path& image) {
 /// The mask of three bands that `synth` and `import` put beside heads; empty if there is none.
 std::string mask_beside(const fs::path& heads) {
   for (const char* name : {"regions.png", "makehuman_bands.png", "ict_bands.png"}) {
-    std::error_code ignored;
-    if (fs::is_regular_file(heads / name, ignored) && has_three_bands(heads / name)) return name;
+    if (is_file(heads / name) && has_three_bands(heads / name)) return name;
   }
   const char* tiles = "ict_bands.<UDIM>.png";
   const std::vector<fs::path> files = find_tiles(heads / tiles);
@@ -51,8 +49,7 @@ std::string mask_beside(const fs::path& heads) {
 /// What tags.yaml beside the heads says of them, as `synth --tags` and `import` write it.
 std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
     const fs::path& heads, const std::vector<std::string>& names) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(heads / "tags.yaml", ignored)) return {};
+  if (!is_file(heads / "tags.yaml")) return {};
   Complaints complaints;
   const auto root = read_yaml((heads / "tags.yaml").string(), complaints);
   const YamlEntry* faces = root ? root->find("faces") : nullptr;
@@ -64,8 +61,8 @@ std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
     std::vector<std::string> words;
     for (const YamlNode& item : list->value.items) {
       const auto is_item = [&](const std::string& word) { return word == item.text; };
-      if (is_name(item.text) && std::none_of(words.begin(), words.end(), is_item) &&
-          std::none_of(names.begin(), names.end(), is_item)) {
+      if (is_name(item.text) && std::ranges::none_of(words, is_item) &&
+          std::ranges::none_of(names, is_item)) {
         words.push_back(item.text);
       }
     }
@@ -126,8 +123,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
 std::string attachments_beside(const fs::path& heads, const fs::path& config_folder,
                                const StarterFacts& facts) {
   const fs::path file = heads / "attachments/attachments.yaml";
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return {};
+  if (!is_file(file)) return {};
   Complaints complaints;
   const auto root = read_yaml(file.string(), complaints);
   const YamlEntry* section = root ? root->find("attachments") : nullptr;
@@ -149,8 +145,7 @@ std::string attachments_beside(const fs::path& heads, const fs::path& config_fol
 }
 
 void refuse_existing(const fs::path& file, bool force) {
-  std::error_code ignored;
-  if (!force && fs::exists(file, ignored)) {
+  if (!force && is_there(file)) {
     throw UsageError(concat(file.string(), ": exists already; --force replaces it"));
   }
 }

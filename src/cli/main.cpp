@@ -114,7 +114,7 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  if (std::ranges::find(names, argv[1]) != names.end()) return;
   const auto nearest = nearest_word(argv[1], names);
   throw UsageError(concat("there is no command ", quoted(argv[1]),
                           nearest ? concat("; did you mean ", *nearest, "?")

@@ -121,7 +121,7 @@ void dye(Picture& picture, const std::string& colour) {
   }
 }
 
-EncodedFile encoded(const Picture& picture) {
+std::string encoded(const Picture& picture) {
   const std::size_t channels = picture.has_alpha ? 4 : 3;
   std::vector<std::uint8_t> pixels;
   pixels.reserve(picture.texels.size() * channels);
@@ -129,17 +129,13 @@ EncodedFile encoded(const Picture& picture) {
     pixels.insert(pixels.end(), texel.begin(),
                   texel.begin() + static_cast<std::ptrdiff_t>(channels));
   }
-  EncodedFile file;
-  file.add(encode_png(picture.width, picture.height, static_cast<int>(channels), pixels));
-  return file;
+  return encode_png(picture.width, picture.height, static_cast<int>(channels), pixels);
 }
 
-EncodedFile encoded_alpha(const Picture& picture) {
+std::string encoded_alpha(const Picture& picture) {
   std::vector<std::uint8_t> pixels;
   for (const auto& texel : picture.texels) pixels.push_back(texel[3]);
-  EncodedFile file;
-  file.add(encode_png(picture.width, picture.height, 1, pixels));
-  return file;
+  return encode_png(picture.width, picture.height, 1, pixels);
 }
 
 HeadFile picture_file(const fs::path& path, const fs::path& from, int most_texels) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
-#include <system_error>
 
 #include "crowdface/config/config_reader.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
-#include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/load_inputs.h"
 #include "crowdface/paint/proposed_masks.h"
@@ -84,9 +83,8 @@ void mask(const Options& options) {
   if (out.extension() != ".png") {
     throw UsageError(concat("-o: expected a PNG file, found ", quoted(options.out)));
   }
-  std::error_code ignored;
-  const Wanted wanted = fs::is_directory(options.heads, ignored) ? heads_of_folder(options.heads)
-                                                                 : heads_of_config(options.heads);
+  const Wanted wanted =
+      is_folder(options.heads) ? heads_of_folder(options.heads) : heads_of_config(options.heads);
   Problems problems;
   const auto faces = load_faces(wanted.faces, options.cache.cache_path(), problems);
   problems.throw_if_any();

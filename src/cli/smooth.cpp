@@ -31,14 +31,11 @@ struct Options : CommonOptions {
 /// "500,2500" as levels, each once.
 std::vector<std::uint64_t> levels_of(const std::string& text) {
   std::vector<std::uint64_t> levels;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    levels.push_back(
-        whole_number("--iterations", text.substr(begin, comma - begin), 0, kMaxIterations));
-    if (std::count(levels.begin(), levels.end(), levels.back()) > 1) {
+  for (const std::string_view level : split(text, ',')) {
+    levels.push_back(whole_number("--iterations", std::string(level), 0, kMaxIterations));
+    if (std::ranges::count(levels, levels.back()) > 1) {
       throw UsageError(concat("--iterations: ", levels.back(), " is named twice"));
     }
-    begin = comma + 1;
   }
   return levels;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <iostream>
-#include <memory>
 #include <thread>
 
 #include <unistd.h>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
-#include <memory>
 
 #include <spawn.h>
 #include <sys/wait.h>

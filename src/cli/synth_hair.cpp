@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/synth_hair.h"
 
-#include <algorithm>
-
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/synth/complexion.h"
@@ -76,11 +74,8 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
       const std::string picture = picture_name(std::string(colour.name), curly);
       if (!pictures.contains(picture)) continue;
       files.push_back({folder / "textures" / picture, [&colour, curly] {
-                         EncodedFile file;
-                         file.add(
-                             encode_png(kPictureSize, kPictureSize, 4,
-                                        synth::hair_picture(kPictureSize, colour.colour, curly)));
-                         return file;
+                         return encode_png(kPictureSize, kPictureSize, 4,
+                                           synth::hair_picture(kPictureSize, colour.colour, curly));
                        }});
     }
   }

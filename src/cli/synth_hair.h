@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "crowdface/io/obj_writer.h"
@@ -30,9 +30,7 @@ class SynthHair {
   struct Wish {
     bool female, curly;
     std::string colour;
-    bool operator<(const Wish& other) const {
-      return std::tie(female, curly, colour) < std::tie(other.female, other.curly, other.colour);
-    }
+    auto operator<=>(const Wish&) const = default;
   };
   std::set<Wish> wishes_;
 };

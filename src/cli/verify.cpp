@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/crowd/verify.h"
 
-#include <memory>
-
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 

@@ -5,7 +5,6 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/folder.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
@@ -36,8 +35,7 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
   Task task{scan, scan, head, reports / concat(name, ".wrap.json"),
             reports / concat(name, ".wrap.png")};
   task.own_landmarks.replace_extension(".yaml");
-  std::error_code ignored;
-  if (!fs::exists(task.own_landmarks, ignored)) task.own_landmarks.clear();
+  if (!is_there(task.own_landmarks)) task.own_landmarks.clear();
   return task;
 }
 
@@ -74,8 +72,7 @@ Digest inputs_of(const WrapInputs& shared, const Task& task) {
 
 /// Whether a report proves that just this head was made from just these inputs.
 bool is_done(const Task& task, const Digest& inputs) {
-  std::error_code ignored;
-  if (!fs::exists(task.report, ignored) || !fs::exists(task.head, ignored)) return false;
+  if (!is_there(task.report) || !is_there(task.head)) return false;
   const std::string report = read_file(task.report);
   return report.find(concat("\"inputs\": \"", inputs.hex(), '"')) != std::string::npos &&
          report.find(concat("\"mesh\": \"", hash_file(task.head).digest.hex(), '"')) !=

@@ -5,11 +5,11 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/length_units.h"
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/pick/proposed_landmarks.h"
 #include "crowdface/region/region_weights.h"
@@ -110,7 +110,7 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
       folder,
       [&](const fs::path& path) {
         const std::string ending = lower_case(path.extension().string());
-        return std::find(endings.begin(), endings.end(), ending) != endings.end();
+        return std::ranges::find(endings, ending) != endings.end();
       },
       &error);
   if (error) throw MissingInput(concat(folder.string(), ": cannot be read: ", error.message()));

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "crowdface/config/config_keys.h"
-#include "crowdface/config/config_writer.h"
 #include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
@@ -54,12 +53,7 @@ void read_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
   if (!tags) return;
   item.tags = *tags;
-  const auto& of_heads = draft.config.faces.tags;
-  const bool any = std::any_of(of_heads.begin(), of_heads.end(), [&](const auto& of_head) {
-    return std::all_of(tags->begin(), tags->end(), [&](const std::string& tag) {
-      return std::find(of_head.begin(), of_head.end(), tag) != of_head.end();
-    });
-  });
+  const bool any = !heads_with(*tags, draft.config.faces).empty();
   if (!any && draft.heads_known && draft.tags_known) {
     draft.complaints.about(node,
                            "no head has all of these tags, so that no face would ever get it");
@@ -81,15 +75,8 @@ const Keys<Attachment>& item_keys() {
   const auto write_tags = [](const Attachment& item, const ConfigWriting&) {
     return item.tags.empty() ? "" : flow_names(item.tags);
   };
-  Key<Attachment> excludes =
-      of_item("excludes", &AttachmentItem::excludes, names("a list of kinds and names, [hair]"));
-  excludes.write = [write = excludes.write](const Attachment& item, const ConfigWriting& writing) {
-    return item.excludes.empty() ? "" : write(item, writing);
-  };
-  Key<Attachment> colour = of_item("colour", &AttachmentItem::colour, name());
-  colour.write = [](const Attachment& item, const ConfigWriting&) {
-    return item.colour.empty() ? "" : write_scalar(item.colour);
-  };
+  const auto has_colour = [](const Attachment& item, const auto&) { return !item.colour.empty(); };
+  const auto excludes = [](const Attachment& item, const auto&) { return !item.excludes.empty(); };
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
@@ -97,8 +84,9 @@ const Keys<Attachment>& item_keys() {
       {"tags", read_tags, write_tags},
       word_key("moves", &Attachment::moves),
       of_item("share", &AttachmentItem::share, number(0, kMostShare)),
-      colour,
-      excludes};
+      of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
+      of_item("excludes", &AttachmentItem::excludes, names("a list of kinds and names, [hair]"))
+          .written_if(excludes)};
   return keys;
 }
 
@@ -107,14 +95,13 @@ bool is_taken(const std::string& name, const Config& config) {
   const auto& shapes = config.shapes.names;
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
-  return is_level || name == "shapes" ||
-         std::find(shapes.begin(), shapes.end(), name) != shapes.end();
+  return is_level || name == "shapes" || std::ranges::find(shapes, name) != shapes.end();
 }
 
 void check_item(const YamlNode& node, const Attachment& item, ConfigDraft& draft) {
   const auto& items = draft.config.attachments.items;
   const auto same_name = [&](const Attachment& other) { return other.name == item.name; };
-  if (std::any_of(items.begin(), items.end(), same_name)) {
+  if (std::ranges::any_of(items, same_name)) {
     draft.complaints.about(node, concat("two attachments are called ", quoted(item.name)));
   } else if (is_taken(item.name, draft.config)) {
     draft.complaints.about(node, concat("faces have other files that are called ",
@@ -148,7 +135,7 @@ std::string write_items(const Attachments& attachments, const ConfigWriting& wri
 std::vector<std::string> kinds_of(const Attachments& attachments) {
   std::vector<std::string> kinds;
   for (const Attachment& item : attachments.items) {
-    if (std::find(kinds.begin(), kinds.end(), item.kind) == kinds.end()) {
+    if (std::ranges::find(kinds, item.kind) == kinds.end()) {
       kinds.push_back(item.kind);
     }
   }
@@ -160,7 +147,7 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   const std::vector<std::string> kinds = kinds_of(attachments);
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
-    if (std::find(kinds.begin(), kinds.end(), entry.key) == kinds.end()) {
+    if (std::ranges::find(kinds, entry.key) == kinds.end()) {
       draft.complaints.about(entry.value, concat("no attachment is of the kind ", quoted(entry.key),
                                                  suggestion(entry.key, kinds)));
     } else if (share) {
@@ -171,8 +158,8 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
 
 /// The kind that a quota of this word is of: that of the first item which is called so.
 const Attachment* first_called(const Attachments& attachments, const std::string& word) {
-  const auto found = std::find_if(attachments.items.begin(), attachments.items.end(),
-                                  [&](const Attachment& item) { return is_called(item, word); });
+  const auto found = std::ranges::find_if(
+      attachments.items, [&](const Attachment& item) { return is_called(item, word); });
   return found == attachments.items.end() ? nullptr : &*found;
 }
 
@@ -252,7 +239,7 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
     const YamlEntry* excludes = item.find("excludes");
     if (excludes == nullptr) continue;
     for (const YamlNode& name : excludes->value.items) {
-      if (std::find(known.begin(), known.end(), name.text) != known.end()) continue;
+      if (std::ranges::find(known, name.text) != known.end()) continue;
       draft.complaints.about(name, concat("no attachment is called ", quoted(name.text),
                                           " or of that kind", suggestion(name.text, known)));
     }

@@ -30,8 +30,7 @@ std::string write_mask(const Config::Distance& distance, const ConfigWriting& wr
 
 bool is_target(Eigen::Index head, const ConfigDraft& draft) {
   const auto& targets = draft.config.sampling.targets;
-  return std::any_of(targets.begin(), targets.end(),
-                     [&](const WeightedHead& target) { return target.head == head; });
+  return std::ranges::find(targets, head, &WeightedHead::head) != targets.end();
 }
 
 /// No head may count for two quotas of one kind: the shares of both could not be kept apart.
@@ -39,7 +38,7 @@ void refuse_shared_heads(const YamlEntry& entry, const Quota& quota, ConfigDraft
   for (const Quota& other : draft.config.diversity.quotas) {
     if (other.band != quota.band) continue;
     for (const Eigen::Index head : quota.heads) {
-      if (std::find(other.heads.begin(), other.heads.end(), head) == other.heads.end()) continue;
+      if (std::ranges::find(other.heads, head) == other.heads.end()) continue;
       const std::string& name = draft.config.faces.names[static_cast<std::size_t>(head)];
       draft.complaints.add(entry.key_place,
                            concat(entry.value.path, ": the head ", quoted(name), " counts for ",
@@ -56,9 +55,7 @@ const Keys<Quota>& quota_keys() {
        [](const YamlNode& node, Quota& quota, ConfigDraft& draft) {
          const auto name = read_name(node, draft.complaints);
          const auto& bands = draft.config.sampling.bands;
-         const auto band = std::find_if(bands.begin(), bands.end(), [&](const BandSampling& other) {
-           return other.name == name;
-         });
+         const auto band = std::ranges::find(bands, name, &BandSampling::name);
          if (band != bands.end()) {
            quota.band = static_cast<std::size_t>(band - bands.begin());
          } else if (name) {
@@ -75,9 +72,8 @@ const Keys<Quota>& quota_keys() {
 /// Heads of a band's quotas, or of those of targets.
 bool counts_for_any(const std::vector<Quota>& quotas, std::optional<std::size_t> band,
                     Eigen::Index head) {
-  return std::any_of(quotas.begin(), quotas.end(), [&](const Quota& quota) {
-    return quota.band == band &&
-           std::find(quota.heads.begin(), quota.heads.end(), head) != quota.heads.end();
+  return std::ranges::any_of(quotas, [&](const Quota& quota) {
+    return quota.band == band && std::ranges::find(quota.heads, head) != quota.heads.end();
   });
 }
 
@@ -93,10 +89,9 @@ void refuse_nothing_left(const YamlNode& node, ConfigDraft& draft) {
   const SamplingOptions& sampling = draft.config.sampling;
   const auto& targets = sampling.targets;
   const double total = total_share(quotas, std::nullopt);
-  const bool targets_left =
-      std::any_of(targets.begin(), targets.end(), [&](const WeightedHead& target) {
-        return !counts_for_any(quotas, std::nullopt, target.head);
-      });
+  const bool targets_left = std::ranges::any_of(targets, [&](const WeightedHead& target) {
+    return !counts_for_any(quotas, std::nullopt, target.head);
+  });
   if (!targets.empty() && !targets_left && total < 1 - kShareRounding) {
     draft.complaints.about(
         node, concat("the shares sum to ", total,
@@ -106,8 +101,8 @@ void refuse_nothing_left(const YamlNode& node, ConfigDraft& draft) {
     const auto& sources = sources_of(sampling, b);
     const double of_band = total_share(quotas, b);
     if (of_band == 0 || of_band > 1 - kShareRounding || sources.empty()) continue;
-    if (std::any_of(sources.begin(), sources.end(),
-                    [&](Eigen::Index head) { return !counts_for_any(quotas, b, head); })) {
+    if (std::ranges::any_of(sources,
+                            [&](Eigen::Index head) { return !counts_for_any(quotas, b, head); })) {
       continue;
     }
     draft.complaints.about(
@@ -118,10 +113,10 @@ void refuse_nothing_left(const YamlNode& node, ConfigDraft& draft) {
 
 /// Whether any of its heads may be what it binds.
 bool can_be_met(const Quota& quota, const ConfigDraft& draft) {
-  return std::any_of(quota.heads.begin(), quota.heads.end(), [&](Eigen::Index head) {
+  return std::ranges::any_of(quota.heads, [&](Eigen::Index head) {
     if (!quota.band) return is_target(head, draft);
     const auto& sources = sources_of(draft.config.sampling, *quota.band);
-    return std::find(sources.begin(), sources.end(), head) != sources.end();
+    return std::ranges::find(sources, head) != sources.end();
   });
 }
 
@@ -164,16 +159,6 @@ std::string write_quotas(const DiversityOptions& diversity, const ConfigWriting&
     quotas.push_back(entry(write_scalar(quota.name), value));
   }
   return flow_map(quotas);
-}
-
-Codec<double> max_weight() {
-  Codec<double> codec = number(0, 1);
-  codec.read = [read = codec.read](const YamlNode& node, ConfigDraft& draft) {
-    const auto weight = read(node, draft);
-    if (weight == 0.0) draft.complaints.expected(node, "a number above 0, up to 1");
-    return weight;
-  };
-  return codec;
 }
 
 const Keys<BelievabilityOptions>& believability_keys() {
@@ -219,7 +204,8 @@ const Keys<DiversityOptions>& diversity_keys() {
                        "that person."}),
       key("min_distance_to_rejected", &Diversity::min_distance_to_rejected_mm,
           length(kMaxDistance)),
-      key("max_weight", &Diversity::max_weight, max_weight()),
+      key("max_weight", &Diversity::max_weight,
+          above_zero(number(0, 1), "a number above 0, up to 1")),
       {"quotas", read_quotas, write_quotas},
       key("candidates", &Diversity::candidates, whole(1, kMostCandidates)),
       key("pool", &Diversity::pool, whole(1, kLargestPool)),

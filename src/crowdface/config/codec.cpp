@@ -35,17 +35,14 @@ Codec<double> fraction() {
 
 /// A size that smoothing reaches.
 Codec<double> relief_size() {
-  Codec<double> codec = length(1e9);
-  codec.read = [=, length = codec.read](const YamlNode& node, ConfigDraft& draft) {
-    auto size = length(node, draft);
+  return such_that(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;
     const bool bounded = draft.smoothing_known && !smoothing.max_iterations;
-    if (!size || !bounded || *size <= smoothing.max_size_mm) return size;
+    if (!bounded || size <= smoothing.max_size_mm) return true;
     draft.complaints.expected(
         node, concat("a size up to smoothing.max_size, ", smoothing.max_size_mm, " mm"));
-    return std::optional<double>();
-  };
-  return codec;
+    return false;
+  });
 }
 
 /// Kept as a number; written whole: 1e+07 is no whole number to the reader.
@@ -84,13 +81,14 @@ Codec<double> length(double high_mm) {
 }
 
 Codec<double> positive_length(double high_mm) {
-  Codec<double> codec = length(high_mm);
-  codec.read = [length = codec.read](const YamlNode& node, ConfigDraft& draft) {
-    const auto value = length(node, draft);
-    if (value == 0.0) draft.complaints.expected(node, "a length above 0 mm");
-    return value;
-  };
-  return codec;
+  return above_zero(length(high_mm), "a length above 0 mm");
+}
+
+Codec<double> above_zero(const Codec<double>& codec, const std::string& expected) {
+  return such_that(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
+    if (value == 0) draft.complaints.expected(node, expected);
+    return value != 0;
+  });
 }
 
 Codec<Range> range(const Codec<double>& one) {
@@ -105,18 +103,15 @@ Codec<Range> range(const Codec<double>& one) {
 }
 
 Codec<Range> age() {
-  Codec<Range> codec = range(number(-1, 1));
-  codec.read = [read = codec.read](const YamlNode& node, ConfigDraft& draft) {
-    const auto range = read(node, draft);
-    const auto need = [&](bool needed, const std::vector<Eigen::Index>& heads, const char* tag) {
-      if (!needed || !heads.empty() || !draft.tags_known || !draft.heads_known) return;
+  return such_that(range(number(-1, 1)), [](Range age, const YamlNode& node, ConfigDraft& draft) {
+    const auto has = [&](const std::vector<Eigen::Index>& heads, const char* tag) {
+      if (!heads.empty() || !draft.tags_known || !draft.heads_known) return true;
       draft.complaints.about(node, concat("no head is tagged ", tag, " under faces.tags"));
+      return false;
     };
-    need(range && range->high > 0, draft.config.sampling.old_heads, "old");
-    need(range && range->low < 0, draft.config.sampling.young_heads, "young");
-    return range;
-  };
-  return codec;
+    const bool has_old = age.high <= 0 || has(draft.config.sampling.old_heads, "old");
+    return (age.low >= 0 || has(draft.config.sampling.young_heads, "young")) && has_old;
+  });
 }
 
 Codec<Range> asymmetry() {
@@ -128,25 +123,26 @@ Codec<Range> extrapolation() {
 }
 
 Codec<SmoothnessDistribution> smoothness() {
-  return {
-      [fractions = range(fraction()), sizes = range(relief_size())](
-          const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
-        const bool is_list = node.kind == YamlNode::Kind::kList && !node.items.empty();
-        const bool size = is_size(is_list ? node.items[0] : node);
-        if (is_list && std::any_of(node.items.begin(), node.items.end(),
-                                   [&](const YamlNode& item) { return is_size(item) != size; })) {
-          draft.complaints.about(node, "expected two fractions or two sizes, found one of each");
-          return std::nullopt;
-        }
-        const auto range = (size ? sizes : fractions).read(node, draft);
-        if (!range) return std::nullopt;
-        return SmoothnessDistribution{size ? Unit::kSize : Unit::kFraction, *range};
-      },
-      [fractions = range(fraction()), sizes = range(relief_size())](
-          const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
-        return (smoothness.unit == Unit::kSize ? sizes : fractions)
-            .write(smoothness.range, writing);
-      }};
+  return {[fractions = range(fraction()), sizes = range(relief_size())](
+              const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
+            const bool is_list = node.kind == YamlNode::Kind::kList && !node.items.empty();
+            const bool size = is_size(is_list ? node.items[0] : node);
+            if (is_list && std::ranges::any_of(node.items, [&](const YamlNode& item) {
+                  return is_size(item) != size;
+                })) {
+              draft.complaints.about(node,
+                                     "expected two fractions or two sizes, found one of each");
+              return std::nullopt;
+            }
+            const auto range = (size ? sizes : fractions).read(node, draft);
+            if (!range) return std::nullopt;
+            return SmoothnessDistribution{size ? Unit::kSize : Unit::kFraction, *range};
+          },
+          [fractions = range(fraction()), sizes = range(relief_size())](
+              const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
+            return (smoothness.unit == Unit::kSize ? sizes : fractions)
+                .write(smoothness.range, writing);
+          }};
 }
 
 Codec<SmoothnessDistribution> iterations() {

@@ -35,6 +35,8 @@ Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high);
 /// A length in millimetres from 0, or above it.
 Codec<double> length(double high_mm);
 Codec<double> positive_length(double high_mm);
+/// What this one reads but for 0. \param expected  "a number above 0".
+Codec<double> above_zero(const Codec<double>& codec, const std::string& expected);
 /// One value, or [low, high].
 Codec<Range> range(const Codec<double>& one);
 Codec<Range> asymmetry();      ///< from 0
@@ -53,6 +55,17 @@ Codec<PlanePoint> point();
 std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing);
 /// A path, relative to the config's folder; `expected` as in "a folder".
 Codec<std::filesystem::path> path(const std::string& expected);
+
+/// The values of a codec that fit. \param fits  whether (value, node, draft) does; complains if not.
+template <class Value, class Fits>
+Codec<Value> such_that(Codec<Value> codec, const Fits& fits) {
+  codec.read = [=, read = std::move(codec.read)](const YamlNode& node, ConfigDraft& draft) {
+    auto value = read(node, draft);
+    if (value && !fits(*value, node, draft)) value.reset();
+    return value;
+  };
+  return codec;
+}
 
 /// One of the words of the type.
 template <class Value>

@@ -38,8 +38,8 @@ void Complaints::tell(Problems& problems) const {
   const auto key = [](const Complaint& c) {
     return std::tuple(c.place.line == 0, c.place.line, c.place.column);
   };
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](const Complaint& a, const Complaint& b) { return key(a) < key(b); });
+  std::ranges::stable_sort(sorted,
+                           [&](const Complaint& a, const Complaint& b) { return key(a) < key(b); });
   for (std::size_t i = 0; i < std::min(sorted.size(), kMostTold); ++i) {
     problems.add(sorted[i].kind, concat(sorted[i].place.text(), ": ", sorted[i].what));
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/config_difference.h"
 
-#include <algorithm>
-
 #include "crowdface/config/yaml.h"
 
 namespace crowdface {

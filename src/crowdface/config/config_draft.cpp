@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/config/config_values.h"
+#include "crowdface/core/file.h"
 
 namespace crowdface {
 
@@ -14,8 +15,7 @@ std::filesystem::path resolve(const std::filesystem::path& folder, const std::st
 
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what) {
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) return true;
+  if (is_there(file)) return true;
   draft.complaints.about(node, concat(what, quoted(file.string()), " is missing"),
                          ExitCode::kMissingInput);
   return false;
@@ -24,13 +24,28 @@ bool expect_file(const YamlNode& node, const std::filesystem::path& file, Config
 std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& place,
                                       const std::string& path, ConfigDraft& draft) {
   const auto& names = draft.config.faces.names;
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found != names.end()) return found - names.begin();
   if (draft.heads_known) {
     draft.complaints.add(
         place, concat(path, ": no head is called ", quoted(name), suggestion(name, names)));
   }
   return std::nullopt;
+}
+
+bool has_tags(const std::vector<std::string>& of_head, const std::vector<std::string>& tags) {
+  return std::ranges::all_of(tags, [&](const std::string& tag) {
+    return std::ranges::find(of_head, tag) != of_head.end();
+  });
+}
+
+std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
+                                     const Config::Faces& faces) {
+  std::vector<Eigen::Index> heads;
+  for (std::size_t h = 0; h < faces.tags.size(); ++h) {
+    if (has_tags(faces.tags[h], tags)) heads.push_back(static_cast<Eigen::Index>(h));
+  }
+  return heads;
 }
 
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config) {
@@ -52,7 +67,7 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
   std::vector<std::string> known = draft.config.faces.names;
   const auto& tags = draft.config.faces.tags;
   for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i] == name || std::find(tags[i].begin(), tags[i].end(), name) != tags[i].end()) {
+    if (known[i] == name || std::ranges::find(tags[i], name) != tags[i].end()) {
       heads.push_back(static_cast<Eigen::Index>(i));
     }
   }

@@ -31,6 +31,11 @@ struct ConfigDraft {
 /// or one part. Empty if there is none of that name.
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config);
 
+bool has_tags(const std::vector<std::string>& of_head, const std::vector<std::string>& tags);
+/// The heads that have all of these tags.
+std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
+                                     const Config::Faces& faces);
+
 /// A path relative to the folder, with "a/../" taken out by its text.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 

@@ -38,14 +38,20 @@ struct Key {
   Key in_starter(const StarterLines& lines) const {
     return in_starter([=](const StarterFacts&) { return lines; });
   }
+  /// Of other sections the key is left out.
+  template <class Is>
+  Key written_if(const Is& is) const {
+    Key key = *this;
+    key.write = [is, write = write](const Section& section, const ConfigWriting& writing) {
+      return is(section, writing) ? write(section, writing) : "";
+    };
+    return key;
+  }
 };
 
 /// The keys of a section, in the order in which they are read and written.
 template <class Section>
 using Keys = std::vector<Key<Section>>;
-
-/// The keys of a config: its sections.
-const Keys<Config>& root_keys();
 
 template <class Section>
 std::vector<std::string> names_of(const Keys<Section>& keys) {
@@ -80,6 +86,17 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
     if (!value.empty()) entries.push_back(entry(key.name, value));
   }
   return entries;
+}
+
+/// A list of such sections.
+template <class Section>
+std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
+                           const ConfigWriting& writing) {
+  std::vector<std::string> items;
+  for (const Section& section : sections) {
+    items.push_back(block_map(write_keys(keys, section, writing)));
+  }
+  return block_list(items);
 }
 
 /// The keys that a starter config has, as the value of their section; empty if it has none.
@@ -176,6 +193,8 @@ std::string write_recipes(const Config& config, const ConfigWriting& writing);
 void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_groups(const Config& config, const ConfigWriting& writing);
 std::optional<StarterLines> groups_starter(const StarterFacts& facts);
+/// The ids of a family's members, and of parents who are drawn.
+std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd);
 void read_families(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_families(const Config& config, const ConfigWriting& writing);
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);

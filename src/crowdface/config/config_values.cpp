@@ -63,7 +63,7 @@ std::string indented(std::string_view text) {
 }
 
 bool has_control_character(std::string_view text) {
-  return std::any_of(text.begin(), text.end(), [](char c) {
+  return std::ranges::any_of(text, [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
   });
 }
@@ -79,7 +79,7 @@ MapReader::MapReader(const YamlNode* node, std::vector<std::string> keys, Compla
     return;
   }
   for (const YamlEntry& entry : node_->entries) {
-    if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
+    if (std::ranges::find(keys, entry.key) != keys.end()) continue;
     complaints_.add(entry.key_place, unknown_key(*node_, entry.key, keys));
   }
 }

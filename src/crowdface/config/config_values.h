@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -57,7 +56,7 @@ template <class Value>
 std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words, Complaints& out) {
   std::vector<std::string> texts;
   for (const auto& word : words) texts.emplace_back(word.text);
-  const auto found = std::find(texts.begin(), texts.end(), node.text);
+  const auto found = std::ranges::find(texts, node.text);
   if (node.kind == YamlNode::Kind::kScalar && found != texts.end()) {
     return words[static_cast<std::size_t>(found - texts.begin())].value;
   }
@@ -67,7 +66,6 @@ std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words
 
 /// Complains of items of a list that are the same text.
 void refuse_repeated(const YamlNode& list, Complaints& out);
-/// Whether it is this word.
 bool is_word(const YamlNode& node, std::string_view word);
 
 /// A list or mapping in one line, "[a, b]".

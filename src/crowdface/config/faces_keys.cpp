@@ -26,7 +26,7 @@ void add_head(const fs::path& file, const YamlNode& node, Faces& faces, ConfigDr
   } else if (name == "all" || name == "target") {
     draft.complaints.about(node, concat("no head can be called ", quoted(name),
                                         ", the word has its own meaning; rename ", shown));
-  } else if (std::find(faces.names.begin(), faces.names.end(), name) != faces.names.end()) {
+  } else if (std::ranges::find(faces.names, name) != faces.names.end()) {
     draft.complaints.about(
         node, concat("two heads are called ", quoted(name), "; the second is ", shown));
   }
@@ -81,7 +81,7 @@ std::string write_files(const Faces& faces, const ConfigWriting& writing) {
 /// A tag may not be read as a head, nor as the word for all of them.
 void check_tag(const YamlNode& node, const Faces& faces, Complaints& out) {
   const std::string& tag = node.text;
-  if (std::find(faces.names.begin(), faces.names.end(), tag) != faces.names.end()) {
+  if (std::ranges::find(faces.names, tag) != faces.names.end()) {
     out.about(node, concat("the tag ", quoted(tag), " is also the name of a head"));
   } else if (tag == "all" || tag == "target") {
     out.about(node, concat("no tag can be called ", quoted(tag)));
@@ -96,7 +96,7 @@ std::vector<std::string> read_tags_of_head(const YamlNode& node, const Faces& fa
     const auto tag = read_name(item, out);
     if (!tag) continue;
     check_tag(item, faces, out);
-    if (std::find(tags.begin(), tags.end(), *tag) != tags.end()) {
+    if (std::ranges::find(tags, *tag) != tags.end()) {
       out.about(item, concat("the tag ", quoted(*tag), " is named twice"));
     }
     tags.push_back(*tag);
@@ -133,17 +133,6 @@ Codec<Axis> axis() {
             return axis;
           },
           [](const Axis& axis, const ConfigWriting&) { return name_of(axis); }};
-}
-
-std::vector<Eigen::Index> heads_tagged(const std::string& tag, const Faces& faces) {
-  std::vector<Eigen::Index> heads;
-  for (std::size_t h = 0; h < faces.tags.size(); ++h) {
-    const auto& tags = faces.tags[h];
-    if (std::find(tags.begin(), tags.end(), tag) != tags.end()) {
-      heads.push_back(static_cast<Eigen::Index>(h));
-    }
-  }
-  return heads;
 }
 
 /// In a comment: what is no head's name might end the line.
@@ -226,8 +215,8 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
     config.sampling.targets.push_back({static_cast<Eigen::Index>(h), 1});
     config.sampling.sources.push_back(static_cast<Eigen::Index>(h));
   }
-  config.sampling.old_heads = heads_tagged("old", faces);
-  config.sampling.young_heads = heads_tagged("young", faces);
+  config.sampling.old_heads = heads_with({"old"}, faces);
+  config.sampling.young_heads = heads_with({"young"}, faces);
 }
 
 Starter faces_starter() {

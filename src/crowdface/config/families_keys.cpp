@@ -35,15 +35,12 @@ bool is_drawn_parent(const std::string& id, const ConfigDraft& draft) {
   return false;
 }
 
-/// The group of that name.
 Codec<std::size_t> group() {
   return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<std::size_t> {
             const auto name = read_name(node, draft.complaints);
             if (!name) return std::nullopt;
             const auto& groups = draft.config.groups;
-            const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-              return group.name == *name;
-            });
+            const auto found = std::ranges::find(groups, *name, &Group::name);
             if (found != groups.end()) return static_cast<std::size_t>(found - groups.begin());
             draft.complaints.about(node, concat("no group is called ", quoted(*name)));
             return std::nullopt;
@@ -51,19 +48,6 @@ Codec<std::size_t> group() {
           [](std::size_t index, const ConfigWriting& writing) {
             return write_scalar(writing.config.groups[index].name);
           }};
-}
-
-/// Mothers stand on heads that are tagged as a woman's, fathers on a man's, if there are such heads.
-std::vector<Eigen::Index> targets_of(std::string_view role, const Config& config) {
-  const std::string sex = role == word_of(0) ? "female" : "male";
-  std::vector<Eigen::Index> targets;
-  for (std::size_t h = 0; h < config.faces.tags.size(); ++h) {
-    const std::vector<std::string>& tags = config.faces.tags[h];
-    if (std::find(tags.begin(), tags.end(), sex) != tags.end()) {
-      targets.push_back(static_cast<Eigen::Index>(h));
-    }
-  }
-  return targets;
 }
 
 /// \param role  "mother" or "father", after which one who is drawn is called.
@@ -78,15 +62,15 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const auto name = read_name(node, draft.complaints);
   if (!name) return std::nullopt;
   if (*name == "drawn") {
-    drawn.targets = targets_of(role, draft.config);
+    // Mothers stand on heads that are tagged as a woman's, fathers on a man's, if there are such heads.
+    drawn.targets = heads_with({role == word_of(0) ? "female" : "male"}, draft.config.faces);
     return drawn;
   }
   const auto& heads = draft.config.faces.names;
-  const auto head = std::find(heads.begin(), heads.end(), *name);
+  const auto head = std::ranges::find(heads, *name);
   if (head != heads.end()) return Parent{head - heads.begin(), *name};
   const auto& recipes = draft.config.recipes;
-  const bool known = std::any_of(recipes.begin(), recipes.end(),
-                                 [&](const HandRecipe& recipe) { return recipe.id == *name; }) ||
+  const bool known = std::ranges::find(recipes, *name, &HandRecipe::id) != recipes.end() ||
                      is_member(*name, draft) || is_drawn_parent(*name, draft);
   if (!known && draft.heads_known) {
     draft.complaints.about(node,
@@ -154,8 +138,7 @@ std::string write_inherit(const FamilyOptions& family, const ConfigWriting& writ
 
 void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
   const auto& families = draft.config.families;
-  if (std::any_of(families.begin(), families.end(),
-                  [&](const FamilyOptions& other) { return other.name == family.name; })) {
+  if (std::ranges::find(families, family.name, &FamilyOptions::name) != families.end()) {
     draft.complaints.about(node, concat("two families are called ", quoted(family.name)));
   }
   if (family.name.find_first_not_of("0123456789") == std::string::npos) {
@@ -166,19 +149,10 @@ void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& 
 }
 
 void refuse_taken_ids(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
-  std::vector<std::string> ids;
-  for (int m = 1; m <= family.members; ++m) {
-    ids.push_back(member_id(draft.config.crowd.name, family.name, m));
-  }
-  for (const Parent& parent : family.parents) {
-    if (parent.drawn) ids.push_back(parent_id(draft.config.crowd.name, parent));
-  }
-  for (const std::string& id : ids) {
-    for (const HandRecipe& recipe : draft.config.recipes) {
-      if (recipe.id == id) {
-        draft.complaints.about(node, concat("the recipe ", quoted(id), " is called like a member"));
-      }
-    }
+  const auto& recipes = draft.config.recipes;
+  for (const std::string& id : ids_of(family, draft.config.crowd.name)) {
+    if (std::ranges::find(recipes, id, &HandRecipe::id) == recipes.end()) continue;
+    draft.complaints.about(node, concat("the recipe ", quoted(id), " is called like a member"));
   }
 }
 
@@ -193,16 +167,23 @@ const Keys<FamilyOptions>& family_keys() {
       {"inherit", read_inherit, write_inherit},
       key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistance)),
       key("min_distance", &Family::min_distance_mm, length(kMaxDistance)),
-      {"twins",
-       [](const YamlNode& node, Family& family, ConfigDraft& draft) {
-         family.twins = word<bool>().read(node, draft).value_or(false);
-       },
-       [](const Family& family, const auto&) { return family.twins ? "true" : ""; }},
+      word_key("twins", &Family::twins).written_if([](const Family& family, const auto&) {
+        return family.twins;
+      }),
       key("age", &Family::age, age())};
   return keys;
 }
 
 }  // namespace
+
+std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd) {
+  std::vector<std::string> ids;
+  for (int m = 1; m <= family.members; ++m) ids.push_back(member_id(crowd, family.name, m));
+  for (const Parent& parent : family.parents) {
+    if (parent.drawn) ids.push_back(parent_id(crowd, parent));
+  }
+  return ids;
+}
 
 void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node, "a list of families, [{name: smith, members: 6, …}]");
@@ -227,11 +208,7 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::string write_families(const Config& config, const ConfigWriting& writing) {
-  std::vector<std::string> items;
-  for (const FamilyOptions& family : config.families) {
-    items.push_back(block_map(write_keys(family_keys(), family, writing)));
-  }
-  return block_list(items);
+  return write_sections(family_keys(), config.families, writing);
 }
 
 }  // namespace crowdface

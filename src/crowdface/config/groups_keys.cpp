@@ -17,16 +17,9 @@ void read_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
   if (!tags || tags->empty()) return;
   group.sampling.targets.clear();
-  group.sampling.sources.clear();
-  const auto& of_heads = draft.config.faces.tags;
-  for (std::size_t h = 0; h < of_heads.size(); ++h) {
-    const bool has_all = std::all_of(tags->begin(), tags->end(), [&](const std::string& tag) {
-      return std::find(of_heads[h].begin(), of_heads[h].end(), tag) != of_heads[h].end();
-    });
-    if (!has_all) continue;
-    group.sampling.targets.push_back({static_cast<Eigen::Index>(h), 1});
-    group.sampling.sources.push_back(static_cast<Eigen::Index>(h));
-  }
+  group.sampling.sources = heads_with(*tags, draft.config.faces);
+  for (const Eigen::Index head : group.sampling.sources)
+    group.sampling.targets.push_back({head, 1});
   if (group.sampling.targets.empty() && draft.heads_known && draft.tags_known) {
     draft.complaints.about(node, "no head has all of these tags");
   }
@@ -35,12 +28,9 @@ void read_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
 const Keys<Group>& group_keys() {
   static const Keys<Group> keys = [] {
     constexpr std::uint64_t kMostFaces = 1'000'000;
-    Key<Group> share = key("share", &Group::share, number(0, 1));
-    share.write = [write = share.write](const Group& group, const ConfigWriting& writing) {
-      return group.count ? "" : write(group, writing);
-    };
+    const auto has_no_count = [](const Group& group, const auto&) { return !group.count; };
     Keys<Group> own = {key("name", &Group::name, name(), "such as elderly"),
-                       share,
+                       key("share", &Group::share, number(0, 1)).written_if(has_no_count),
                        key("count", &Group::count, whole(0, kMostFaces)),
                        {"tags", read_tags, [](const auto&...) { return ""; }}};
     for (const Key<SamplingOptions>& sampled : sampling_keys()) {
@@ -59,8 +49,7 @@ const Keys<Group>& group_keys() {
 
 void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   const auto& groups = draft.config.groups;
-  if (std::any_of(groups.begin(), groups.end(),
-                  [&](const Group& other) { return other.name == group.name; })) {
+  if (std::ranges::find(groups, group.name, &Group::name) != groups.end()) {
     draft.complaints.about(node, concat("two groups are called ", quoted(group.name)));
   }
   if (node.find("share") != nullptr && node.find("count") != nullptr) {
@@ -114,9 +103,8 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
   const auto mixes = [&](const std::string& tag) {  // one head alone gives one face
-    return std::count_if(facts.tags.begin(), facts.tags.end(), [&](const auto& head) {
-             return std::find(head.second.begin(), head.second.end(), tag) != head.second.end();
-           }) > 1;
+    return std::ranges::count_if(
+               facts.tags, [&](const auto& head) { return has_tags(head.second, {tag}); }) > 1;
   };
   if (facts.attachments.empty() || !mixes("female") || !mixes("male")) return std::nullopt;
   return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
@@ -127,12 +115,7 @@ std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
 }
 
 std::string write_groups(const Config& config, const ConfigWriting& writing) {
-  if (config.groups.empty()) return "";
-  std::vector<std::string> items;
-  for (const Group& group : config.groups) {
-    items.push_back(block_map(write_keys(group_keys(), group, writing)));
-  }
-  return block_list(items);
+  return config.groups.empty() ? "" : write_sections(group_keys(), config.groups, writing);
 }
 
 }  // namespace crowdface

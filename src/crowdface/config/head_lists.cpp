@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 /// `{name: weight}`: a head's own entry counts alone, the weights of several tags add up.
-std::vector<WeightedHead> read_weighted_targets(const YamlNode& node, ConfigDraft& draft) {
+std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft) {
   std::map<Eigen::Index, double> by_tag, by_name;
   for (const YamlEntry& entry : node.entries) {
     const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
@@ -30,9 +30,7 @@ std::vector<WeightedHead> read_weighted_targets(const YamlNode& node, ConfigDraf
   return targets;
 }
 
-}  // namespace
-
-std::vector<Eigen::Index> read_head_list(const YamlNode& node, ConfigDraft& draft) {
+std::vector<Eigen::Index> read_heads(const YamlNode& node, ConfigDraft& draft) {
   std::set<Eigen::Index> chosen;  // each once, ascending
   if (is_word(node, "all")) {
     for (std::size_t i = 0; i < draft.config.faces.names.size(); ++i) {
@@ -50,30 +48,38 @@ std::vector<Eigen::Index> read_head_list(const YamlNode& node, ConfigDraft& draf
   return {chosen.begin(), chosen.end()};
 }
 
-std::string write_head_list(const std::vector<Eigen::Index>& heads, const ConfigWriting& writing) {
+std::string write_heads(const std::vector<Eigen::Index>& heads, const ConfigWriting& writing) {
   if (heads.size() == writing.config.faces.names.size()) return "all";
   std::vector<std::string> items;
   for (const Eigen::Index head : heads) items.push_back(writing.head(head));
   return flow_list(items);
 }
 
-void read_targets(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
-  sampling.targets.clear();
-  if (node.kind == YamlNode::Kind::kMap && !node.entries.empty()) {
-    sampling.targets = read_weighted_targets(node, draft);
-    return;
-  }
-  for (const Eigen::Index head : read_head_list(node, draft)) sampling.targets.push_back({head, 1});
+std::vector<WeightedHead> read_weighted_heads(const YamlNode& node, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kMap && !node.entries.empty()) return read_weights(node, draft);
+  std::vector<WeightedHead> heads;
+  for (const Eigen::Index head : read_heads(node, draft)) heads.push_back({head, 1});
+  return heads;
 }
 
-std::string write_targets(const SamplingOptions& sampling, const ConfigWriting& writing) {
-  const auto& targets = sampling.targets;
-  const bool weighted = std::any_of(targets.begin(), targets.end(),
-                                    [](const WeightedHead& t) { return t.weight != 1; });
+std::string write_weighted_heads(const std::vector<WeightedHead>& targets,
+                                 const ConfigWriting& writing) {
+  const bool weighted =
+      std::ranges::any_of(targets, [](const WeightedHead& t) { return t.weight != 1; });
   if (weighted) return write_weights(targets, writing);
   std::vector<Eigen::Index> heads;
   for (const WeightedHead& target : targets) heads.push_back(target.head);
-  return write_head_list(heads, writing);
+  return write_heads(heads, writing);
+}
+
+}  // namespace
+
+Codec<std::vector<Eigen::Index>> head_list() {
+  return {read_heads, write_heads};
+}
+
+Codec<std::vector<WeightedHead>> weighted_heads() {
+  return {read_weighted_heads, write_weighted_heads};
 }
 
 }  // namespace crowdface

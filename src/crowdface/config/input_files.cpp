@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/utf8.h"
@@ -36,13 +37,12 @@ void add_shapes(const Config::Shapes& shapes, std::vector<fs::path>& files) {
 }
 
 bool is_head(const fs::path& path) {
-  std::error_code ignored;
   return mesh_format_of(path) == MeshFormat::kObj && !path.filename().string().starts_with('.') &&
-         !fs::is_directory(path, ignored);
+         !is_folder(path);
 }
 
 bool is_plain_text(std::string_view text) {
-  return is_utf8(text) && std::none_of(text.begin(), text.end(), [](char c) {
+  return is_utf8(text) && std::ranges::none_of(text, [](char c) {
            return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
          });
 }

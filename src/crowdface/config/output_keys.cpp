@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section `output`.
 #include <algorithm>
+#include <charconv>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/sheet_page_size.h"
@@ -19,8 +20,8 @@ void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
   const auto file = path("none, target, nearest, or a file or crowd folder").read(node, draft);
   if (!file) return;
   const auto& words = words_of<With>();
-  const auto word = std::find_if(words.begin(), words.end(),
-                                 [&](const Word<With>& known) { return known.text == node.text; });
+  const auto word =
+      std::ranges::find_if(words, [&](const Word<With>& known) { return known.text == node.text; });
   if (word != words.end()) {
     sheet.compare.with = word->value;
   } else {
@@ -39,23 +40,18 @@ std::string write_comparison(const Sheet& sheet, const ConfigWriting& writing) {
 
 /// "#rrggbb".
 std::optional<std::array<std::uint8_t, 3>> parse_colour(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  if (text.size() != 7) return std::nullopt;
-  std::array<std::uint8_t, 3> colour{};
-  for (std::size_t i = 0; i < 6; ++i) {
-    const char c = text[i + 1];
-    const std::size_t digit =
-        kDigits.find(c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c);
-    if (digit == kDigits.npos) return std::nullopt;
-    colour[i / 2] = static_cast<std::uint8_t>(16 * colour[i / 2] + digit);
+  std::uint32_t colour = 0;
+  const char* const end = text.data() + text.size();
+  if (text.size() != 7 || std::from_chars(text.data() + 1, end, colour, 16).ptr != end) {
+    return std::nullopt;
   }
-  return colour;
+  const auto byte = [&](unsigned shift) { return static_cast<std::uint8_t>(colour >> shift); };
+  return std::array{byte(16), byte(8), byte(0)};
 }
 
 std::string write_colour(const std::array<std::uint8_t, 3>& colour) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text = "\"#";
-  for (const std::uint8_t value : colour) text += {kDigits[value >> 4U], kDigits[value & 15U]};
+  for (const std::uint8_t value : colour) text += hex(value, 2);
   return text + '"';
 }
 
@@ -102,7 +98,7 @@ void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
   }
   if (output.lods.empty()) return;
   const auto& names = draft.config.shapes.names;
-  const auto name = std::find_if(names.begin(), names.end(), is_level_name);
+  const auto name = std::ranges::find_if(names, is_level_name);
   if (name != names.end()) {
     draft.complaints.about(node, concat("a shape is called ", *name, ", like a level of detail"));
   }

@@ -35,32 +35,23 @@ void read_weights(const YamlNode& node, Band& band, ConfigDraft& draft) {
   if (sound && sum <= 0) {
     draft.complaints.about(node, "the weights sum to zero; at least one must be above 0");
   }
-  std::sort(weights.begin(), weights.end(),
-            [](const WeightedHead& a, const WeightedHead& b) { return a.head < b.head; });
+  std::ranges::sort(weights, {}, &WeightedHead::head);
 }
 
-std::optional<Unit> unit_of(const Band& band) {
-  return band.smoothness ? std::optional(band.smoothness->unit) : std::nullopt;
+bool in_iterations(const Band& band, const ConfigWriting&) {
+  return band.smoothness && band.smoothness->unit == Unit::kIterations;
 }
 
 const Keys<Band>& band_keys() {
-  /// Both smoothness and iterations stand in one member: its unit tells which is written.
-  Key<Band> by_size = key("smoothness", &Band::smoothness, smoothness());
-  by_size.write = [write = by_size.write](const Band& band, const ConfigWriting& writing) {
-    return unit_of(band) == Unit::kIterations ? "" : write(band, writing);
-  };
-  Key<Band> by_count = key("iterations", &Band::smoothness, iterations());
-  by_count.write = [write = by_count.write](const Band& band, const ConfigWriting& writing) {
-    return unit_of(band) == Unit::kIterations ? write(band, writing) : "";
-  };
   static const Keys<Band> keys = {
       key("position", &Band::position, point()),
       {"weights", read_weights,
        [](const Band& band, const ConfigWriting& writing) {
          return band.weights.empty() ? "" : write_weights(band.weights, writing);
        }},
-      by_size,
-      by_count,
+      // Both stand in one member: its unit tells which is written.
+      key("smoothness", &Band::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
+      key("iterations", &Band::smoothness, iterations()).written_if(in_iterations),
       key("extrapolation", &Band::extrapolation, extrapolation())};
   return keys;
 }
@@ -197,11 +188,7 @@ void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::string write_recipes(const Config& config, const ConfigWriting& writing) {
-  std::vector<std::string> items;
-  for (const HandRecipe& recipe : config.recipes) {
-    items.push_back(block_map(write_keys(recipe_keys(), recipe, writing)));
-  }
-  return block_list(items);
+  return write_sections(recipe_keys(), config.recipes, writing);
 }
 
 std::optional<HandRecipe> parse_hand_recipe(std::string_view text, const std::string& source,

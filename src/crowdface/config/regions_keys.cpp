@@ -52,7 +52,7 @@ void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
   if (reserved.contains(*name)) {
     out.about(node,
               concat("no region can be called ", quoted(*name), ", the word has its own meaning"));
-  } else if (std::find(names.begin(), names.end(), *name) != names.end()) {
+  } else if (std::ranges::find(names, *name) != names.end()) {
     out.about(node, concat("the region ", quoted(*name), " is named twice"));
   }
   names.push_back(*name);

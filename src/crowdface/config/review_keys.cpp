@@ -19,12 +19,8 @@ std::vector<std::string> named_ids(const Config& config) {
   std::vector<std::string> ids;
   for (const HandRecipe& recipe : config.recipes) ids.push_back(recipe.id);
   for (const FamilyOptions& family : config.families) {
-    for (int m = 1; m <= family.members; ++m) {
-      ids.push_back(member_id(config.crowd.name, family.name, m));
-    }
-    for (const Parent& parent : family.parents) {
-      if (parent.drawn) ids.push_back(parent_id(config.crowd.name, parent));
-    }
+    const std::vector<std::string> own = ids_of(family, config.crowd.name);
+    ids.insert(ids.end(), own.begin(), own.end());
   }
   return ids;
 }
@@ -38,13 +34,12 @@ bool is_sampled_id(const std::string& id, const Config& config) {
 }
 
 bool is_recipe(const std::string& id, const Config& config) {
-  return std::any_of(config.recipes.begin(), config.recipes.end(),
-                     [&](const HandRecipe& recipe) { return recipe.id == id; });
+  return std::ranges::find(config.recipes, id, &HandRecipe::id) != config.recipes.end();
 }
 
 bool is_drawn_parent(const std::string& id, const Config& config) {
-  return std::any_of(config.families.begin(), config.families.end(), [&](const auto& family) {
-    return std::any_of(family.parents.begin(), family.parents.end(), [&](const Parent& parent) {
+  return std::ranges::any_of(config.families, [&](const auto& family) {
+    return std::ranges::any_of(family.parents, [&](const Parent& parent) {
       return parent.drawn && id == parent_id(config.crowd.name, parent);
     });
   });
@@ -74,7 +69,7 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
     }
     mark.locked.insert(mark.locked.end(), found.begin(), found.end());
   }
-  std::sort(mark.locked.begin(), mark.locked.end());
+  std::ranges::sort(mark.locked);
   mark.locked.erase(std::unique(mark.locked.begin(), mark.locked.end()), mark.locked.end());
   if (!names.empty() && mark.locked.size() == draft.config.part_names().size()) {
     draft.complaints.about(node, "with every region locked nothing is left to draw anew");
@@ -120,8 +115,8 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;
     mark.id = entry.key;
-    const bool known = std::find(ids.begin(), ids.end(), entry.key) != ids.end() ||
-                       is_sampled_id(entry.key, draft.config);
+    const bool known =
+        std::ranges::find(ids, entry.key) != ids.end() || is_sampled_id(entry.key, draft.config);
     if (!known) {
       draft.complaints.add(entry.key_place,
                            concat("no face of this crowd is called ", quoted(entry.key)));
@@ -149,7 +144,7 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
   Review review = read_marks(read_yaml(file.string(), draft.complaints), draft);
   std::string text = draft.complaints.empty() ? read_file(file) : std::string();
   std::vector<std::string>& texts = config.review.texts;
-  if (!text.empty() && std::find(texts.begin(), texts.end(), text) != texts.end()) return;
+  if (!text.empty() && std::ranges::find(texts, text) != texts.end()) return;
   config.review.files.push_back(file);
   texts.push_back(std::move(text));
   config.review.reviews.push_back(std::move(review));

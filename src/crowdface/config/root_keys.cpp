@@ -28,15 +28,12 @@ const Keys<Config::Crowd>& crowd_keys() {
 const Keys<Config::Smoothing>& smoothing_keys() {
   using Smoothing = Config::Smoothing;
   constexpr double kMaxSizeMm = 10'000;
-  constexpr double kLeastToleranceMm = 0.005;
-  Codec<double> tolerance = length(kMaxSizeMm);
-  tolerance.read = [=, length = tolerance.read](const YamlNode& node, ConfigDraft& draft) {
-    const auto value = length(node, draft);
-    if (value && *value < kLeastToleranceMm) {
-      draft.complaints.expected(node, concat("a length of at least ", kLeastToleranceMm,
-                                             " mm, what single precision can hold"));
-    }
-    return value;
+  static constexpr double kLeastToleranceMm = 0.005;
+  const auto is_held = [](double tolerance_mm, const YamlNode& node, ConfigDraft& draft) {
+    if (tolerance_mm >= kLeastToleranceMm) return true;
+    draft.complaints.expected(node, concat("a length of at least ", kLeastToleranceMm,
+                                           " mm, what single precision can hold"));
+    return false;
   };
   static const Keys<Smoothing> keys = {
       key("max_size", &Smoothing::max_size_mm, positive_length(kMaxSizeMm)),
@@ -44,7 +41,7 @@ const Keys<Config::Smoothing>& smoothing_keys() {
       word_key("boundary", &Smoothing::boundary),
       word_key("operator", &Smoothing::operator_kind),
       word_key("levels", &Smoothing::levels),
-      key("tolerance", &Smoothing::tolerance_mm, tolerance)};
+      key("tolerance", &Smoothing::tolerance_mm, such_that(length(kMaxSizeMm), is_held))};
   return keys;
 }
 
@@ -126,11 +123,10 @@ std::string write_points(const Config& config, const ConfigWriting& writing) {
 void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
   const Config& config = draft.config;
   const auto& meshes = config.output.meshes;
-  const bool glb = std::find(meshes.begin(), meshes.end(), MeshFormat::kGlb) != meshes.end();
+  const bool glb = std::ranges::find(meshes, MeshFormat::kGlb) != meshes.end();
   const auto& formats = config.textures.formats;
-  const bool only_exr = std::all_of(formats.begin(), formats.end(), [](TextureFormat format) {
-    return format == TextureFormat::kExr;
-  });
+  const bool only_exr = std::ranges::all_of(
+      formats, [](TextureFormat format) { return format == TextureFormat::kExr; });
   if (!sound || !glb || !only_exr) return;
   const YamlEntry* entry = node.find("meshes");
   draft.complaints.about(entry != nullptr ? entry->value : node,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/head_lists.h"
 #include "crowdface/core/name.h"
@@ -18,7 +17,7 @@ using Names = std::vector<std::string>;
 using Kind = PositionDistribution::Kind;
 
 bool contains(const Names& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 /// A value that may differ from region to region.
@@ -40,7 +39,7 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
   YamlNode direct = node;
   direct.entries.clear();
   for (const YamlEntry& entry : node.entries) {
-    const auto region = std::find(regions.begin(), regions.end(), entry.key);
+    const auto region = std::ranges::find(regions, entry.key);
     const bool is_region = region != regions.end() && (!contains(parameters, entry.key) ||
                                                        entry.value.kind == YamlNode::Kind::kMap);
     const bool empty = entry.value.kind == YamlNode::Kind::kNothing;
@@ -126,16 +125,11 @@ const Key<PositionDistribution> kFaceKey = {
 
 const Keys<PositionDistribution>& position_keys() {
   using Position = PositionDistribution;
-  Codec<double> radius = number(0, kMaxRadius);
-  radius.read = [read = radius.read](const YamlNode& node, ConfigDraft& draft) {
-    const auto value = read(node, draft);
-    if (value == 0.0) draft.complaints.expected(node, "a number above 0");
-    return value;
-  };
   static const Keys<Position> keys = {
       word_key("distribution", &Position::kind, "anchored, uniform, around or fixed"),
       key("pull", &Position::pull, number(0, 1)), kFaceKey,
-      key("radius", &Position::radius, radius), key("position", &Position::at, point())};
+      key("radius", &Position::radius, above_zero(number(0, kMaxRadius), "a number above 0")),
+      key("position", &Position::at, point())};
   return keys;
 }
 
@@ -154,8 +148,7 @@ const std::vector<KindKeys> kKindKeys = {
     {Kind::kFixed, {"distribution", "position"}, "a point of the plane, [x, y]"}};
 
 const KindKeys& keys_of(Kind kind) {
-  return *std::find_if(kKindKeys.begin(), kKindKeys.end(),
-                       [&](const KindKeys& keys) { return keys.kind == kind; });
+  return *std::ranges::find(kKindKeys, kind, &KindKeys::kind);
 }
 
 std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDraft& draft) {
@@ -209,14 +202,7 @@ const Keys<BandSampling>& band_keys() {
                            Codec<PositionDistribution>{read_position, write_position},
                            names_of(position_keys())),
       per_region_key<Band>("extrapolation", &Band::Region::extrapolation, extrapolation()),
-      {"sources",
-       [](const YamlNode& node, Band& band, ConfigDraft& draft) {
-         band.sources = read_head_list(node, draft);
-       },
-       [](const Band& band, const ConfigWriting& writing) {
-         return band.sources ? write_head_list(*band.sources, writing) : "";
-       }},
-      key("ageing", &Band::ageing, number(0, 1))};
+      key("sources", &Band::sources, head_list()), key("ageing", &Band::ageing, number(0, 1))};
   return keys;
 }
 
@@ -249,8 +235,7 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       node, "a mapping from bands to sizes, coarse to fine, {build: 240 mm, skin: 8 mm}");
   const bool of_crowd = &sampling == &draft.config.sampling;
   for (const YamlEntry& entry : node.entries) {
-    auto band = std::find_if(sampling.bands.begin(), sampling.bands.end(),
-                             [&](const BandSampling& other) { return other.name == entry.key; });
+    auto band = std::ranges::find(sampling.bands, entry.key, &BandSampling::name);
     if (band == sampling.bands.end()) {
       if (!of_crowd) {
         draft.complaints.add(entry.key_place,
@@ -281,12 +266,8 @@ std::string write_bands(const SamplingOptions& sampling, const ConfigWriting& wr
   return block_map(entries);
 }
 
-/// Where nothing in the crowd is mirrored it is not written.
-Key<SamplingOptions> unless_off(Key<SamplingOptions> key) {
-  key.write = [write = key.write](const SamplingOptions& sampling, const ConfigWriting& writing) {
-    return mirrors(sampling) || mirrors(writing.config.sampling) ? write(sampling, writing) : "";
-  };
-  return key;
+bool is_mirrored(const SamplingOptions& sampling, const ConfigWriting& writing) {
+  return mirrors(sampling) || mirrors(writing.config.sampling);
 }
 
 }  // namespace
@@ -294,14 +275,8 @@ Key<SamplingOptions> unless_off(Key<SamplingOptions> key) {
 const Keys<SamplingOptions>& sampling_keys() {
   using Sampling = SamplingOptions;
   static const Keys<Sampling> keys = {
-      {"targets", read_targets, write_targets},
-      {"sources",
-       [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
-         sampling.sources = read_head_list(node, draft);
-       },
-       [](const Sampling& sampling, const ConfigWriting& writing) {
-         return write_head_list(sampling.sources, writing);
-       }},
+      key("targets", &Sampling::targets, weighted_heads()),
+      key("sources", &Sampling::sources, head_list()),
       per_region_key<Sampling>("position", &RegionSampling::position,
                                Codec<PositionDistribution>{read_position, write_position},
                                names_of(position_keys())),
@@ -326,8 +301,8 @@ const Keys<SamplingOptions>& sampling_keys() {
           .in_starter({"3", "", "How many heads lend their features to one face."}),
       {"bands", read_bands, write_bands},
       key("age", &Sampling::age, age()),
-      unless_off(key("asymmetry", &Sampling::asymmetry, asymmetry())),
-      unless_off(word_key("mirror", &Sampling::mirror))};
+      key("asymmetry", &Sampling::asymmetry, asymmetry()).written_if(is_mirrored),
+      word_key("mirror", &Sampling::mirror).written_if(is_mirrored)};
   return keys;
 }
 

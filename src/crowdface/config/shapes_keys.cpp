@@ -7,6 +7,7 @@
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/mesh_format.h"
@@ -86,7 +87,7 @@ void read_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder with one of OBJ files for each head").read(node, draft);
   if (!folder) return;
   shapes.heads = *folder;
-  if (std::error_code ignored; !fs::is_directory(*folder, ignored)) {
+  if (!is_folder(*folder)) {
     return draft.complaints.about(node,
                                   concat("the folder ", quoted(folder->string()), " is not there"),
                                   ExitCode::kMissingInput);
@@ -97,8 +98,7 @@ void read_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   for (std::size_t h = 0; h < faces.files.size(); ++h) {
     const fs::path of_head = *folder / faces.names[h];
     try {
-      std::error_code ignored;
-      if (!shapes.files.empty() && !fs::exists(of_head, ignored)) continue;
+      if (!shapes.files.empty() && !is_there(of_head)) continue;
       found[h] = list_shapes(node, of_head, faces.files[h], draft);
     } catch (const MissingInput& error) {
       draft.complaints.about(node, error.what(), error.code());

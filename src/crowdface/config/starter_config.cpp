@@ -29,20 +29,15 @@ std::string starter_attachments(const YamlNode& section, const StarterFacts& fac
   draft.tags_known = false;  // of what nobody may wear nothing is said: it is left out
   read_attachments(section, draft.config, draft);
   if (!complaints.empty()) return {};
-  const auto may_wear = [](const std::vector<std::string>& tags, const auto& item) {
-    return std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
-      return std::find(tags.begin(), tags.end(), tag) != tags.end();
-    });
-  };
   Config::Attachments& attachments = draft.config.attachments;
   std::erase_if(attachments.items, [&](const Config::Attachment& item) {
-    return !item.tags.empty() &&
-           std::none_of(facts.tags.begin(), facts.tags.end(),
-                        [&](const auto& head) { return may_wear(head.second, item); });
+    return !item.tags.empty() && std::ranges::none_of(facts.tags, [&](const auto& head) {
+      return has_tags(head.second, item.tags);
+    });
   });
   const auto is_nobodys = [&](const std::string& word) {
-    return std::none_of(attachments.items.begin(), attachments.items.end(),
-                        [&](const auto& item) { return is_called(item, word); });
+    return std::ranges::none_of(attachments.items,
+                                [&](const auto& item) { return is_called(item, word); });
   };
   const auto speaks_of_nobody = [&](const auto& share) { return is_nobodys(share.first); };
   std::erase_if(attachments.none, speaks_of_nobody);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crowdface/config/config.h"
-#include "crowdface/core/length_units.h"
+#include "crowdface/core/units.h"
 
 namespace crowdface {
 
@@ -117,8 +117,7 @@ const Words<Value>& words_of() {
 template <class Value>
 std::string_view word_of(Value value) {
   const auto& words = words_of<Value>();
-  return std::find_if(words.begin(), words.end(),
-                      [&](const Word<Value>& word) { return word.value == value; })
+  return std::ranges::find_if(words, [&](const Word<Value>& word) { return word.value == value; })
       ->text;
 }
 

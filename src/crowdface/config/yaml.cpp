@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/yaml.h"
 
-#include <algorithm>
 #include <array>
 #include <sstream>
 #include <unordered_map>

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <system_error>
 
 #include "crowdface/config/yaml.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 
@@ -15,13 +15,8 @@ namespace {
 constexpr std::size_t kMaxKeys = 8;
 
 std::vector<std::string> split_path(std::string_view path) {
-  std::vector<std::string> keys;
-  for (;;) {
-    const std::size_t dot = path.find('.');
-    keys.emplace_back(path.substr(0, dot));
-    if (dot == std::string_view::npos) return keys;
-    path.remove_prefix(dot + 1);
-  }
+  const std::vector<std::string_view> keys = split(path, '.');
+  return {keys.begin(), keys.end()};
 }
 
 /// Whether no reader of YAML could take the text for anything but this text.
@@ -95,8 +90,7 @@ std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
     out.add(whole_file, what, ExitCode::kMissingInput);
     return std::nullopt;
   };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
+  if (is_folder(file)) {
     return refuse("expected a config file, found a folder");
   }
   std::ifstream stream(file, std::ios::binary);
@@ -113,12 +107,11 @@ std::string write_scalar(std::string_view text) {
   if (is_plain(text)) return std::string(text);
   std::string out = "\"";
   for (const char c : text) {
-    constexpr char kHex[] = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
       out += concat('\\', c);
     } else if (byte < 0x20 || byte == 0x7f) {
-      out += concat("\\x", kHex[byte >> 4], kHex[byte & 15]);
+      out += concat("\\x", hex(byte, 2));
     } else {
       out += c;
     }
@@ -133,7 +126,7 @@ void set_value(YamlNode& root, std::string_view assignment, Complaints& out) {
   const std::size_t equals = assignment.find('=');
   const std::vector<std::string> keys = split_path(assignment.substr(0, equals));
   if (equals == std::string_view::npos || keys.size() > kMaxKeys ||
-      std::find(keys.begin(), keys.end(), "") != keys.end()) {
+      std::ranges::find(keys, "") != keys.end()) {
     return out.add(place, "expected key.path=value, such as crowd.count=20");
   }
   // No value at all is a matter for whoever reads the key, as it is in a file.

@@ -48,11 +48,10 @@ std::string_view YamlText::from(int line, int byte_column) const {
 }
 
 YamlPlace YamlText::place_of(std::size_t offset) const {
-  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  const auto next = std::ranges::upper_bound(line_starts_, offset);
   const std::size_t line_start = *(next - 1);
   const auto count_to = [&](std::size_t end) {
-    return std::lower_bound(continuations_.begin(), continuations_.end(), end) -
-           continuations_.begin();
+    return std::ranges::lower_bound(continuations_, end) - continuations_.begin();
   };
   const auto bytes = static_cast<std::ptrdiff_t>(offset - line_start);
   const auto characters = bytes - (count_to(offset) - count_to(line_start));

@@ -25,6 +25,26 @@ std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
 
 }  // namespace
 
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+void remove_if_there(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove(path, ignored);
+}
+
 std::string read_file(const fs::path& path) {
   const OpenedFile file = open_for_reading(path);
   std::string bytes(file.size, '\0');

@@ -12,6 +12,13 @@
 
 namespace crowdface {
 
+/// Whether something, a folder, a regular file bears this name, links followed; no where that cannot be told.
+bool is_there(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
+bool is_file(const std::filesystem::path& path);
+/// What cannot be removed stays.
+void remove_if_there(const std::filesystem::path& path);
+
 /// The whole file. \throws MissingInput if it cannot be opened, IoError if reading fails half-way.
 std::string read_file(const std::filesystem::path& path);
 

@@ -45,7 +45,7 @@ std::vector<fs::path> list_folder(const fs::path& folder) {
   if (!opened || errno != 0) {
     throw IoError(concat(name, ": cannot be read as a folder: ", reason()));
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

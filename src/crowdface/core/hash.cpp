@@ -7,6 +7,8 @@
 
 #include <xxhash.h>
 
+#include "crowdface/core/text.h"
+
 namespace crowdface {
 namespace {
 
@@ -30,13 +32,7 @@ struct Hasher::State {
 };
 
 std::string Digest::hex() const {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string out(32, '0');
-  for (int i = 0; i < 16; ++i) {
-    out[static_cast<std::size_t>(15 - i)] = kDigits[(high >> (4 * i)) & 15];
-    out[static_cast<std::size_t>(31 - i)] = kDigits[(low >> (4 * i)) & 15];
-  }
-  return out;
+  return crowdface::hex(high, 16) + crowdface::hex(low, 16);
 }
 
 std::optional<Digest> parse_digest(std::string_view hex) {

@@ -23,7 +23,6 @@ struct Digest {
 /// What `hex` wrote, or nothing.
 std::optional<Digest> parse_digest(std::string_view hex);
 
-/// Digest of a run of bytes.
 Digest hash_bytes(std::string_view bytes);
 
 /// Builds a digest from parts; each text is preceded by its length, so parts cannot run together.

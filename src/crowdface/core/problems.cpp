@@ -7,14 +7,14 @@ namespace crowdface {
 
 void Problems::add(ExitCode kind, std::string message) {
   // The same problem met on two paths is told once.
-  if (std::find(messages_.begin(), messages_.end(), message) != messages_.end()) return;
+  if (std::ranges::find(messages_, message) != messages_.end()) return;
   messages_.push_back(std::move(message));
   kinds_.push_back(kind);
 }
 
 ExitCode Problems::code() const {
   for (const ExitCode first : {ExitCode::kUsage, ExitCode::kMissingInput, ExitCode::kBadData}) {
-    if (std::find(kinds_.begin(), kinds_.end(), first) != kinds_.end()) return first;
+    if (std::ranges::find(kinds_, first) != kinds_.end()) return first;
   }
   return kinds_.empty() ? ExitCode::kDone : kinds_.front();
 }

@@ -67,13 +67,7 @@ bool is_unprintable(std::string_view character) {
 }
 
 void append_escaped(std::string_view character, std::string& out) {
-  constexpr char kHex[] = "0123456789abcdef";
-  for (const char c : character) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += "\\x";
-    out += kHex[byte >> 4U];
-    out += kHex[byte & 15U];
-  }
+  for (const char c : character) out += "\\x" + hex(static_cast<unsigned char>(c), 2);
 }
 
 }  // namespace
@@ -122,6 +116,12 @@ std::string zero_padded(std::uint64_t number, std::size_t digits) {
   std::string text = concat(number);
   if (text.size() < digits) text.insert(0, digits - text.size(), '0');
   return text;
+}
+
+std::string hex(std::uint64_t number, std::size_t digits) {
+  std::string out(digits, '0');
+  for (; digits > 0; number >>= 4U) out[--digits] = "0123456789abcdef"[number & 15U];
+  return out;
 }
 
 std::string lower_case(std::string_view text) {
@@ -178,6 +178,22 @@ std::optional<std::string> nearest_word(std::string_view word,
     }
   }
   return best;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> pieces;
+  for (std::size_t at = 0; at != text.npos;) {
+    at = text.find(separator);
+    pieces.push_back(text.substr(0, at));
+    if (at != text.npos) text.remove_prefix(at + 1);
+  }
+  return pieces;
+}
+
+std::vector<std::string_view> split_lines(std::string_view text) {
+  std::vector<std::string_view> lines = split(text, '\n');
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
 }
 
 std::vector<std::string> words_of(std::string_view text) {

@@ -26,6 +26,9 @@ std::string format_fixed(double value, int decimals);
 /// At least this many digits, zeros in front: "0007".
 std::string zero_padded(std::uint64_t number, std::size_t digits);
 
+/// The last of a number's hexadecimal digits, zeros in front: "00ff".
+std::string hex(std::uint64_t number, std::size_t digits);
+
 /// A to Z made small, everything else as it is.
 std::string lower_case(std::string_view text);
 
@@ -46,6 +49,11 @@ inline std::string quoted(const char* text) {
 /// The candidate nearest to `word` by edit distance if it is near enough to be what was meant.
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
+
+/// What stands between separators, be it nothing; of a text without one, all of it.
+std::vector<std::string_view> split(std::string_view text, char separator);
+/// The lines of a text without their ends.
+std::vector<std::string_view> split_lines(std::string_view text);
 
 /// What stands between blanks, tabs and returns.
 std::vector<std::string> words_of(std::string_view text);

@@ -33,6 +33,15 @@ std::optional<LengthUnit> parse_length_unit(std::string_view name) {
   return std::nullopt;
 }
 
+LengthUnit nearest_unit(double length, double typical_mm) {
+  const auto distance = [&](LengthUnit unit) {
+    const double ratio = std::max(length * mm_per(unit), 1e-9) / typical_mm;
+    return std::max(ratio, 1 / ratio);
+  };
+  return std::min({LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre},
+                  [&](LengthUnit a, LengthUnit b) { return distance(a) < distance(b); });
+}
+
 std::optional<double> parse_length_mm(std::string_view text) {
   const std::size_t unit_start = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz") + 1;
   const auto unit = parse_length_unit(text.substr(unit_start));

@@ -2,7 +2,6 @@
 #include "crowdface/editor/config_text.h"
 
 #include <algorithm>
-#include <system_error>
 
 #include "crowdface/config/complaints.h"
 #include "crowdface/config/config_reader.h"
@@ -31,22 +30,14 @@ bool is_empty(const std::string& line) {
 
 }  // namespace
 
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.emplace_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
-}
-
 std::size_t line_of(const YamlPlace& place) {
   return static_cast<std::size_t>(place.line) - 1;
 }
 
 ConfigText::ConfigText(std::string_view text, const std::string& source)
-    : lines_(lines_of(text)), root_(parsed(text, source)) {}
+    : root_(parsed(text, source)) {
+  for (const std::string_view line : split_lines(text)) lines_.emplace_back(line);
+}
 
 std::optional<std::size_t> ConfigText::bracket_of(const YamlNode& list) const {
   if (list.kind != YamlNode::Kind::kList) return std::nullopt;
@@ -90,8 +81,7 @@ void replace_config(const std::filesystem::path& file, const std::string& text) 
   write_file(trial, text);
   Problems problems;
   read_config(trial, {}, problems);
-  std::error_code ignored;
-  std::filesystem::remove(trial, ignored);
+  remove_if_there(trial);
   problems.throw_if_any();
   write_file(file, text);
 }

@@ -40,9 +40,6 @@ class ConfigText {
 /// The line of a place, counted from 0.
 std::size_t line_of(const YamlPlace& place);
 
-/// Lines without their ends.
-std::vector<std::string> lines_of(std::string_view text);
-
 /// Replaces a config's file if the text reads back well.
 /// \throws Error with every problem that the config would have.
 void replace_config(const std::filesystem::path& file, const std::string& text);

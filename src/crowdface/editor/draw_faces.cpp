@@ -85,9 +85,8 @@ std::vector<CastFace> draw_faces(const Casting& casting, const FaceJudge& judge,
     }
   }
   if (!faces.empty() || request.count == 0) return faces;
-  const auto main =
-      std::max_element(reasons.begin(), reasons.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto main = std::ranges::max_element(
+      reasons, [](const auto& a, const auto& b) { return a.second < b.second; });
   throw Unsatisfiable(concat("none of ", most, " faces that were drawn keeps the config's limits; ",
                              main->second, " of them fail by ", name_of(main->first)));
 }

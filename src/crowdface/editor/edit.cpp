@@ -4,8 +4,8 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
-#include <system_error>
 
+#include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/editor/edit_api.h"
 #include "crowdface/editor/edit_benchmark.h"
@@ -17,8 +17,7 @@ namespace {
 /// A crowd's folder stands for the config in it, whose faces go there.
 Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
                     const std::filesystem::path& cache) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(given, ignored)) return load_job(given, overrides, cache);
+  if (!is_folder(given)) return load_job(given, overrides, cache);
   if (!overrides.out) overrides.out = given.string();
   return load_job(CrowdDirectory{given}.config(), overrides, cache);
 }
@@ -66,8 +65,7 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
   Job job = load_edited_job(given, overrides, options.cache);
   const std::filesystem::path path = make_edited_folder(job.config);
   EditorLock lock(path);
-  std::error_code ignored;
-  const bool is_crowd = std::filesystem::is_directory(given, ignored);
+  const bool is_crowd = is_folder(given);
   GenerateRun run(generate_arguments(job.config, overrides, options.cache), path / "generate.log");
 
   std::mutex opening, answering;

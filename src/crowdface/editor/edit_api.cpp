@@ -15,11 +15,6 @@
 #include "crowdface/pictures/gallery.h"
 
 namespace crowdface {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-}  // namespace
 
 EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
                  std::function<void()> open_again)
@@ -33,34 +28,34 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       worn_(session.job(), session.crowd()),
       painting_(session, folder.path() / "strokes.jsonl") {}
 
-const std::vector<EditApi::Route>& EditApi::routes() {
-  static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
-                                            {"GET", "api/mesh", &EditApi::mesh},
-                                            {"GET", "api/heads/", &EditApi::head},
-                                            {"GET", "api/attachments/", &EditApi::attachment},
-                                            {"POST", "api/face", &EditApi::face},
-                                            {"POST", "api/measures", &EditApi::measures},
-                                            {"POST", "api/draw", &EditApi::draw},
-                                            {"GET", "api/state", &EditApi::state},
-                                            {"PUT", "api/state", &EditApi::keep_state},
-                                            {"POST", "api/save", &EditApi::save},
-                                            {"POST", "api/picture", &EditApi::picture},
-                                            {"POST", "api/recipes", &EditApi::put_recipe},
-                                            {"GET", "api/generate", &EditApi::generate_progress},
-                                            {"POST", "api/generate", &EditApi::generate},
-                                            {"POST", "api/generate/stop", &EditApi::stop_generate},
-                                            {"POST", "api/review", &EditApi::review},
-                                            {"POST", "api/masks/stroke", &EditApi::paint_masks},
-                                            {"POST", "api/masks/undo", &EditApi::undo_masks},
-                                            {"POST", "api/masks/save", &EditApi::save_masks},
-                                            {"POST", "api/regions", &EditApi::use_regions},
-                                            {"POST", "api/open", &EditApi::open_again}};
-  return routes;
-}
-
 HttpAnswer EditApi::answer(const HttpRequest& request) {
+  struct Route {
+    std::string method, path;
+    HttpAnswer (EditApi::*answer)(const HttpRequest& request, const std::string& rest);
+  };
+  static const std::vector<Route> kRoutes = {{"GET", "api/job", &EditApi::job},
+                                             {"GET", "api/mesh", &EditApi::mesh},
+                                             {"GET", "api/heads/", &EditApi::head},
+                                             {"GET", "api/attachments/", &EditApi::attachment},
+                                             {"POST", "api/face", &EditApi::face},
+                                             {"POST", "api/measures", &EditApi::measures},
+                                             {"POST", "api/draw", &EditApi::draw},
+                                             {"GET", "api/state", &EditApi::state},
+                                             {"PUT", "api/state", &EditApi::keep_state},
+                                             {"POST", "api/save", &EditApi::save},
+                                             {"POST", "api/picture", &EditApi::picture},
+                                             {"POST", "api/recipes", &EditApi::put_recipe},
+                                             {"GET", "api/generate", &EditApi::generate_progress},
+                                             {"POST", "api/generate", &EditApi::generate},
+                                             {"POST", "api/generate/stop", &EditApi::stop_generate},
+                                             {"POST", "api/review", &EditApi::review},
+                                             {"POST", "api/masks/stroke", &EditApi::paint_masks},
+                                             {"POST", "api/masks/undo", &EditApi::undo_masks},
+                                             {"POST", "api/masks/save", &EditApi::save_masks},
+                                             {"POST", "api/regions", &EditApi::use_regions},
+                                             {"POST", "api/open", &EditApi::open_again}};
   return answer_or_refuse(request, [this](const HttpRequest& asked) {
-    for (const Route& route : routes()) {
+    for (const Route& route : kRoutes) {
       const bool is_prefix = route.path.ends_with('/');
       if (is_prefix ? !asked.path.starts_with(route.path) : asked.path != route.path) continue;
       if (route.method != asked.method) continue;
@@ -154,7 +149,7 @@ bool EditApi::overtaken(const std::string& page, std::uint64_t turn) {
   return newest != turns_.end() && turn < newest->second;
 }
 
-Json EditApi::told(const FaceMeasures& measures) const {
+nlohmann::ordered_json EditApi::told(const FaceMeasures& measures) const {
   const auto& names = session_.job().names.heads;
   Json json;
   json["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.head)]},

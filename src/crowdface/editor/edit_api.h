@@ -38,36 +38,16 @@ class EditApi {
 
  private:
   using Json = nlohmann::ordered_json;
-  /// Answers requests of one method and address; of one that ends in '/', whatever follows it.
-  struct Route {
-    std::string method, path;
-    HttpAnswer (EditApi::*answer)(const HttpRequest& request, const std::string& rest);
-  };
-  static const std::vector<Route>& routes();
+  /// \param rest  what follows the route's address, if that ends in '/'.
+  using Handler = HttpAnswer(const HttpRequest& request, const std::string& rest);
 
-  HttpAnswer job(const HttpRequest& request, const std::string& rest);
-  HttpAnswer mesh(const HttpRequest& request, const std::string& rest);
-  HttpAnswer head(const HttpRequest& request, const std::string& rest);
-  HttpAnswer face(const HttpRequest& request, const std::string& rest);
-  HttpAnswer measures(const HttpRequest& request, const std::string& rest);
-  HttpAnswer attachment(const HttpRequest& request, const std::string& rest);
-
-  HttpAnswer draw(const HttpRequest& request, const std::string& rest);
-  HttpAnswer state(const HttpRequest& request, const std::string& rest);
-  HttpAnswer keep_state(const HttpRequest& request, const std::string& rest);
-  HttpAnswer save(const HttpRequest& request, const std::string& rest);
-  HttpAnswer picture(const HttpRequest& request, const std::string& rest);
-  HttpAnswer put_recipe(const HttpRequest& request, const std::string& rest);
-  HttpAnswer generate(const HttpRequest& request, const std::string& rest);
-  HttpAnswer stop_generate(const HttpRequest& request, const std::string& rest);
-  HttpAnswer generate_progress(const HttpRequest& request, const std::string& rest);
-  HttpAnswer review(const HttpRequest& request, const std::string& rest);
-
-  HttpAnswer paint_masks(const HttpRequest& request, const std::string& rest);
-  HttpAnswer undo_masks(const HttpRequest& request, const std::string& rest);
-  HttpAnswer save_masks(const HttpRequest& request, const std::string& rest);
-  HttpAnswer use_regions(const HttpRequest& request, const std::string& rest);
-  HttpAnswer open_again(const HttpRequest& request, const std::string& rest);
+  // About the job and its faces.
+  Handler job, mesh, head, attachment, face, measures, draw;
+  // What is kept or written.
+  Handler state, keep_state, save, picture, put_recipe, review;
+  Handler generate, stop_generate, generate_progress, open_again;
+  // What is painted.
+  Handler paint_masks, undo_masks, save_masks, use_regions;
   HttpAnswer painted_masks() const;
   /// Where masks can be written beside those that the config names.
   std::filesystem::path unused_masks() const;

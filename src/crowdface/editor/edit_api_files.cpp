@@ -144,8 +144,7 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
   ReviewMark mark;
   mark.id = text_in(body, "id");
   const std::vector<CastFace>* crowd = session_.crowd();
-  if (crowd == nullptr || std::none_of(crowd->begin(), crowd->end(),
-                                       [&](const CastFace& face) { return face.id == mark.id; })) {
+  if (crowd == nullptr || std::ranges::find(*crowd, mark.id, &CastFace::id) == crowd->end()) {
     throw UsageError(concat("no face of this crowd is called ", crowdface::quoted(mark.id)));
   }
   if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");

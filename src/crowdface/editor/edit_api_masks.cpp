@@ -49,7 +49,7 @@ HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
 
 std::filesystem::path EditApi::unused_masks() const {
   const std::vector<std::string>& used = session_.job().config.regions.mask;
-  const bool first_is_used = std::any_of(used.begin(), used.end(), [](const std::string& mask) {
+  const bool first_is_used = std::ranges::any_of(used, [](const std::string& mask) {
     return std::filesystem::path(mask).filename().string().starts_with("masks");
   });
   return folder_.path() / (first_is_used ? "other_masks.png" : "masks.png");

@@ -2,11 +2,13 @@
 #include "crowdface/editor/edit_session.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
-#include "crowdface/editor/crowd_of_job.h"
 #include "crowdface/pictures/surfaces.h"
 
 namespace crowdface {
@@ -24,40 +26,60 @@ Config with_fitted_levels(Config config) {
 }
 
 std::string sentence(Reason reason, const Config& config) {
+  struct Limit {
+    Reason reason;
+    std::string_view sentence;
+    double value;
+    std::string_view unit = "";
+  };
   const BelievabilityOptions& limits = config.believability;
-  switch (reason) {
-    case Reason::kMaxWeight:
-      return concat("one head has more weight in a region than diversity.max_weight allows (",
-                    config.diversity.max_weight, ")");
-    case Reason::kMinDistanceToFaces:
-      return concat("nearer to a head than diversity.min_distance_to_faces (",
-                    config.diversity.min_distance_to_faces_mm, " mm)");
-    case Reason::kImplausible:
-      return concat("farther from the heads' mean than believability.max_deviation (",
-                    limits.max_deviation, ")");
-    case Reason::kStretched:
-      return concat("skin is stretched more than believability.max_stretch (", limits.max_stretch,
-                    ")");
-    case Reason::kFlipped:
-      return concat("more of the skin is turned over than believability.max_flipped (",
-                    limits.max_flipped, ")");
-    case Reason::kIntersecting:
-      return concat(
-          "more of the skin passes through other skin than "
-          "believability.max_intersecting (",
-          limits.max_intersecting, ")");
-    case Reason::kExposed:
-      return concat(
-          "skin that passes through other skin shows more of its back than "
-          "believability.max_exposed (",
-          limits.max_exposed_mm2, " mm²)");
-    case Reason::kGap:
-      return concat(
-          "lips, or other skin that nearly touches, part by more than "
-          "believability.max_gap (",
-          limits.max_gap_mm, " mm)");
-    default:
-      return concat("believability.", name_of(reason));
+  const std::array all = {
+      Limit{Reason::kMaxWeight,
+            "one head has more weight in a region than diversity.max_weight allows",
+            config.diversity.max_weight},
+      Limit{Reason::kMinDistanceToFaces, "nearer to a head than diversity.min_distance_to_faces",
+            config.diversity.min_distance_to_faces_mm, " mm"},
+      Limit{Reason::kImplausible, "farther from the heads' mean than believability.max_deviation",
+            limits.max_deviation},
+      Limit{Reason::kStretched, "skin is stretched more than believability.max_stretch",
+            limits.max_stretch},
+      Limit{Reason::kFlipped, "more of the skin is turned over than believability.max_flipped",
+            limits.max_flipped},
+      Limit{Reason::kIntersecting,
+            "more of the skin passes through other skin than believability.max_intersecting",
+            limits.max_intersecting},
+      Limit{Reason::kExposed,
+            "skin that passes through other skin shows more of its back than "
+            "believability.max_exposed",
+            limits.max_exposed_mm2, " mm²"},
+      Limit{Reason::kGap,
+            "lips, or other skin that nearly touches, part by more than believability.max_gap",
+            limits.max_gap_mm, " mm"}};
+  const auto found = std::ranges::find(all, reason, &Limit::reason);
+  if (found == all.end()) return concat("believability.", name_of(reason));
+  return concat(found->sentence, " (", found->value, found->unit, ")");
+}
+
+/// The faces in the job's output folder, if it holds a plan that was cast of these heads, masks and
+/// smoothing settings; nothing if there is none, or a warning if it is another's.
+std::optional<std::vector<CastFace>> crowd_of_job(const Job& job) {
+  const CrowdDirectory directory = directory_of(job.config);
+  if (!is_there(directory.plan())) return std::nullopt;
+  const auto refuse = [&](std::string_view why) {
+    log_warning(concat(directory.root.string(), ": its faces are not shown: ", why));
+    return std::nullopt;
+  };
+  try {
+    std::vector<CastFace> faces;
+    for (PlanLine& line : read_plan(directory.plan(), job.names)) {
+      if (line.settings != job.settings.hex()) {
+        return refuse("they were cast under other settings");
+      }
+      faces.push_back(std::move(line.face));
+    }
+    return faces;
+  } catch (const Error& error) {
+    return refuse(error.what());
   }
 }
 
@@ -129,8 +151,7 @@ FaceMeasures EditSession::measure(const CastFace& recipe) const {
   measures.head = head.face;
   measures.head_mm = head.mm;
   if (crowd_) {
-    const auto own = std::find_if(crowd_->begin(), crowd_->end(),
-                                  [&](const CastFace& other) { return other.id == recipe.id; });
+    const auto own = std::ranges::find(*crowd_, recipe.id, &CastFace::id);
     const Index at = own - crowd_->begin();
     FacePointIndex::Nearest nearest = judging.crowd.nearest(point, HUGE_VAL, 0, at);
     if (own != crowd_->end()) {

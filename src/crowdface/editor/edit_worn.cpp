@@ -45,8 +45,7 @@ std::optional<std::string> EditWorn::look(const std::string& name) const {
 std::vector<std::string> EditWorn::drawn_for(const CastFace& face,
                                              const std::string& opened) const {
   if (crowd_ != nullptr) {
-    const auto found = std::find_if(crowd_->begin(), crowd_->end(),
-                                    [&](const CastFace& other) { return other.id == opened; });
+    const auto found = std::ranges::find(*crowd_, opened, &CastFace::id);
     if (found != crowd_->end()) return found->attachments;
   }
   std::vector<CastFace> alone = {face};
@@ -75,9 +74,8 @@ std::vector<WornAttachment> EditWorn::worn_by(const CastFace& face, const std::s
   dressed.attachments.clear();
   for (const Attachment& item : items) {
     const std::string choice = chosen.value(item.kind, std::string("draw"));
-    const bool wears = choice == "draw"
-                           ? std::find(drawn.begin(), drawn.end(), item.name) != drawn.end()
-                           : choice == item.name;
+    const bool wears =
+        choice == "draw" ? std::ranges::find(drawn, item.name) != drawn.end() : choice == item.name;
     if (wears) dressed.attachments.push_back(item.name);
   }
   return bound_.get()->worn_by(dressed, positions);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edited_folder.h"
 
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -28,8 +27,7 @@ std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& 
 
 /// The lines of a plan but for the one with that id.
 std::string other_lines(const fs::path& plan, const std::string& id, const PlanNames& names) {
-  std::error_code ignored;
-  if (!fs::exists(plan, ignored)) return {};
+  if (!is_there(plan)) return {};
   std::string lines;
   for (const PlanLine& line : read_plan(plan, names)) {
     if (line.face.id == id) continue;
@@ -62,9 +60,8 @@ std::vector<std::string> EditedFolder::formats() {
 }
 
 std::string EditedFolder::state() const {
-  std::error_code ignored;
   const fs::path file = path_ / "state.json";
-  return fs::exists(file, ignored) ? read_file(file) : std::string();
+  return is_there(file) ? read_file(file) : std::string();
 }
 
 void EditedFolder::keep_state(std::string_view text) {

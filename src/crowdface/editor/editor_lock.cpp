@@ -2,7 +2,6 @@
 #include "crowdface/editor/editor_lock.h"
 
 #include <cerrno>
-#include <system_error>
 
 #include <fcntl.h>
 
@@ -33,13 +32,11 @@ EditorLock::EditorLock(const fs::path& folder) : address_(folder / ".address") {
 }
 
 EditorLock::~EditorLock() {
-  std::error_code ignored;
-  fs::remove(address_, ignored);
+  remove_if_there(address_);
 }
 
 void EditorLock::tell(const std::string& address) {
-  std::error_code ignored;
-  fs::remove(address_, ignored);
+  remove_if_there(address_);
   constexpr mode_t kOwnerOnly = 0600;
   Descriptor file(
       ::open(address_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnerOnly));

@@ -2,6 +2,7 @@
 #include "crowdface/editor/generate_run.h"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <system_error>
 #include <utility>
@@ -54,19 +55,9 @@ RunProgress read_progress(std::string_view log) {
 }
 
 std::string_view name_of(GenerateRun::State state) {
-  switch (state) {
-    case GenerateRun::State::kIdle:
-      return "idle";
-    case GenerateRun::State::kRunning:
-      return "running";
-    case GenerateRun::State::kDone:
-      return "done";
-    case GenerateRun::State::kStopped:
-      return "stopped";
-    case GenerateRun::State::kFailed:
-      break;
-  }
-  return "failed";
+  constexpr std::array<std::string_view, 5> kNames = {"idle", "running", "done", "failed",
+                                                      "stopped"};
+  return kNames[static_cast<std::size_t>(state)];
 }
 
 GenerateRun::GenerateRun(std::vector<std::string> arguments, std::filesystem::path log)
@@ -133,8 +124,7 @@ void GenerateRun::look(int options) {
 }
 
 RunProgress GenerateRun::progress() const {
-  std::error_code ignored;
-  return std::filesystem::exists(log_, ignored) ? read_progress(read_file(log_)) : RunProgress{};
+  return is_there(log_) ? read_progress(read_file(log_)) : RunProgress{};
 }
 
 }  // namespace crowdface

@@ -21,10 +21,10 @@ using Lines = std::vector<std::string>;
 Lines item_lines(const HandRecipe& recipe, const Config& config, std::size_t indent) {
   std::string text = format_hand_recipe(recipe, config);
   text.erase(0, std::min(text.find_first_not_of('\n'), text.size()));
-  Lines lines = lines_of(text);
   const std::string margin(indent, ' ');
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    lines[i] = concat(margin, i == 0 ? "- " : "  ", lines[i]);
+  Lines lines;
+  for (const std::string_view line : split_lines(text)) {
+    lines.push_back(concat(margin, lines.empty() ? "- " : "  ", line));
   }
   return lines;
 }

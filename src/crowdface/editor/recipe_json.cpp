@@ -60,7 +60,7 @@ std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
   std::vector<SourceWeight> shares;
   double sum = 0;
   for (const auto& [name, share] : json.items()) {
-    const auto head = std::find(names.begin(), names.end(), name);
+    const auto head = std::ranges::find(names, name);
     if (head == names.end()) {
       throw UsageError(concat("mixture: no head is called ", quoted(name)));
     }
@@ -76,8 +76,7 @@ std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
   constexpr double kRounding = 1e-12;
   if (std::abs(sum - 1) > kRounding) return normalized_weights(std::move(shares));
   std::erase_if(shares, [](const SourceWeight& share) { return share.weight == 0; });
-  std::sort(shares.begin(), shares.end(),
-            [](const auto& a, const auto& b) { return a.head < b.head; });
+  std::ranges::sort(shares, [](const auto& a, const auto& b) { return a.head < b.head; });
   return shares;
 }
 

@@ -98,7 +98,7 @@ SurfacePoint RegionPainting::place_of(const Json& point) {
 
 Index RegionPainting::region_in(const Json& body, const std::string& key) const {
   const std::vector<std::string>& names = session_.casting().region_names;
-  const auto region = std::find(names.begin(), names.end(), text_in(body, key));
+  const auto region = std::ranges::find(names, text_in(body, key));
   if (region == names.end()) throw UsageError(concat(key, ": expected the name of a region"));
   return region - names.begin();
 }
@@ -164,9 +164,7 @@ PaintedRegions RegionPainting::regions(const Json& change) {
     const Index region = region_in(change, "remove");
     if (regions.names.size() == 1) throw UsageError("remove: there is no other region");
     regions.names.erase(regions.names.begin() + region);
-    painter().remove_region(region);
-    regions.alpha = painter().alpha();
-    painter().undo();
+    regions.alpha = painter().alpha_without(region);
   } else if (change.contains("propose")) {
     if (!change["propose"].is_array()) throw UsageError("propose: expected a list of names");
     std::vector<std::string> wanted;

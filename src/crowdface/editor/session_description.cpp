@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
 #include "crowdface/editor/edit_session.h"
@@ -41,12 +42,9 @@ Json colour_to_json(const Light& light) {
 }
 
 std::string hex_colour(const Eigen::Vector3f& colour) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text = "#";
   for (int c = 0; c < 3; ++c) {
-    const auto value = static_cast<unsigned>(std::lround(255 * colour[c]));
-    text += kDigits[value >> 4U & 15U];
-    text += kDigits[value & 15U];
+    text += hex(static_cast<std::uint64_t>(std::lround(255 * colour[c])), 2);
   }
   return text;
 }

@@ -3,7 +3,6 @@
 
 #include <sstream>
 #include <string>
-#include <system_error>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
@@ -21,8 +20,7 @@ constexpr const char* kPaintedOn = "painted_on";
 
 StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
     : file_(std::move(file)), painted_on_(painted_on) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file_, ignored)) return;
+  if (!is_there(file_)) return;
   std::istringstream lines(read_file(file_));
   bool known = false;
   for (std::string line; std::getline(lines, line) && !lines.eof();) {
@@ -37,7 +35,7 @@ StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
   }
   if (!known) {
     log_info(concat(file_.string(), ": was painted on other masks and is left out"));
-    std::filesystem::remove(file_, ignored);
+    remove_if_there(file_);
   } else {
     log_info(concat(file_.string(),
                     ": strokes that were not saved are painted again: ", strokes_.size()));
@@ -60,8 +58,7 @@ void StrokeLog::add(const Json& stroke) {
 void StrokeLog::clear() {
   open_.reset();
   strokes_.clear();
-  std::error_code ignored;
-  std::filesystem::remove(file_, ignored);
+  remove_if_there(file_);
 }
 
 }  // namespace crowdface

@@ -29,8 +29,8 @@ TextureAtlas::TextureAtlas(const Inputs& inputs) : inputs_(inputs) {
     cell_of_face_ = textures.blended.layout.of_face;
     cells_ = static_cast<std::uint32_t>(textures.blended.layout.pictures.size());
   } else {
-    const auto first = std::find_if(textures.coats.begin(), textures.coats.end(),
-                                    [](const TextureCoat& coat) { return !coat.textures.empty(); });
+    const auto first = std::ranges::find_if(
+        textures.coats, [](const TextureCoat& coat) { return !coat.textures.empty(); });
     if (first == textures.coats.end()) return;
     cell_of_face_ = first->of_face;
     cells_ = static_cast<std::uint32_t>(first->textures.size());
@@ -74,7 +74,7 @@ bool TextureAtlas::has(Index head) const {
   const auto h = static_cast<std::size_t>(head);
   if (!textures.blend()) return !textures.coats.empty() && !textures.coats[h].textures.empty();
   const auto& maps = textures.blended.maps;
-  return std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map[h] != nullptr; });
+  return std::ranges::any_of(maps, [&](const auto& map) { return map[h] != nullptr; });
 }
 
 std::optional<std::string> TextureAtlas::picture(Index head) const {

@@ -86,8 +86,8 @@ std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& compone
                      against.end());
     disagreement[static_cast<std::size_t>(r)] = against[count / 2];
   });
-  const auto reference = static_cast<std::size_t>(
-      std::min_element(disagreement.begin(), disagreement.end()) - disagreement.begin());
+  const auto reference =
+      static_cast<std::size_t>(std::ranges::min_element(disagreement) - disagreement.begin());
   std::vector<HeadPose> poses;
   for (const Positions& head : points) poses.push_back(pose_against(head, points[reference]));
   return poses;

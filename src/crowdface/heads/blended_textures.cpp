@@ -133,7 +133,7 @@ bool holds_normals(const Image& image) {
 MapCoding coding_of_values(const Image& image, int channels) {
   const auto* floats = std::get_if<std::vector<float>>(&image.pixels);
   if (floats == nullptr) return MapCoding::values(channels);
-  const auto [low, high] = std::minmax_element(floats->begin(), floats->end());
+  const auto [low, high] = std::ranges::minmax_element(*floats);
   return MapCoding::values(channels, *low, *high);
 }
 

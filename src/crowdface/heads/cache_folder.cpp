@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "crowdface/core/file.h"
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 
@@ -60,7 +61,7 @@ CacheContents list_cache(const fs::path& cache) {
       cache,
       [&](const fs::path& path) {
         return std::ranges::find(kEndings, path.extension().string()) != kEndings.end() &&
-               fs::is_regular_file(path, ignored);
+               is_file(path);
       },
       &error);
   if (error && error != std::errc::no_such_file_or_directory) {
@@ -85,8 +86,7 @@ std::size_t clear_cache(const fs::path& cache) {
 }
 
 std::optional<MappedEntry> map_entry(const fs::path& path, const std::optional<Digest>& known) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) return std::nullopt;
+  if (!is_there(path)) return std::nullopt;
   const auto file = std::make_shared<const MappedFile>(path, WhenCut::kFill);
   if (file->bytes().size() < sizeof(Digest)) throw bad_entry(path, "of the wrong size");
   const std::size_t size = file->bytes().size() - sizeof(Digest);

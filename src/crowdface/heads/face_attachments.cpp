@@ -7,18 +7,15 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/units.h"
+#include "crowdface/heads/named_parts.h"
 
 namespace crowdface {
 
 FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs) : inputs_(inputs) {
   const AttachmentSet& set = inputs.attachments;
   if (set.empty()) return;
-  std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
-    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
-  }
-  skin_ = std::make_unique<const FittedSkin>(inputs.faces.topology, set.fitted_to, std::move(skin),
-                                             1 / mm_per(config.faces.units));
+  skin_ = std::make_unique<const FittedSkin>(inputs.faces.topology, set.fitted_to,
+                                             skin_vertices(inputs), 1 / mm_per(config.faces.units));
   carriers_.resize(set.items.size());
   parallel_for_each(carriers_.size(), [&](std::size_t i) {
     const ObjFile& file = set.items[i].file;

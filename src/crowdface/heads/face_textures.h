@@ -16,7 +16,6 @@ inline bool has_own_textures(const Inputs& inputs) {
   return inputs.textures.blend() || !inputs.maps.empty();
 }
 
-/// The textures of faces.
 class FaceTextures {
  public:
   /// \param inputs  must outlive this object.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/head_mirror.h"
 
-#include <algorithm>
-
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"

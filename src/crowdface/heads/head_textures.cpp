@@ -2,7 +2,6 @@
 #include "crowdface/heads/head_textures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -16,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A texture and the digest of its file.
 struct TextureFile {
   std::shared_ptr<const Texture> texture;
   Digest content;

@@ -13,29 +13,22 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/read_heads.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
-Positions read_fitted(const std::filesystem::path& file, const Config& config,
-                      const Inputs& inputs) {
-  ObjFile mesh = read_obj(file);
-  const std::string difference = first_difference(inputs.faces.topology, mesh.topology);
-  if (difference.empty()) return std::move(mesh.positions);
-  throw InvalidInput(concat(file.string(), ": not the same mesh as ",
-                            config.faces.files.front().string(), ": ", difference));
-}
-
 Positions fitted_mesh(const Config& config, const Inputs& inputs) {
   const Config::Attachments& asked = config.attachments;
-  if (!asked.file.empty()) return read_fitted(asked.file, config, inputs);
+  const auto read = [&](const std::filesystem::path& file) {
+    return read_positions(file, inputs.faces.topology, config.faces.files.front().string());
+  };
+  if (!asked.file.empty()) return read(asked.file);
   if (!asked.head) return mean_head(inputs.faces);
   const auto head = static_cast<std::size_t>(*asked.head);
   // Attachments stand beside a head as its file has it, wherever it was moved since.
-  if (config.faces.align == Align::kRigid) {
-    return read_fitted(config.faces.files[head], config, inputs);
-  }
+  if (config.faces.align == Align::kRigid) return read(config.faces.files[head]);
   return inputs.faces.heads[head].positions;
 }
 
@@ -83,8 +76,7 @@ Digest digest_of(const AttachmentSet& set) {
 }  // namespace
 
 const Attachment& AttachmentSet::at(const std::string& name) const {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const Attachment& item) { return item.name == name; });
+  const auto found = std::ranges::find(items, name, &Attachment::name);
   require(found != items.end(), "attachments: none is called ", name);
   return *found;
 }
@@ -123,7 +115,7 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
     set.items.push_back(std::move(*item));
   }
   const auto& meshes = config.output.meshes;
-  const bool have_files = std::any_of(meshes.begin(), meshes.end(), [](MeshFormat format) {
+  const bool have_files = std::ranges::any_of(meshes, [](MeshFormat format) {
     return format == MeshFormat::kObj || format == MeshFormat::kGlb;
   });
   if (!meshes.empty() && !have_files) {

@@ -8,10 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "crowdface/core/length_units.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
 #include "crowdface/heads/alignment_check.h"
 #include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/head_mirror.h"
@@ -27,11 +28,6 @@ namespace crowdface {
 namespace {
 
 constexpr double kUvTolerance = 1e-4;
-
-bool is_missing(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return !std::filesystem::exists(file, ignored);
-}
 
 /// Opens the mask images as far as that goes without texture coordinates, which alone tell the UDIM
 /// tiles in use.
@@ -286,6 +282,7 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
 void check_inputs(const ConfigReading& reading, const std::filesystem::path& cache,
                   Problems& problems) {
   // Of files that are not there whoever read the config has told.
+  const auto is_missing = [](const std::filesystem::path& file) { return !is_there(file); };
   if (reading.heads_known) {
     std::vector<std::filesystem::path> heads = reading.config.faces.files;
     std::erase_if(heads, is_missing);

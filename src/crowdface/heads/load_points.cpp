@@ -12,6 +12,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/read_heads.h"
 
 namespace crowdface {
 namespace {
@@ -57,7 +58,7 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
     }
   }
   for (const YamlEntry& entry : node.entries) {
-    if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+    if (std::ranges::find(names, entry.key) != names.end()) continue;
     complaints.about(entry.value, "the first head has no such point");
   }
   return positions;
@@ -77,24 +78,18 @@ void read_heads(const YamlNode& node, Inputs& inputs, Complaints& complaints) {
   }
 }
 
-Positions read_template(const std::filesystem::path& file, const Inputs& inputs) {
-  ObjFile mesh = read_obj(file);
-  const std::string difference = first_difference(inputs.faces.topology, mesh.topology);
-  if (difference.empty()) return std::move(mesh.positions);
-  throw InvalidInput(concat(file.string(), ": not the same mesh as the heads: ", difference));
-}
-
 /// The mesh beside which one set of points stands.
 Positions template_of(const YamlNode& root, const std::filesystem::path& file,
                       const std::filesystem::path& neutral, const Inputs& inputs,
                       Complaints& complaints) {
   const YamlEntry* entry = root.find("template");
+  const Topology& topology = inputs.faces.topology;
   if (entry == nullptr) {
-    if (!neutral.empty()) return read_template(neutral, inputs);
+    if (!neutral.empty()) return read_positions(neutral, topology, "the heads");
     complaints.about(root, "the key template is missing: the OBJ file beside which points stand");
     return {};
   }
-  return read_template(file.parent_path() / entry->value.text, inputs);
+  return read_positions(file.parent_path() / entry->value.text, topology, "the heads");
 }
 
 /// \param neutral  of the shapes' template, if there is one

@@ -21,23 +21,6 @@
 namespace crowdface {
 namespace {
 
-Positions read_positions(const std::filesystem::path& file, const Config& config,
-                         const Topology& topology) {
-  ObjFile mesh = read_obj(file);
-  const std::string difference = first_difference(topology, mesh.topology);
-  if (difference.empty()) return std::move(mesh.positions);
-  throw InvalidInput(concat(file.string(), ": not the same mesh as ",
-                            config.faces.files.front().string(), ": ", difference));
-}
-
-std::vector<std::uint32_t> skin_of(const Inputs& inputs) {
-  std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
-    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
-  }
-  return skin;
-}
-
 /// Where meshes are read from, and what they are to be like.
 struct Source {
   const Config& config;
@@ -91,7 +74,7 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   read_meshes(files, source, problems,
               [&](std::size_t i, Positions mesh) { meshes[i] = std::move(mesh); });
   if (problems.size() > before) return set;
-  if (extent == 0) extent = extent_of(set.neutral, skin_of(inputs));
+  if (extent == 0) extent = extent_of(set.neutral, skin_vertices(inputs));
   for (std::size_t i = 0; i < files.size(); ++i) {
     set.shapes.push_back(shape_of(asked.names[places[i]], set.neutral, meshes[i], extent));
   }
@@ -107,7 +90,8 @@ struct RestingHead {
 RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t head) {
   const Positions& used = inputs.faces.heads[head].positions;
   if (config.faces.align != Align::kRigid) return {used, {}};
-  Positions mesh = read_positions(config.faces.files[head], config, inputs.faces.topology);
+  Positions mesh = read_positions(config.faces.files[head], inputs.faces.topology,
+                                  config.faces.files.front().string());
   std::vector<std::uint32_t> all(static_cast<std::size_t>(mesh.rows()));
   std::iota(all.begin(), all.end(), 0U);
   const RigidMotion motion =
@@ -115,7 +99,6 @@ RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t
   return {std::move(mesh), motion};
 }
 
-/// Reads the shapes of one head.
 void load_head(const Source& source, const Inputs& inputs, std::size_t head, double extent,
                std::vector<OwnShape>& shapes, Problems& problems) {
   const std::vector<std::filesystem::path>& files = source.config.shapes.of_head[head];
@@ -160,7 +143,7 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   const Config::Shapes& asked = config.shapes;
   ShapeSet& set = inputs.shapes;
   set.neutral = mean_head(inputs.faces);
-  const double extent = extent_of(set.neutral, skin_of(inputs));
+  const double extent = extent_of(set.neutral, skin_vertices(inputs));
   set.of_head.assign(inputs.faces.heads.size(), std::vector<OwnShape>(asked.names.size()));
   const std::size_t before = problems.size();
   for (std::size_t h = 0; h < set.of_head.size(); ++h) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
@@ -26,9 +25,8 @@ std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, cons
   for (const auto& of_component : faces) {
     std::map<std::string, Index> by_name;  // a name may stand in the file several times
     for (const auto& [r, count] : of_component) by_name[ranges[r].name] += count;
-    const auto most =
-        std::max_element(by_name.begin(), by_name.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto most = std::ranges::max_element(
+        by_name, [](const auto& a, const auto& b) { return a.second < b.second; });
     names.push_back(most == by_name.end() ? "" : most->first);
   }
   return names;
@@ -123,6 +121,14 @@ std::string name_of(const Part& part) {
 
 }  // namespace
 
+std::vector<std::uint32_t> skin_vertices(const Inputs& inputs) {
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
+    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
+  }
+  return skin;
+}
+
 HeadAxes head_axes(const Config& config) {
   HeadAxes axes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   axes.front(config.faces.front.index) = config.faces.front.sign;
@@ -171,7 +177,7 @@ std::string describe_parts(const Config& config, const Inputs& inputs) {
   for (const Line& line : lines) {
     std::vector<std::string> names;
     for (const std::uint32_t c : line.components) {
-      if (std::find(names.begin(), names.end(), label(c)) == names.end()) names.push_back(label(c));
+      if (std::ranges::find(names, label(c)) == names.end()) names.push_back(label(c));
     }
     const std::size_t count = line.components.size();
     const std::string first = concat(line.components[0] + 1);

@@ -14,6 +14,9 @@ namespace crowdface {
 /// `inputs.skin`. A name that no component bears is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
 
+/// The vertices that are skin, ascending.
+std::vector<std::uint32_t> skin_vertices(const Inputs& inputs);
+
 /// Which way the heads look, as the config says.
 HeadAxes head_axes(const Config& config);
 

@@ -130,7 +130,6 @@ bool into_cache(const std::filesystem::path& cache, const Digest& key, const Hea
   }
 }
 
-/// What all heads share.
 Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
   const auto chosen = [&](Index count) {

@@ -140,6 +140,13 @@ std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const fs::p
   return read;
 }
 
+Positions read_positions(const fs::path& file, const Topology& topology, std::string_view others) {
+  ObjFile mesh = read_obj(file);
+  const std::string difference = first_difference(topology, mesh.topology);
+  if (difference.empty()) return std::move(mesh.positions);
+  throw InvalidInput(concat(file.string(), ": not the same mesh as ", others, ": ", difference));
+}
+
 void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
   if (cache.empty()) return;
   try {

@@ -41,6 +41,11 @@ std::vector<std::optional<HeadFile>> read_mesh_files(
 std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths,
                                  const std::filesystem::path& cache, Problems& problems);
 
+/// The positions of a mesh. \throws Error, InvalidInput if it has another topology than `others`, which
+/// messages call so.
+Positions read_positions(const std::filesystem::path& file, const Topology& topology,
+                         std::string_view others);
+
 /// Writes into the cache what it lacks of large files. A cache that cannot be written to costs a
 /// warning.
 void keep_heads(const std::vector<HeadFile>& heads, const std::filesystem::path& cache);

@@ -2,13 +2,12 @@
 #include "crowdface/heads/worn_textures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
@@ -37,11 +36,6 @@ TilePlace tile_of(const FaceSet& faces, Index face) {
   return {static_cast<std::int32_t>(middle.x()), static_cast<std::int32_t>(middle.y())};
 }
 
-bool is_there(const fs::path& path) {
-  std::error_code ignored;  // a name longer than the system allows is that of no file
-  return fs::is_regular_file(path, ignored);
-}
-
 WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
                      const std::vector<TilePlace>& tiles, const FaceMaterials& materials,
                      std::vector<fs::path>& missing) {
@@ -54,7 +48,7 @@ WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
     if (found == of_material.end()) continue;
     const fs::path path = with_tile(found->second, tile_number(tiles[f][0], tiles[f][1]));
     const auto [row, is_new] = rows.emplace(path, kNoIndex);
-    if (is_new && is_there(path)) {
+    if (is_new && is_file(path)) {
       row->second = static_cast<std::uint32_t>(worn.files.size());
       worn.files.push_back({path, found->second});
     } else if (is_new && !find_tiles(found->second).empty()) {
@@ -68,8 +62,7 @@ WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
 }  // namespace
 
 bool HeadsTextures::any() const {
-  return std::any_of(heads.begin(), heads.end(),
-                     [](const WornTextures& worn) { return !worn.files.empty(); });
+  return std::ranges::any_of(heads, [](const WornTextures& worn) { return !worn.files.empty(); });
 }
 
 bool HeadsTextures::differ() const {

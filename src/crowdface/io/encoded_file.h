@@ -16,6 +16,11 @@ namespace crowdface {
 /// (texture coordinates, faces) is referred to where it lies; only the rest is memory of its own.
 class EncodedFile {
  public:
+  EncodedFile() = default;
+  /// A file that holds just this.
+  EncodedFile(std::string_view text) { add(text); }  // NOLINT(*-explicit-*)
+  EncodedFile(const std::string& text)
+      : EncodedFile(std::string_view(text)) {}  // NOLINT(*-explicit-*)
   /// Adds bytes that lie elsewhere and must stay there until this object is done with.
   void refer_to(std::string_view bytes);
   /// Adds these bytes.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <system_error>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -112,7 +111,6 @@ void check_kind(const path& file, std::string_view format, const PictureFacts& s
   }
 }
 
-/// Values of all pixels.
 std::size_t value_count(const PictureFacts& facts) {
   return static_cast<std::size_t>(facts.width) * static_cast<std::size_t>(facts.height) *
          static_cast<std::size_t>(facts.channels);

@@ -34,7 +34,7 @@ std::vector<std::string_view> tails_of(std::string_view text) {
     tails.push_back(text.substr(begin));
     end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
   }
-  std::reverse(tails.begin(), tails.end());
+  std::ranges::reverse(tails);
   return tails;
 }
 
@@ -49,10 +49,8 @@ bool stays_inside(const fs::path& relative) {
 /// behind it.
 template <class Body>
 void for_each_statement(std::string_view text, const Body& body) {
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const MaterialStatement statement = material_statement(text.substr(begin, end - begin));
-    begin = end + 1;
+  for (const std::string_view line : split_lines(text)) {
+    const MaterialStatement statement = material_statement(line);
     if (!statement.word.empty()) body(statement.word, statement.rest);
   }
 }
@@ -67,9 +65,8 @@ std::string with_forward_slashes(std::string_view text) {
 /// array of their common topology.
 bool is_name_of_ours(const fs::path& relative) {
   const fs::path normal = relative.lexically_normal();
-  const bool is_mesh = std::any_of(normal.begin(), normal.end(), [&](const fs::path& part) {
-    return mesh_format_of(part).has_value();
-  });
+  const bool is_mesh = std::ranges::any_of(
+      normal, [&](const fs::path& part) { return mesh_format_of(part).has_value(); });
   const std::string folder = lower_case(normal.begin()->string());
   return is_mesh || folder == "topology" || folder == kBlendedFolder;
 }
@@ -131,10 +128,7 @@ class Collector {
     return Seen::kTooMany;
   }
 
-  bool exists(const fs::path& relative) const {
-    std::error_code ignored;
-    return fs::is_regular_file(folder_ / relative, ignored);
-  }
+  bool exists(const fs::path& relative) const { return is_file(folder_ / relative); }
 
   bool take_file(const fs::path& relative, std::string_view what) {
     if (const std::string_view objection = objection_to(relative); !objection.empty()) {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/input_limits.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shared library that image_codec.h tells of.
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include <OpenImageIO/filesystem.h>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
@@ -46,10 +45,8 @@ OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
     if (!shared.empty()) folder = concat(shared, folder.empty() ? "" : "/", folder);
     const std::string text = read_file(file.from);
     std::string material;
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      Line line{text.substr(begin, end - begin), {}, {}, {}};
-      begin = end + 1;
+    for (const std::string_view as_it_stands : split_lines(text)) {
+      Line line{std::string(as_it_stands), {}, {}, {}};
       const MaterialStatement statement = material_statement(line.text);
       line.word = statement.word;
       line.rest = statement.rest;

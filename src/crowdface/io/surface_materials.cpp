@@ -62,11 +62,8 @@ std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) 
   for (const MaterialFile& file : files.files) {
     if (!file.is_library) continue;
     const std::string text = read_file(file.from);
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      const MaterialStatement statement =
-          material_statement(std::string_view(text).substr(begin, end - begin));
-      begin = end + 1;
+    for (const std::string_view line : split_lines(text)) {
+      const MaterialStatement statement = material_statement(line);
       if (statement.word == "newmtl") {
         materials.push_back({std::string(statement.rest), std::nullopt, 1, {}, {}});
       } else if (!materials.empty()) {

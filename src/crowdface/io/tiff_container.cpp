@@ -144,7 +144,7 @@ std::string defect_of(const Directory& directory, bool jpeg) {
   const std::uint64_t width = directory.first(kWidth, 0), height = directory.first(kHeight, 0);
   const std::uint64_t samples = directory.first(kSamplesPerPixel, 1);
   const std::vector<std::uint64_t> depths = directory.numbers(kBitsPerSample);
-  const std::uint64_t depth = depths.empty() ? 1 : *std::max_element(depths.begin(), depths.end());
+  const std::uint64_t depth = depths.empty() ? 1 : *std::ranges::max_element(depths);
   const bool tiled = directory.first(kTileWidth, 0) != 0;
   const std::uint64_t across = tiled ? directory.first(kTileWidth, 0) : width;
   const std::uint64_t down = tiled ? directory.first(kTileLength, 0)

@@ -45,8 +45,7 @@ std::vector<fs::path> find_tiles(const fs::path& path) {
     const std::string found = entry.filename().string();
     if (found.size() < at + kDigits) continue;
     const std::string number = found.substr(at, kDigits);
-    const bool digits =
-        std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool digits = std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
     if (digits && with_tile(name, std::stoi(number)) == fs::path(found)) {
       tiles.push_back(path.parent_path() / found);
     }

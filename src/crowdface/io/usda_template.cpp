@@ -66,7 +66,7 @@ std::string uv_text(const TextureCoordinates& uvs) {
 std::string uv_lines(const Topology& topology, const TextureCoordinates& uvs) {
   TextureCoordinates all = uvs;
   std::vector<std::uint32_t> corners = topology.corner_uvs;
-  if (std::find(corners.begin(), corners.end(), kNoIndex) != corners.end()) {
+  if (std::ranges::find(corners, kNoIndex) != corners.end()) {
     all.conservativeResize(uvs.rows() + 1, Eigen::NoChange);
     all.row(uvs.rows()).setZero();
     std::replace(corners.begin(), corners.end(), kNoIndex, static_cast<std::uint32_t>(uvs.rows()));
@@ -319,8 +319,8 @@ void UsdaTemplate::add_points(EncodedFile& file, const Positions& points,
 }
 
 void UsdaTemplate::add_subsets(EncodedFile& file, const std::string& root) const {
-  const auto used = std::count_if(materials_.begin(), materials_.end(),
-                                  [](const std::string& name) { return !name.empty(); });
+  const auto used =
+      std::ranges::count_if(materials_, [](const std::string& name) { return !name.empty(); });
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     const std::string& name = materials_[m];
     if (name.empty()) continue;

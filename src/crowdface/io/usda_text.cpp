@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/usda_text.h"
 
-#include <algorithm>
 #include <charconv>
 
 #include "crowdface/core/parallel.h"

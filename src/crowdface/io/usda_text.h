@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "crowdface/core/units.h"
 #include "crowdface/mesh/topology.h"

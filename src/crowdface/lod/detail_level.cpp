@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "crowdface/core/parallel.h"
@@ -24,8 +24,8 @@ std::vector<std::uint32_t> first_of_equal(const TextureCoordinates& uvs) {
   const auto key = [&](std::uint32_t row) {
     return std::array<double, 2>{uvs(row, 0), uvs(row, 1)};
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  std::ranges::stable_sort(order,
+                           [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
   std::vector<std::uint32_t> first(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool again = i > 0 && key(order[i - 1]) == key(order[i]);
@@ -51,10 +51,7 @@ std::array<double, 2> tile_of(std::span<const std::uint32_t> corners,
 struct SplitMesh {
   struct Corner {
     std::uint32_t vertex, uv, look;
-    bool operator==(const Corner&) const = default;
-    bool operator<(const Corner& other) const {
-      return std::tie(vertex, uv, look) < std::tie(other.vertex, other.uv, other.look);
-    }
+    auto operator<=>(const Corner&) const = default;
   };
   std::vector<Corner> corners;  ///< each once
   std::vector<Triangle> triangles;
@@ -112,8 +109,8 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
     return vertex(0) == vertex(1) || vertex(1) == vertex(2) || vertex(2) == vertex(0);
   });
   const auto look_of = [&](const Triangle& t) { return split.corners[t[0]].look; };
-  std::stable_sort(triangles.begin(), triangles.end(),
-                   [&](const Triangle& a, const Triangle& b) { return look_of(a) < look_of(b); });
+  std::ranges::stable_sort(
+      triangles, [&](const Triangle& a, const Triangle& b) { return look_of(a) < look_of(b); });
   DetailLevel level;
   std::vector<std::uint32_t> vertices, uvs;
   for (const Triangle& triangle : triangles) {

@@ -33,7 +33,7 @@ double walk(const DetailLevel& level, const FacesAround& around, const Positions
   constexpr int kMostSteps = 16;
   SurfacePoint best = nearest_around(level.topology, around, rows, start, point);
   for (int step = 0; step < kMostSteps; ++step) {
-    const auto most = std::max_element(best.shares.begin(), best.shares.end());
+    const auto most = std::ranges::max_element(best.shares);
     const std::uint32_t vertex = best.corners[static_cast<std::size_t>(most - best.shares.begin())];
     const SurfacePoint next = nearest_around(level.topology, around, rows, vertex, point);
     if (!(next.distance < best.distance)) break;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <span>
-#include <utility>
 
 #include "crowdface/core/parallel.h"
 
@@ -41,7 +40,7 @@ Adjacency build_adjacency(const Topology& topology) {
   std::vector<std::size_t> kept(vertices, 0);
   parallel_for_each(vertices, kBlock, [&](std::size_t i) {
     const std::span<std::uint32_t> ring = all.of(i);
-    std::sort(ring.begin(), ring.end());
+    std::ranges::sort(ring);
     for (auto run = ring.begin(); run != ring.end();) {
       const auto run_end = std::find_if(run, ring.end(), [&](auto n) { return n != *run; });
       if (run_end - run == 1) on_boundary[i] = 1;
@@ -57,7 +56,7 @@ Adjacency build_adjacency(const Topology& topology) {
 }
 
 std::uint32_t Components::largest() const {
-  return static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  return static_cast<std::uint32_t>(std::ranges::max_element(sizes) - sizes.begin());
 }
 
 Components find_components(const Adjacency& adjacency) {

@@ -17,17 +17,15 @@ Eigen::Vector3d MirrorPlane::image(const Eigen::Vector3d& point) const {
 
 Positions mirrored(const MirrorMap& map, const Positions& positions) {
   Positions image(positions.rows(), 3);
-  parallel_blocks(positions.rows(), kRows, [&](Index begin, Index end) {
-    for (Index v = begin; v < end; ++v) {
-      const auto i = static_cast<std::size_t>(v);
-      Eigen::Vector3d place = map.shares[i][0] * positions.row(map.corners[i][0]).transpose();
-      if (!map.is_vertex(static_cast<std::uint32_t>(v))) {
-        for (std::size_t c = 1; c < 3; ++c) {
-          place += map.shares[i][c] * positions.row(map.corners[i][c]).transpose();
-        }
+  parallel_for_each(positions.rows(), kRows, [&](Index v) {
+    const auto i = static_cast<std::size_t>(v);
+    Eigen::Vector3d place = map.shares[i][0] * positions.row(map.corners[i][0]).transpose();
+    if (!map.is_vertex(static_cast<std::uint32_t>(v))) {
+      for (std::size_t c = 1; c < 3; ++c) {
+        place += map.shares[i][c] * positions.row(map.corners[i][c]).transpose();
       }
-      image.row(v) = map.plane.image(place).transpose();
     }
+    image.row(v) = map.plane.image(place).transpose();
   });
   for (std::size_t i = 0; i < map.without.size(); ++i) {
     image.row(map.without[i]) += map.kept.row(static_cast<Index>(i));
@@ -42,10 +40,8 @@ Positions between_mirrored(const Positions& positions, const Positions& image, d
   const Positions& from = near_image ? image : positions;
   const Positions& to = near_image ? positions : image;
   const double share = near_image ? 1 - w : w;
-  parallel_blocks(positions.rows(), kRows, [&](Index begin, Index end) {
-    for (Index v = begin; v < end; ++v) {
-      for (Index c = 0; c < 3; ++c) result(v, c) = from(v, c) + share * (to(v, c) - from(v, c));
-    }
+  parallel_for_each(positions.rows(), kRows, [&](Index v) {
+    for (Index c = 0; c < 3; ++c) result(v, c) = from(v, c) + share * (to(v, c) - from(v, c));
   });
   return result;
 }

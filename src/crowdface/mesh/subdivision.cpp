@@ -29,7 +29,7 @@ Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& ind
       sides.push_back({low, high, c});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::ranges::sort(sides, [](const Side& a, const Side& b) {
     return std::tie(a.first, a.second, a.corner) < std::tie(b.first, b.second, b.corner);
   });
   Edges edges;

@@ -64,7 +64,6 @@ struct Mesh {
   TextureCoordinates uvs;  ///< #T by 2, may be empty
 };
 
-/// One head of a face set.
 struct Head {
   std::string name;     ///< unique in its set: the file's name without its ending
   Positions positions;  ///< #V by 3

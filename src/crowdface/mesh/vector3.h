@@ -10,7 +10,6 @@
 
 namespace crowdface {
 
-/// Where an axis points.
 inline Eigen::Vector3d unit_vector(Axis axis) {
   return axis.sign * Eigen::Vector3d::Unit(axis.index);
 }

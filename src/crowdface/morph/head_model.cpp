@@ -15,14 +15,14 @@ std::vector<std::uint32_t> vertices_of_material(const Topology& topology,
     const auto named = [&](const std::string& word) {
       return materials[m].name.find(word) != std::string::npos;
     };
-    if (std::none_of(words.begin(), words.end(), named)) continue;
+    if (std::ranges::none_of(words, named)) continue;
     const Index end =
         m + 1 < materials.size() ? materials[m + 1].first_face : topology.face_count();
     for (Index f = materials[m].first_face; f < end; ++f) {
       rows.insert(rows.end(), topology.face(f).begin(), topology.face(f).end());
     }
   }
-  std::sort(rows.begin(), rows.end());
+  std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
 }

@@ -2,9 +2,9 @@
 #include "crowdface/morph/ict_heads.h"
 
 #include <algorithm>
-#include <system_error>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
@@ -21,8 +21,7 @@ std::vector<fs::path> identity_files(const fs::path& folder) {
   std::vector<fs::path> files;
   while (files.size() < kMostModes) {
     const fs::path file = folder / concat("identity", zero_padded(files.size(), 3), ".obj");
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) break;
+    if (!is_file(file)) break;
     files.push_back(file);
   }
   if (files.empty()) {

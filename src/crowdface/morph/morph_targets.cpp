@@ -37,7 +37,7 @@ MorphTargets::MorphTargets(const std::filesystem::path& file, std::vector<std::s
                               " targets of ", vertex_count_, " vertices, found ",
                               file_.bytes().size()));
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   for (std::size_t i = 0; i < names.size(); ++i) places_[short_name(names[i])] = i;
 }
 

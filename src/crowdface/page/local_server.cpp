@@ -23,12 +23,8 @@ std::string random_token() {
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
     throw IoError("the system gives no random numbers");
   }
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string token;
-  for (const unsigned char byte : bytes) {
-    token += kDigits[byte >> 4U];
-    token += kDigits[byte & 15U];
-  }
+  for (const unsigned char byte : bytes) token += hex(byte, 2);
   return token;
 }
 

@@ -33,8 +33,7 @@ std::optional<PageFile> PageFiles::file(std::string_view name) const {
       name != kLicense) {
     return std::nullopt;
   }
-  std::error_code ignored;
-  if (!folder_ || !std::filesystem::exists(*folder_ / name, ignored)) {
+  if (!folder_ || !is_there(*folder_ / name)) {
     if (name != html) return std::nullopt;
     return PageFile{std::string(kNotice), std::string(type_of(name))};
   }

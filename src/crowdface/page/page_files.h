@@ -8,7 +8,6 @@
 
 namespace crowdface {
 
-/// A file of a page and its type.
 struct PageFile {
   std::string bytes;
   std::string type;

@@ -63,7 +63,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
                                    const std::vector<Band>& bands) {
   const Positions& positions = head.positions;
   const auto column = [&](Band band) {
-    return static_cast<Index>(std::find(bands.begin(), bands.end(), band) - bands.begin());
+    return static_cast<Index>(std::ranges::find(bands, band) - bands.begin());
   };
   const auto count = static_cast<Index>(bands.size());
   const Index ear = column(Band::kEars), neck = column(Band::kNeck);

@@ -308,8 +308,7 @@ std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& h
     const Bearing bearing{{(axis + 1) % 3, 1}, {(axis + 2) % 3, 1}};
     uneven[static_cast<std::size_t>(axis)] = asymmetry(head.positions, head.skin, axes_of(bearing));
   }
-  const auto side =
-      static_cast<int>(std::min_element(uneven.begin(), uneven.end()) - uneven.begin());
+  const auto side = static_cast<int>(std::ranges::min_element(uneven) - uneven.begin());
   std::optional<Bearing> best;
   double most = 0;
   for (const int up : {(side + 1) % 3, (side + 2) % 3}) {

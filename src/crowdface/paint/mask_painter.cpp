@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "crowdface/core/require.h"
@@ -131,43 +130,6 @@ MaskPainter::MaskPainter(const Topology& topology, const Positions& positions,
           " weights of ", positions.rows(), " vertices");
 }
 
-void MaskPainter::exchange(Step& step) {
-  if (step.whole) {
-    std::swap(alpha_, step.values);
-    return;
-  }
-  for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    alpha_.row(step.rows[i]).swap(step.values.row(static_cast<Index>(i)));
-  }
-}
-
-void MaskPainter::begin_step(const std::vector<std::uint32_t>& rows, bool goes_on) {
-  undone_.clear();
-  if (!goes_on || done_.empty() || done_.back().whole) {
-    done_.push_back({rows, alpha_(rows, Eigen::all), false});
-    return;
-  }
-  Step& step = done_.back();
-  std::vector<std::uint32_t> fresh;
-  std::set_difference(rows.begin(), rows.end(), step.rows.begin(), step.rows.end(),
-                      std::back_inserter(fresh));
-  Step both;
-  std::merge(step.rows.begin(), step.rows.end(), fresh.begin(), fresh.end(),
-             std::back_inserter(both.rows));
-  both.values = alpha_(both.rows, Eigen::all);
-  std::size_t old = 0;
-  for (std::size_t i = 0; i < both.rows.size() && old < step.rows.size(); ++i) {
-    if (both.rows[i] != step.rows[old]) continue;
-    both.values.row(static_cast<Index>(i)) = step.values.row(static_cast<Index>(old++));
-  }
-  step = std::move(both);
-}
-
-void MaskPainter::keep_all() {
-  undone_.clear();
-  done_.push_back({{}, alpha_, true});
-}
-
 std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<SurfacePoint>& places,
                                               const Brush& brush, bool goes_on) {
   require(region >= 0 && region < alpha_.cols() && brush.radius > 0 && brush.strength >= 0 &&
@@ -188,7 +150,8 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
     touched.push_back({vertex, brush.strength * soft});
     rows.push_back(vertex);
   }
-  begin_step(rows, goes_on);
+  if (!goes_on || done_.empty()) done_.emplace_back();
+  for (const std::uint32_t v : rows) done_.back().try_emplace(v, alpha_.row(v));
   switch (brush.mode) {
     case BrushMode::kAdd:
       for (const auto& [v, strength] : touched) {
@@ -223,18 +186,10 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
   return rows;
 }
 
-void MaskPainter::add_region() {
-  keep_all();
-  const Index count = alpha_.cols();
-  alpha_.conservativeResize(Eigen::NoChange, count + 1);
-  alpha_.col(count).setZero();
-}
-
-void MaskPainter::remove_region(Index region) {
+MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
   const Index count = alpha_.cols();
   require(region >= 0 && region < count && count > 1, "paint: region ", region, " of ", count,
           " cannot be removed");
-  keep_all();
   Alpha rest(alpha_.rows(), count - 1);
   rest << alpha_.leftCols(region), alpha_.rightCols(count - 1 - region);
   std::vector<std::uint32_t> bare;
@@ -266,22 +221,13 @@ void MaskPainter::remove_region(Index region) {
     bare = std::move(left);
   }
   for (const std::uint32_t v : bare) rest(v, 0) = 1;
-  alpha_ = std::move(rest);
+  return rest;
 }
 
 bool MaskPainter::undo() {
   if (done_.empty()) return false;
-  exchange(done_.back());
-  undone_.push_back(std::move(done_.back()));
+  for (const auto& [v, row] : done_.back()) alpha_.row(v) = row;
   done_.pop_back();
-  return true;
-}
-
-bool MaskPainter::redo() {
-  if (undone_.empty()) return false;
-  exchange(undone_.back());
-  done_.push_back(std::move(undone_.back()));
-  undone_.pop_back();
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "crowdface/mesh/mirror_map.h"
@@ -47,33 +48,23 @@ class MaskPainter {
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,
                                    const Brush& brush, bool goes_on = false);
 
-  /// A region that is nowhere yet, after all others.
-  void add_region();
-  /// Its share goes to the others in proportion; where it was alone, to those around, and failing these
-  /// to the first. \throws BrokenPrecondition if it is the only one.
-  void remove_region(Index region);
+  /// The weights if there were no such region: its share goes to the others in proportion; where it was
+  /// alone, to those around, and failing these to the first.
+  /// \throws BrokenPrecondition if it is the only one.
+  Alpha alpha_without(Index region) const;
 
   bool can_undo() const { return !done_.empty(); }
-  bool can_redo() const { return !undone_.empty(); }
-  /// Take the last step back, or do again what was taken back last. \return false if there is none.
+  /// Takes the last step back. \return false if there is none.
   bool undo();
-  bool redo();
 
  private:
-  /// What stood there before a step (or, once it is taken back, after it).
-  struct Step {
-    std::vector<std::uint32_t> rows;  ///< ascending
-    Alpha values;                     ///< #rows by #R, or if `whole` all of α
-    bool whole = false;
-  };
-  void exchange(Step& step);
-  void begin_step(const std::vector<std::uint32_t>& rows, bool goes_on);
-  void keep_all();
+  /// What stood there before a step: rows of α by vertex.
+  using Step = std::map<std::uint32_t, Eigen::RowVectorXd>;
 
   MirrorPlane mirror_;
   SurfaceDistance surface_;
   Alpha alpha_;
-  std::vector<Step> done_, undone_;
+  std::vector<Step> done_;
 };
 
 }  // namespace crowdface

@@ -2,7 +2,6 @@
 #include "crowdface/paint/proposed_masks.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -24,18 +23,15 @@ Band band_of(std::string_view name) {
 
 std::vector<Band> parse_bands(std::string_view text) {
   std::vector<Band> bands;
-  while (true) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const Band band = band_of(text.substr(0, comma));
-    if (std::find(bands.begin(), bands.end(), band) != bands.end()) {
-      throw UsageError(concat("--bands: ", text.substr(0, comma), " stands there twice"));
+  for (const std::string_view name : split(text, ',')) {
+    const Band band = band_of(name);
+    if (std::ranges::find(bands, band) != bands.end()) {
+      throw UsageError(concat("--bands: ", name, " stands there twice"));
     }
     bands.push_back(band);
-    if (comma == text.size()) break;
-    text.remove_prefix(comma + 1);
   }
   for (const Band band : {Band::kBrow, Band::kNose, Band::kMouth}) {
-    if (std::find(bands.begin(), bands.end(), band) != bands.end()) continue;
+    if (std::ranges::find(bands, band) != bands.end()) continue;
     throw UsageError(concat("--bands: expected ", kForm, ", found ", join(names_of(bands))));
   }
   return bands;

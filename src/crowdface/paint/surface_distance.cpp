@@ -46,7 +46,7 @@ std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Position
     const auto is_of_same = [&](std::uint32_t other) {
       return components.of_vertex[other] == components.of_vertex[v];
     };
-    if (std::none_of(there.begin(), there.end(), is_of_same)) there.push_back(v);
+    if (std::ranges::none_of(there, is_of_same)) there.push_back(v);
   }
   for (const auto& [place, there] : places) {
     for (std::size_t i = 0; i < there.size(); ++i) {
@@ -105,9 +105,7 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
     // All corners of the faces that the place's triangle is of, so that quads count whole.
     for (const std::uint32_t f : faces_.of(place.corners[0])) {
       const auto face = topology_.face(f);
-      const auto has = [&](std::uint32_t v) {
-        return std::find(face.begin(), face.end(), v) != face.end();
-      };
+      const auto has = [&](std::uint32_t v) { return std::ranges::find(face, v) != face.end(); };
       if (!has(place.corners[1]) || !has(place.corners[2])) continue;
       for (const std::uint32_t v : face) {
         reached(v, length3(row3(positions_, v) - place.position));
@@ -140,8 +138,7 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
       }
     }
   }
-  std::sort(out.begin(), out.end(),
-            [](const Reached& a, const Reached& b) { return a.vertex < b.vertex; });
+  std::ranges::sort(out, {}, &Reached::vertex);
   return out;
 }
 

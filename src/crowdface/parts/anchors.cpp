@@ -18,7 +18,7 @@ std::vector<std::uint32_t> ring_of(const Topology& topology, const FacesAround& 
       ring.insert(ring.end(), topology.face(f).begin(), topology.face(f).end());
     }
   }
-  std::sort(ring.begin(), ring.end());
+  std::ranges::sort(ring);
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
   return ring;
 }

@@ -2,7 +2,6 @@
 #include "crowdface/parts/ball_map.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "crowdface/parts/point_grid.h"
 
@@ -56,7 +55,7 @@ BallMap::BallMap(const Topology& topology, const FacesAround& faces, const Posit
           radius_along(topology, faces, head, centre, direction, radius, nearest));
     }
   }
-  farthest_ = static_cast<double>(*std::max_element(radii_.begin(), radii_.end()));
+  farthest_ = static_cast<double>(*std::ranges::max_element(radii_));
 }
 
 BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {

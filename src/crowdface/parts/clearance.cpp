@@ -2,16 +2,14 @@
 #include "crowdface/parts/clearance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace crowdface {
 namespace {
 
 bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b) {
   const auto& around = adjacency.of(a);
-  return a == b || std::find(around.begin(), around.end(), b) != around.end();
+  return a == b || std::ranges::find(around, b) != around.end();
 }
 
 /// A cut that passes one edge and then the other crosses one face between them: the edges share an end

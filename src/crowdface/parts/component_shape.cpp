@@ -100,12 +100,9 @@ double distance_to(const PointGrid& skin, const Positions& positions,
 }
 
 Eigen::Vector3d box_sides(const Positions& positions, std::span<const std::uint32_t> vertices) {
-  Eigen::Vector3d low = positions.row(vertices[0]).transpose(), high = low;
-  for (const std::uint32_t v : vertices) {
-    low = low.cwiseMin(positions.row(v).transpose());
-    high = high.cwiseMax(positions.row(v).transpose());
-  }
-  return high - low;
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t v : vertices) box.extend(positions.row(v).transpose());
+  return box.sizes();
 }
 
 }  // namespace

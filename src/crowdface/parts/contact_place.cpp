@@ -55,8 +55,7 @@ std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing)
     }
     up = unit3(up);
     places.push_back({middle, up, course(group, middle, kCourse * spacing, up), {}, {}});
-    next = static_cast<std::size_t>(std::max_element(nearest.begin(), nearest.end()) -
-                                    nearest.begin());
+    next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
   }
   return places;
 }

@@ -78,12 +78,12 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
   for (const Innermost& best : innermost) {
     if (best.vertex != kNoIndex) rim.push_back(best.vertex);
   }
-  std::sort(rim.begin(), rim.end());
+  std::ranges::sort(rim);
   const std::vector<std::uint32_t> some = some_of(near, kMostLids);
   std::set_union(some.begin(), some.end(), rim.begin(), rim.end(),
                  std::back_inserter(lids.vertices));
   for (const std::uint32_t v : rim) {
-    const auto at = std::lower_bound(lids.vertices.begin(), lids.vertices.end(), v);
+    const auto at = std::ranges::lower_bound(lids.vertices, v);
     lids.rim.push_back(static_cast<std::uint32_t>(at - lids.vertices.begin()));
     lids.upper.push_back(dot3(positions.row(v).transpose() - centre, axes.up) > 0);
   }

@@ -97,7 +97,7 @@ std::vector<Candidate> opposite(const Positions& positions, const Positions& nor
     if (gap < -kOverlap * extent || aside > kSideways * std::max(gap, kAside * extent)) continue;
     found.push_back({distance, w, across});
   }
-  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+  std::ranges::sort(found, [](const Candidate& a, const Candidate& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex;
   });
   return found;
@@ -164,10 +164,8 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   const std::vector<std::uint32_t> some = thinned(positions, skin, kSpacing * extent);
   const PointGrid grid(positions, some);
   std::vector<std::vector<Candidate>> candidates(some.size());
-  parallel_blocks(static_cast<Index>(some.size()), kBlock, [&](Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      candidates[i] = opposite(positions, normals, side, grid, some[i], extent);
-    }
+  parallel_for_each(some.size(), kBlock, [&](std::size_t i) {
+    candidates[i] = opposite(positions, normals, side, grid, some[i], extent);
   });
 
   std::vector<std::optional<FacingPair>> found(some.size());

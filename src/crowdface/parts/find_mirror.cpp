@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <compare>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
@@ -35,16 +35,11 @@ Eigen::Vector3d at(const Positions& positions, std::uint32_t vertex) {
   return row3(positions, static_cast<Index>(vertex));
 }
 
-struct Box {
-  Eigen::Vector3d low, high;
-};
+using Box = Eigen::AlignedBox3d;
 
 Box box_of(const Positions& mean, const Vertices& vertices) {
-  Box box{at(mean, vertices.front()), at(mean, vertices.front())};
-  for (const std::uint32_t v : vertices) {
-    box.low = box.low.cwiseMin(at(mean, v));
-    box.high = box.high.cwiseMax(at(mean, v));
-  }
+  Box box;
+  for (const std::uint32_t v : vertices) box.extend(at(mean, v));
   return box;
 }
 
@@ -67,17 +62,14 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
     bool unlike;
     double difference;
     std::uint32_t one, other;
-    bool operator<(const Pair& b) const {
-      return std::tie(unlike, difference, one, other) <
-             std::tie(b.unlike, b.difference, b.one, b.other);
-    }
+    auto operator<=>(const Pair&) const = default;
   };
   std::vector<Pair> pairs;
   for (std::uint32_t one = 0; one < components.size(); ++one) {
     for (std::uint32_t other = 0; other < components.size(); ++other) {
       const double difference =
-          std::max((boxes[other].low - images[one].low).cwiseAbs().maxCoeff(),
-                   (boxes[other].high - images[one].high).cwiseAbs().maxCoeff());
+          std::max((boxes[other].min() - images[one].min()).cwiseAbs().maxCoeff(),
+                   (boxes[other].max() - images[one].max()).cwiseAbs().maxCoeff());
       if (difference > reach) continue;
       pairs.push_back({components[one].size() != components[other].size(), difference, one, other});
     }
@@ -117,17 +109,15 @@ class PlaceFinder {
       const auto near = grid.nearest(image(v));
       seeds.push_back({near.distance, v, near.vertex});
     }
-    std::stable_sort(seeds.begin(), seeds.end(),
-                     [](const Seed& a, const Seed& b) { return a.distance < b.distance; });
+    std::ranges::stable_sort(seeds, {}, &Seed::distance);
     seeds.resize(std::min(seeds.size(), kSeeds));
-    const Box box = box_of(mean_, here);
-    const double extent = (box.high - box.low).maxCoeff();
+    const double extent = box_of(mean_, here).sizes().maxCoeff();
     std::optional<std::vector<MirroredPair>> best;
     double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
     for (const Seed& seed : seeds) {
       for (const std::uint32_t f : around_.of(seed.vertex)) {
         const auto face = topology_.face(f);
-        const auto corner = std::find(face.begin(), face.end(), seed.vertex);
+        const auto corner = std::ranges::find(face, seed.vertex);
         const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
         const std::uint32_t partner_of_to = grid.nearest(image(to)).vertex;
         auto pairs =
@@ -275,9 +265,9 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   map.corners.resize(components.of_vertex.size());
   map.shares.resize(components.of_vertex.size());
   const Box box = box_of(mean, skin);
-  const double extent = (box.high - box.low).maxCoeff();
+  const double extent = box.sizes().maxCoeff();
   map.plane = find_mirror_plane(topology, around, mean, skin,
-                                {side, dot3(side, 0.5 * (box.low + box.high))});
+                                {side, dot3(side, 0.5 * (box.min() + box.max()))});
   {
     const PlaceFinder finder(topology, around, mean, map.plane, extent);
     const Vertices partners = component_partners(mean, of_component, map.plane, kBoxReach * extent);
@@ -301,13 +291,13 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
     const bool agreed = map.is_vertex(partner) && map.corners[partner][0] == v;
     if (map.is_vertex(v) && !agreed) PlaceFinder::no_partner(map, v);
   }
-  std::sort(map.without.begin(), map.without.end());
+  std::ranges::sort(map.without);
   map.kept.setZero(static_cast<Index>(map.without.size()), 3);
   map.plane = plane_of_partners(map, skin, mean, side);
   keep_form(mean, kReach * extent, map);
   found.rms = std::sqrt(mean_square(map, mean, &found.largest));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
-    if (std::binary_search(map.without.begin(), map.without.end(), v)) continue;
+    if (std::ranges::binary_search(map.without, v)) continue;
     ++(map.is_vertex(v) ? found.vertices : found.on_surface);
   }
   return found;

@@ -163,7 +163,7 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
       rigid.push_back(&part);
     }
   }
-  std::sort(bound.begin(), bound.end());
+  std::ranges::sort(bound);
   state->rigid.resize(rigid.size());
   parallel_for_each(rigid.size(),
                     [&](std::size_t p) { state->rigid[p] = bind_rigid(*rigid[p], parts, skin); });

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
-#include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/part_list.h"

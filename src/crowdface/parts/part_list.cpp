@@ -136,10 +136,10 @@ void split_jaws(const Positions& positions, const std::vector<std::vector<std::u
   }
   for (auto& [root, group] : groups) {
     const auto is_eyeball = [&](std::uint32_t c) { return eyeball[c]; };
-    if (group.size() < 2 || std::any_of(group.begin(), group.end(), is_eyeball)) continue;
+    if (group.size() < 2 || std::ranges::any_of(group, is_eyeball)) continue;
     std::vector<std::pair<Box, std::uint32_t>> boxes;
     for (const std::uint32_t c : group) boxes.emplace_back(box_of(positions, members[c], axes), c);
-    std::stable_sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) {
+    std::ranges::stable_sort(boxes, [](const auto& a, const auto& b) {
       return height_of(a.first) < height_of(b.first);
     });
     std::vector<Box> lowest_first;
@@ -211,7 +211,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     part.vertices.insert(part.vertices.end(), members[c].begin(), members[c].end());
   }
   for (Part& part : list.parts) {
-    std::sort(part.vertices.begin(), part.vertices.end());
+    std::ranges::sort(part.vertices);
     if (part.eyeball) part.surface = members[part.ball];
   }
   return list;

@@ -13,14 +13,11 @@ constexpr double kMostCells = 4e6;
 
 PointGrid::PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices)
     : positions_(positions) {
-  low_ = positions.row(vertices.front()).transpose();
-  Eigen::Vector3d high = low_;
-  for (const std::uint32_t vertex : vertices) {
-    low_ = low_.cwiseMin(positions.row(vertex).transpose());
-    high = high.cwiseMax(positions.row(vertex).transpose());
-  }
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t vertex : vertices) box.extend(positions.row(vertex).transpose());
+  low_ = box.min();
   // Points of a surface: about two to a cell that has any.
-  const Eigen::Vector3d size = high - low_;
+  const Eigen::Vector3d size = box.sizes();
   const double longest = std::max({size.x(), size.y(), size.z(), 1e-12});
   width_ = longest / std::max(1.0, std::sqrt(static_cast<double>(vertices.size()) / 8));
   const auto count = [&](Index axis) { return std::floor(size(axis) / width_) + 1; };
@@ -28,15 +25,12 @@ PointGrid::PointGrid(const Positions& positions, std::span<const std::uint32_t> 
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cells_[axis] = static_cast<Index>(count(static_cast<Index>(axis)));
   }
-  offsets_.assign(static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]) + 1, 0);
-  const auto cell_number = [&](std::uint32_t vertex) {
-    return number_of(cell_of(positions.row(vertex).transpose()));
-  };
-  for (const std::uint32_t vertex : vertices) ++offsets_[cell_number(vertex) + 1];
-  for (std::size_t c = 1; c < offsets_.size(); ++c) offsets_[c] += offsets_[c - 1];
-  std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
-  vertices_.resize(vertices.size());
-  for (const std::uint32_t vertex : vertices) vertices_[next[cell_number(vertex)]++] = vertex;
+  by_cell_ = grouped<std::uint32_t>(
+      static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]), [&](const auto& put) {
+        for (const std::uint32_t vertex : vertices) {
+          put(number_of(cell_of(positions.row(vertex).transpose())), vertex);
+        }
+      });
 }
 
 PointGrid::Cell PointGrid::cell_of(const Eigen::Vector3d& point) const {
@@ -72,14 +66,13 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   // Shells of cells around the point's own; a cell of shell s is at least (s − 1) cells away from a
   // point inside the grid, and no nearer to one outside.
   const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {  // neighbouring cells
-    const std::uint32_t end = offsets_[number_of({high_x, y, z}) + 1];
-    for (std::uint32_t i = offsets_[number_of({low_x, y, z})]; i < end; ++i) {
-      const double dx = positions_(vertices_[i], 0) - point.x();
-      const double dy = positions_(vertices_[i], 1) - point.y();
-      const double dz = positions_(vertices_[i], 2) - point.z();
+    for (const std::uint32_t v : between(number_of({low_x, y, z}), number_of({high_x, y, z}))) {
+      const double dx = positions_(v, 0) - point.x();
+      const double dy = positions_(v, 1) - point.y();
+      const double dz = positions_(v, 2) - point.z();
       const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-      if (distance < best.distance || (distance == best.distance && vertices_[i] < best.vertex)) {
-        best = {vertices_[i], distance};
+      if (distance < best.distance || (distance == best.distance && v < best.vertex)) {
+        best = {v, distance};
       }
     }
   };
@@ -109,9 +102,8 @@ std::vector<std::uint32_t> PointGrid::about(const Eigen::Vector3d& point, double
   const Cell low = cell_of(point - all_sides), high = cell_of(point + all_sides);
   for (Index z = low[2]; z <= high[2]; ++z) {
     for (Index y = low[1]; y <= high[1]; ++y) {
-      const std::size_t first = number_of({low[0], y, z}), last = number_of({high[0], y, z});
-      found.insert(found.end(), vertices_.begin() + offsets_[first],
-                   vertices_.begin() + offsets_[last + 1]);
+      const auto row = between(number_of({low[0], y, z}), number_of({high[0], y, z}));
+      found.insert(found.end(), row.begin(), row.end());
     }
   }
   return found;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "crowdface/core/grouped.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -36,13 +37,16 @@ class PointGrid {
 
   Cell cell_of(const Eigen::Vector3d& point) const;
   std::size_t number_of(const Cell& cell) const;
+  /// The vertices of some cells in a row, first and last included.
+  std::span<const std::uint32_t> between(std::size_t first, std::size_t last) const {
+    return {by_cell_.of(first).data(), by_cell_.of(last).data() + by_cell_.of(last).size()};
+  }
 
   const Positions& positions_;
   Eigen::Vector3d low_;
-  double width_ = 1;                     ///< of a cell
-  Cell cells_ = {1, 1, 1};               ///< along x, y, z
-  std::vector<std::uint32_t> offsets_;   ///< #cells + 1
-  std::vector<std::uint32_t> vertices_;  ///< by cell, ascending in each
+  double width_ = 1;                ///< of a cell
+  Cell cells_ = {1, 1, 1};          ///< along x, y, z
+  Grouped<std::uint32_t> by_cell_;  ///< vertices, ascending in each cell
 };
 
 }  // namespace crowdface

@@ -60,7 +60,7 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
   Sides sides{from_low.reached(), std::vector<double>(static_cast<std::size_t>(mean.rows()), 0.0)};
   sides.vertices.insert(sides.vertices.end(), from_high.reached().begin(),
                         from_high.reached().end());
-  std::sort(sides.vertices.begin(), sides.vertices.end());
+  std::ranges::sort(sides.vertices);
   sides.vertices.erase(std::unique(sides.vertices.begin(), sides.vertices.end()),
                        sides.vertices.end());
   for (const std::uint32_t v : sides.vertices) {

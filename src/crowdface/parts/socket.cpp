@@ -36,8 +36,8 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
 
 bool unmoved(const Positions& before, const Positions& after,
              std::span<const std::uint32_t> vertices) {
-  return std::all_of(vertices.begin(), vertices.end(),
-                     [&](std::uint32_t v) { return before.row(v) == after.row(v); });
+  return std::ranges::all_of(vertices,
+                             [&](std::uint32_t v) { return before.row(v) == after.row(v); });
 }
 
 }  // namespace crowdface

@@ -49,7 +49,7 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
       near.insert(near.end(), faces.of(v).begin(), faces.of(v).end());
     }
   }
-  std::sort(near.begin(), near.end());
+  std::ranges::sort(near);
   near.erase(std::unique(near.begin(), near.end()), near.end());
   SurfacePoint best = bare_vertex(positions, vertex, point);
   for (const std::uint32_t f : near) try_face(topology.face(f), positions, point, best);

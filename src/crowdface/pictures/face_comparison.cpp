@@ -20,7 +20,7 @@ namespace {
 using With = Config::Comparison::With;
 
 /// \throws MissingInput if it cannot be said, as of what is in a folder that may not be read.
-bool is_there(const std::filesystem::path& path) {
+bool is_surely_there(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::status_known(status)) return std::filesystem::exists(status);
@@ -30,7 +30,7 @@ bool is_there(const std::filesystem::path& path) {
 /// In which format a crowd has a face. \throws MissingInput if in none.
 MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
   for (const MeshFormat format : all_mesh_formats()) {
-    if (is_there(directory.mesh(id, format))) return format;
+    if (is_surely_there(directory.mesh(id, format))) return format;
   }
   throw MissingInput(
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
@@ -39,7 +39,7 @@ MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id
 /// A crowd's folder as its config says that it is laid out.
 CrowdDirectory crowd_at(const std::filesystem::path& folder) {
   CrowdDirectory directory{folder};
-  if (!is_there(directory.config())) return directory;
+  if (!is_surely_there(directory.config())) return directory;
   Complaints complaints;
   const auto root = parse_yaml(read_file(directory.config()), "", complaints);
   const YamlEntry* output = root ? root->find("output") : nullptr;
@@ -135,7 +135,7 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
   if (!sheet || sheet->compare.with != With::kFile) return;
   const std::filesystem::path& file = sheet->compare.file;
   try {
-    if (!is_there(file) || !std::filesystem::is_directory(file)) {
+    if (!is_surely_there(file) || !std::filesystem::is_directory(file)) {
       read_reference(file, inputs.faces.topology.vertex_count);
     }
   } catch (const Error& error) {

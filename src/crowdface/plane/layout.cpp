@@ -86,7 +86,7 @@ std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points) {
   const auto before = [](const PlanePoint& a, const PlanePoint& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   };
-  std::sort(points.begin(), points.end(), before);
+  std::ranges::sort(points, before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   // Monotone chain (Andrew 1979): lower hull, then upper hull.

@@ -16,7 +16,7 @@ std::vector<double> inverse_square_weights(const std::vector<PlanePoint>& anchor
     const double dy = position.y() - anchors[i].y();
     weights[i] = dx * dx + dy * dy;  // ‖m − t_i‖²
   }
-  const double nearest = *std::min_element(weights.begin(), weights.end());
+  const double nearest = *std::ranges::min_element(weights);
   double sum = 0;
   for (double& weight : weights) {
     // Eq. 4 relative to the nearest anchor's weight, so that no quotient can overflow.

@@ -22,7 +22,7 @@ std::vector<std::vector<std::uint32_t>> uvs_of(const std::vector<std::uint32_t>&
   for (std::size_t c = 0; c < topology.corner_uvs.size(); ++c) {
     const std::uint32_t i = place[topology.corner_vertices[c]];
     if (i == kNoIndex || topology.corner_uvs[c] == kNoIndex) continue;
-    const auto at = std::lower_bound(rows[i].begin(), rows[i].end(), topology.corner_uvs[c]);
+    const auto at = std::ranges::lower_bound(rows[i], topology.corner_uvs[c]);
     if (at == rows[i].end() || *at != topology.corner_uvs[c]) {
       rows[i].insert(at, topology.corner_uvs[c]);
     }

@@ -95,7 +95,7 @@ class Canvas {
     }
     for (int round = 0; round < kMostRounds; ++round) {
       throw_if_interrupted();
-      std::fill(sum.begin(), sum.end(), 0.0F);
+      std::ranges::fill(sum, 0.0F);
       double worst = 0;
       for (std::size_t p = 0; p < places.size(); ++p) {
         for (std::size_t k = 0; k < regions_; ++k) {
@@ -145,7 +145,7 @@ class Canvas {
         bytes[k] = static_cast<int>(std::floor(255 * part + 0.5));
         rest -= bytes[k];
       }
-      *std::max_element(bytes.begin(), bytes.end()) += rest;
+      *std::ranges::max_element(bytes) += rest;
       for (std::size_t k = 0; k < regions_; ++k) {
         out[k / kRegionsOfImage][kRegionsOfImage * i + k % kRegionsOfImage] =
             static_cast<std::uint8_t>(bytes[k]);

@@ -39,7 +39,6 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
                          const RegionWeights::Alpha& alpha, const std::vector<bool>& first,
                          int size);
 
-/// Those masks as files.
 struct MaskFiles {
   std::vector<std::filesystem::path> masks;  ///< #images: what a config names, with <UDIM> if tiled
   std::vector<std::pair<std::filesystem::path, std::string>> files;  ///< PNG, in memory

@@ -2,7 +2,6 @@
 #include "crowdface/region/region_weights.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -137,7 +136,7 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
                              const std::vector<bool>& needed) {
   require(regions >= 1, "region: weights of ", regions, " regions");
   if (masks.empty() && regions == 1) return whole_head(topology);
-  const bool tiled = std::any_of(masks.begin(), masks.end(), [](auto& m) { return m.tiled(); });
+  const bool tiled = std::ranges::any_of(masks, [](auto& m) { return m.tiled(); });
   const UvSamples samples = gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne);
   const std::set<int> used = tiles_of(samples);
   const auto is_needed = [&](Index v) {
@@ -163,7 +162,7 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
     weights.alpha(i, regions - 1) = 1;
     uncovered[static_cast<std::size_t>(i)] = places.empty() || !is_needed(i) ? 0 : 1;
   });
-  weights.uncovered_vertices = std::count(uncovered.begin(), uncovered.end(), 1);
+  weights.uncovered_vertices = std::ranges::count(uncovered, 1);
   return weights;
 }
 

@@ -63,9 +63,10 @@ double tile_step(double coordinate, double polygon_mean) {
 }
 
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
-  require(uvs.allFinite() &&
-              std::all_of(topology.corner_uvs.begin(), topology.corner_uvs.end(),
-                          [&](std::uint32_t uv) { return uv == kNoIndex || uv < uvs.rows(); }),
+  require(uvs.allFinite() && std::ranges::all_of(topology.corner_uvs,
+                                                 [&](std::uint32_t uv) {
+                                                   return uv == kNoIndex || uv < uvs.rows();
+                                                 }),
           "region: texture coordinates that are not finite or not there");
   UvSamples corners = samples_by_vertex(topology, uvs, tiles);
   check_every_used_vertex(topology, corners);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <compare>
 #include <set>
-#include <span>
-#include <tuple>
-#include <vector>
 
 #include "crowdface/core/grouped.h"
 #include "crowdface/mesh/topology.h"
@@ -17,10 +14,7 @@ struct UvSample {
   int tile = 0;  ///< UDIM number
   double u = 0;  ///< as in the file, not relative to the tile
   double v = 0;
-  bool operator==(const UvSample&) const = default;
-  bool operator<(const UvSample& other) const {
-    return std::tie(tile, u, v) < std::tie(other.tile, other.u, other.v);
-  }
+  auto operator<=>(const UvSample&) const = default;
 };
 
 /// The distinct places of every vertex: those of its corners, each value once (a value on the

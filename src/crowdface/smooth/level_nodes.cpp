@@ -43,7 +43,7 @@ std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
     candidates.push_back(level);
     if (level < max_level) candidates.push_back(level + 1);
   }
-  std::sort(candidates.begin(), candidates.end());
+  std::ranges::sort(candidates);
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   return candidates;
 }
@@ -103,10 +103,10 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
     directions_.push_back(std::move(direction));
   }
   levels_ = chosen;
-  std::sort(levels_.begin(), levels_.end());
+  std::ranges::sort(levels_);
   for (const std::uint64_t level : chosen) {
-    choice_.push_back(static_cast<std::size_t>(
-        std::lower_bound(levels_.begin(), levels_.end(), level) - levels_.begin()));
+    choice_.push_back(
+        static_cast<std::size_t>(std::ranges::lower_bound(levels_, level) - levels_.begin()));
     const Spectrum node = displacement(level);
     std::vector<double> row;
     for (std::size_t q = 0; q <= triangle_.size(); ++q)
@@ -119,7 +119,7 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   require(level <= max_level_, "level ", level, " is above the largest, ", max_level_);
   std::vector<double> result(levels_.size(), 0.0);
   if (level == 0) return result;
-  if (const auto node = std::lower_bound(levels_.begin(), levels_.end(), level);
+  if (const auto node = std::ranges::lower_bound(levels_, level);
       node != levels_.end() && *node == level) {
     result[static_cast<std::size_t>(node - levels_.begin())] = 1;
     return result;

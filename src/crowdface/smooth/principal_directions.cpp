@@ -172,7 +172,7 @@ TestedLevels test_levels(const LevelNodes& nodes) {
     levels.push_back(level);
     if (level < nodes.max_level()) levels.push_back(level + 1);
   }
-  std::sort(levels.begin(), levels.end());
+  std::ranges::sort(levels);
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   TestedLevels tested{std::move(levels), {}};
   const auto count = static_cast<Index>(nodes.levels().size());

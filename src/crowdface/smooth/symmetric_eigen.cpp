@@ -67,8 +67,7 @@ SymmetricEigen symmetric_eigen(Eigen::MatrixXd matrix) {
   }
   std::vector<Index> order(static_cast<std::size_t>(size));
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return matrix(a, a) > matrix(b, b); });
+  std::ranges::stable_sort(order, [&](Index a, Index b) { return matrix(a, a) > matrix(b, b); });
   SymmetricEigen result{Eigen::VectorXd(size), Eigen::MatrixXd(size, size)};
   for (Index i = 0; i < size; ++i) {
     const Index from = order[static_cast<std::size_t>(i)];

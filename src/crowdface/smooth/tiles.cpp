@@ -56,7 +56,7 @@ std::vector<std::uint32_t> order_along_curve(const Positions& positions) {
     }
     places[static_cast<std::size_t>(i)] = {hilbert_index(cell), static_cast<std::uint32_t>(i)};
   });
-  std::sort(places.begin(), places.end());
+  std::ranges::sort(places);
   std::vector<std::uint32_t> order(places.size());
   std::transform(places.begin(), places.end(), order.begin(),
                  [](const auto& p) { return p.second; });
@@ -82,10 +82,10 @@ void order_within(const Tile& tile, const SmoothingOperator& smoothing,
       for (const std::uint32_t n : smoothing.neighbours(queue[head])) enqueue(n);
     }
   }
-  std::stable_sort(queue.begin(), queue.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::ranges::stable_sort(queue, [&](std::uint32_t a, std::uint32_t b) {
     return smoothing.neighbours(a).size() < smoothing.neighbours(b).size();
   });
-  std::copy(queue.begin(), queue.end(), order.begin() + tile.first);
+  std::ranges::copy(queue, order.begin() + tile.first);
 }
 
 /// Collects a tile's halo ring by ring and writes its neighbours in local rows.

@@ -10,10 +10,6 @@
 namespace crowdface::synth {
 namespace {
 
-ScreenColour from_bytes(double red, double green, double blue) {
-  return ScreenColour(red, green, blue) / 255;
-}
-
 /// At t in [0, 1] along evenly spaced colours.
 template <std::size_t N>
 ScreenColour along(const std::array<ScreenColour, N>& colours, double t) {

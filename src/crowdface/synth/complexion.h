@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -11,6 +12,13 @@ namespace crowdface::synth {
 
 /// A colour as it is chosen on a screen (sRGB), each in [0, 1].
 using ScreenColour = Eigen::Array3d;
+inline ScreenColour from_bytes(double red, double green, double blue) {
+  return ScreenColour(red, green, blue) / 255;
+}
+/// A part of one, 0 … 1, as a picture holds it.
+inline std::uint8_t to_byte(double part) {
+  return static_cast<std::uint8_t>(std::floor(255 * part + 0.5));
+}
 
 /// What a synthetic person's skin and hair look like.
 struct Complexion {

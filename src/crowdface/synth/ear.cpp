@@ -65,8 +65,7 @@ double height_at(const Vector2d& round, double b) {
 }
 
 Vector3d on_ring(double around, double b) {
-  const Vector2d start = on_square(around);
-  const Vector2d round = start / start.norm();
+  const Vector2d round = on_circle(around);
   const double front = smooth_step(0.2, -0.8, round.x());
   const double from = std::max(b, kAttached);
   // At the front the ear joins the cheek without an overhang.

@@ -87,24 +87,13 @@ double Hair::falling(const Vector3d& p) const {
 }
 
 double above_hairline(const Vector3d& p, bool low_edge, double receding) {
-  const double away = receding;
-  const std::array<Vector2d, 9> high = {{{0.0, 7.6 + 3.2 * away},
-                                         {0.25, 7.5 + 4.2 * away},
-                                         {0.42, 6.6 + 3.0 * away},
-                                         {0.55, 5.0 + 0.6 * away},
-                                         {0.68, 1.6},
-                                         {0.80, 0.6},
-                                         {0.92, 2.4},
-                                         {1.15, 2.0},
-                                         {1.35, -6.0}}};
-  static const std::array<Vector2d, 8> low = {{{0.0, 7.4},
-                                               {0.25, 7.0},
-                                               {0.42, 5.8},
-                                               {0.55, 3.6},
-                                               {0.68, 1.0},
-                                               {0.80, 0.2},
-                                               {0.92, 2.4},
-                                               {1.35, -7.5}}};
+  // clang-format off
+  const std::array<Vector2d, 9> high = {{
+      {0.0, 7.6 + 3.2 * receding}, {0.25, 7.5 + 4.2 * receding}, {0.42, 6.6 + 3.0 * receding},
+      {0.55, 5.0 + 0.6 * receding}, {0.68, 1.6}, {0.80, 0.6}, {0.92, 2.4}, {1.15, 2.0}, {1.35, -6.0}}};
+  static const std::array<Vector2d, 8> low = {{
+      {0.0, 7.4}, {0.25, 7.0}, {0.42, 5.8}, {0.55, 3.6}, {0.68, 1.0}, {0.80, 0.2}, {0.92, 2.4}, {1.35, -7.5}}};
+  // clang-format on
   const double around = around_head(p);
   return p.y() - (low_edge ? between_knots(low, around) : between_knots(high, around));
 }

@@ -34,14 +34,7 @@ double head_distance(const Vector3d& p) {
 }
 
 Vector3d away_from_head(const Vector3d& p) {
-  constexpr double kStep = 1e-3;
-  Vector3d gradient;
-  for (int k = 0; k < 3; ++k) {
-    Vector3d step = Vector3d::Zero();
-    step[k] = kStep;
-    gradient[k] = head_distance(p + step) - head_distance(p - step);
-  }
-  return gradient.normalized();
+  return rise(head_distance, p, 1e-3).normalized();
 }
 
 struct Root {
@@ -58,7 +51,7 @@ std::vector<Root> roots_on_scalp(const HairCut& cut, double between) {
       continue;
     const double top = smooth_step(3.5, 6.5, p.y() + 0.25 * std::max(0.0, p.z()));
     if (cut.sides <= 0 && top < 0.35) continue;
-    const bool near = std::any_of(roots.begin(), roots.end(), [&](const Root& other) {
+    const bool near = std::ranges::any_of(roots, [&](const Root& other) {
       return (other.place - p).squaredNorm() < between * between;
     });
     if (!near) roots.push_back({p, skin.normal});
@@ -233,120 +226,42 @@ std::vector<Strand> draw_strands() {
   return strands;
 }
 
-std::uint8_t to_byte(double part) {
-  return static_cast<std::uint8_t>(std::floor(255 * part + 0.5));
-}
-
 }  // namespace
 
 std::span<const HairCut> hair_cuts() {
+  // clang-format off
   static const std::array cuts = {
-      HairCut{.name = "long",
-              .female = true,
-              .parting = 0.4,
-              .sideways = 1,
-              .back = 0.35,
-              .length = 30,
-              .sides = 18,
-              .hem = -17,
-              .volume = 0.9,
-              .wave = 0.05},
-      HairCut{.name = "bob",
-              .female = true,
-              .parting = -2.2,
-              .sideways = 1,
-              .back = 0.2,
-              .length = 19,
-              .sides = 10,
-              .hem = -8.5,
-              .volume = 1.1,
-              .wave = 0.06},
-      HairCut{.name = "fringe",
-              .female = true,
-              .parting = 0,
-              .sideways = 1,
-              .back = 0.3,
-              .length = 24,
-              .sides = 14,
-              .hem = -12,
-              .fringe = 3.4,
-              .volume = 0.9,
-              .wave = 0.05},
-      HairCut{.name = "waves",
-              .female = true,
-              .curly = true,
-              .parting = 1.5,
-              .sideways = 1,
-              .back = 0.3,
-              .length = 26,
-              .sides = 16,
-              .hem = -14,
-              .volume = 1.7,
-              .wave = 0.35},
-      HairCut{.name = "pixie",
-              .female = true,
-              .parting = 2.4,
-              .sideways = 1,
-              .back = 0.25,
-              .length = 9,
-              .sides = 4.5,
-              .hem = -5,
-              .volume = 1.0,
+      HairCut{.name = "long", .female = true, .parting = 0.4, .back = 0.35, .length = 30, .sides = 18, .hem = -17,
+              .volume = 0.9, .wave = 0.05},
+      HairCut{.name = "bob", .female = true, .parting = -2.2, .back = 0.2, .length = 19, .sides = 10, .hem = -8.5,
+              .volume = 1.1, .wave = 0.06},
+      HairCut{.name = "fringe", .female = true, .back = 0.3, .length = 24, .sides = 14, .hem = -12, .fringe = 3.4,
+              .volume = 0.9, .wave = 0.05},
+      HairCut{.name = "waves", .female = true, .curly = true, .parting = 1.5, .back = 0.3, .length = 26, .sides = 16,
+              .hem = -14, .volume = 1.7, .wave = 0.35},
+      HairCut{.name = "pixie", .female = true, .parting = 2.4, .back = 0.25, .length = 9, .sides = 4.5, .hem = -5,
               .wave = 0.08},
-      HairCut{.name = "curls",
-              .female = true,
-              .curly = true,
-              .length = 1.7,
-              .sides = 1.6,
-              .volume = 2.1,
-              .layers = 5},
-      HairCut{.name = "side_parting",
-              .parting = -3.2,
-              .sideways = 1,
-              .back = 0.35,
-              .length = 8.5,
-              .sides = 2.6,
-              .hem = 0.5,
-              .volume = 0.9,
-              .wave = 0.05},
-      HairCut{.name = "swept_back",
-              .parting = 0,
-              .sideways = 0.25,
-              .back = 1,
-              .length = 9,
-              .sides = 3,
-              .hem = 0,
-              .volume = 1.0,
-              .wave = 0.05},
-      HairCut{.name = "tousled",
-              .parting = 1.5,
-              .sideways = 0.6,
-              .back = -0.3,
-              .length = 4.5,
-              .sides = 2,
-              .hem = 1,
-              .fringe = 5.6,
-              .volume = 1.0,
-              .wave = 0.25},
-      HairCut{.name = "short_curls",
-              .curly = true,
-              .length = 1.2,
-              .sides = 0,
-              .volume = 1.4,
-              .layers = 3},
+      HairCut{.name = "curls", .female = true, .curly = true, .length = 1.7, .sides = 1.6, .volume = 2.1, .layers = 5},
+      HairCut{.name = "side_parting", .parting = -3.2, .back = 0.35, .length = 8.5, .sides = 2.6, .hem = 0.5,
+              .volume = 0.9, .wave = 0.05},
+      HairCut{.name = "swept_back", .sideways = 0.25, .back = 1, .length = 9, .sides = 3, .hem = 0, .wave = 0.05},
+      HairCut{.name = "tousled", .parting = 1.5, .sideways = 0.6, .back = -0.3, .length = 4.5, .sides = 2, .hem = 1,
+              .fringe = 5.6, .wave = 0.25},
+      HairCut{.name = "short_curls", .curly = true, .length = 1.2, .sides = 0, .volume = 1.4, .layers = 3},
   };
+  // clang-format on
   return cuts;
 }
 
 std::span<const HairColour> hair_colours() {
-  const auto of = [](double red, double green, double blue) {
-    return ScreenColour(ScreenColour(red, green, blue) / 255);
-  };
   static const std::array colours = {
-      HairColour{"blond", of(170, 138, 96)},  HairColour{"light_brown", of(120, 92, 66)},
-      HairColour{"brown", of(80, 60, 47)},    HairColour{"dark_brown", of(55, 42, 35)},
-      HairColour{"black", of(32, 28, 27)},    HairColour{"grey", of(112, 106, 101)},
-      HairColour{"white", of(164, 161, 158)},
+      HairColour{"blond", from_bytes(170, 138, 96)},
+      HairColour{"light_brown", from_bytes(120, 92, 66)},
+      HairColour{"brown", from_bytes(80, 60, 47)},
+      HairColour{"dark_brown", from_bytes(55, 42, 35)},
+      HairColour{"black", from_bytes(32, 28, 27)},
+      HairColour{"grey", from_bytes(112, 106, 101)},
+      HairColour{"white", from_bytes(164, 161, 158)},
   };
   return colours;
 }

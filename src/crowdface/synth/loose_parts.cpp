@@ -26,20 +26,9 @@ Vector3d on_ball(int side, double i, double j) {
   // Evened out, so that quads in the middle are not much larger than at the corners.
   const auto even = [](double x) { return x * (1.25 - 0.25 * x * x); };
   const double a = even(i), b = even(j);
-  switch (side) {
-    case 0:
-      return Vector3d(a, b, 1).normalized();
-    case 1:
-      return Vector3d(1, b, -a).normalized();
-    case 2:
-      return Vector3d(-a, b, -1).normalized();
-    case 3:
-      return Vector3d(-1, b, a).normalized();
-    case 4:
-      return Vector3d(a, 1, -b).normalized();
-    default:
-      return Vector3d(a, -1, b).normalized();
-  }
+  const std::array<Vector3d, 6> on_cube = {
+      {{a, b, 1}, {1, b, -a}, {-a, b, -1}, {-1, b, a}, {a, 1, -b}, {a, -1, b}}};
+  return on_cube[static_cast<std::size_t>(side)].normalized();
 }
 
 /// The middle line of a row of teeth at t = −1 … 1, and how tall it is there.

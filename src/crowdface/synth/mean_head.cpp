@@ -44,14 +44,8 @@ GuideRay nostril_edge(const Vector2d& c) {
 }
 
 GuideRay edge_of(Sheet sheet, const Vector2d& circle) {
-  switch (sheet) {
-    case Sheet::kEye:
-      return eye_edge(circle);
-    case Sheet::kNostril:
-      return nostril_edge(circle);
-    default:
-      return mouth_edge(circle);
-  }
+  if (sheet == Sheet::kEye) return eye_edge(circle);
+  return sheet == Sheet::kNostril ? nostril_edge(circle) : mouth_edge(circle);
 }
 
 /// From the lid's edge inward, over the lid's thickness, along the ball to the pupil.
@@ -98,16 +92,14 @@ SkinPoint on_skin(const GuideRay& ray) {
 }
 
 SkinPoint ring_skin(const Address& address) {
-  const Window& window = window_of(address.sheet);
-  const Vector2d start = on_square(address.a);
-  const Vector2d circle = start / start.norm();
+  const Vector2d circle = on_circle(address.a);
   const GuideRay inner = edge_of(address.sheet, circle);
   if (address.b >= 1) {
     SkinPoint edge = on_skin(inner);
     if (address.b == 1) return edge;
     return {into_opening(address.sheet, edge.position, circle, address.b), edge.normal, 0};
   }
-  const GuideRay outer = window_ray(window, address.a);
+  const GuideRay outer = window_ray(window_of(address.sheet), address.a);
   const Vector3d inner_guide = onto_skin(inner.origin, inner.guide);
   return on_skin({outer.origin + address.b * (inner.origin - outer.origin),
                   outer.guide + address.b * (inner_guide - outer.guide)});
@@ -149,8 +141,7 @@ SkinPoint mean_skin(const Address& address) {
 
 SkinPoint mean_skin_with_sockets(const Address& address) {
   if (address.sheet != Sheet::kEye || address.b <= 1) return mean_skin(address);
-  const Vector2d start = on_square(address.a);
-  const Vector2d circle = start / start.norm();
+  const Vector2d circle = on_circle(address.a);
   const SkinPoint edge = on_skin(eye_edge(circle));
   return on_its_side({into_socket(edge.position, circle, address.b), edge.normal, 0}, address);
 }

@@ -12,21 +12,11 @@ namespace {
 struct RingSpan {
   double from, to, weight;
 };
-const std::vector<RingSpan>& ring_spans(Sheet sheet) {
-  static const std::vector<RingSpan> eye = {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};
-  static const std::vector<RingSpan> nostril = {{0, 1, 4}, {1, 2, 2}};
-  static const std::vector<RingSpan> mouth = {{0, 1, 6}, {1, 2, 2}};
-  static const std::vector<RingSpan> ear = {{0, 1, 10}};
-  switch (sheet) {
-    case Sheet::kEye:
-      return eye;
-    case Sheet::kNostril:
-      return nostril;
-    case Sheet::kMouth:
-      return mouth;
-    default:
-      return ear;
-  }
+std::vector<RingSpan> ring_spans(Sheet sheet) {
+  if (sheet == Sheet::kEye) return {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};
+  if (sheet == Sheet::kNostril) return {{0, 1, 4}, {1, 2, 2}};
+  if (sheet == Sheet::kMouth) return {{0, 1, 6}, {1, 2, 2}};
+  return {{0, 1, 10}};  // the ear
 }
 
 int quads(double weight, double scale) {

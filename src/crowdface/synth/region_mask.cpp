@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-
 #include "crowdface/core/require.h"
 #include "crowdface/core/smooth_step.h"
+#include "crowdface/synth/complexion.h"
 #include "crowdface/synth/layout.h"
 #include "crowdface/synth/synthetic_head.h"
 #include "crowdface/synth/unwrap.h"
 
 namespace crowdface {
-namespace {
-
-std::uint8_t to_byte(double x) {
-  return static_cast<std::uint8_t>(std::floor(255 * x + 0.5));
-}
-
-}  // namespace
 
 std::vector<std::uint8_t> synthetic_region_mask(int size) {
   require(size >= 1, "a mask of ", size, " pixels");
@@ -29,8 +20,8 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   std::vector<std::uint8_t> out;
   for (int row = 0; row < size; ++row) {
     const double v = 1 - (row + 0.5) / size;
-    const auto top = to_byte(smooth_step(upper - half, upper + half, v));
-    const auto bottom = to_byte(smooth_step(lower + half, lower - half, v));
+    const auto top = synth::to_byte(smooth_step(upper - half, upper + half, v));
+    const auto bottom = synth::to_byte(smooth_step(lower + half, lower - half, v));
     for (int column = 0; column < size; ++column) {
       out.push_back(top);
       out.push_back(static_cast<std::uint8_t>(255 - top - bottom));

@@ -116,12 +116,7 @@ double skin_distance(const Vector3d& point) {
 
 Vector3d skin_normal(const Vector3d& point) {
   constexpr double kStep = 1e-4;
-  Vector3d gradient;
-  for (int k = 0; k < 3; ++k) {
-    Vector3d step = Vector3d::Zero();
-    step[k] = kStep;
-    gradient[k] = skin_distance(point + step) - skin_distance(point - step);
-  }
+  const Vector3d gradient = rise(skin_distance, point, kStep);
   const double length = gradient.norm();
   return length > 0 ? Vector3d(gradient / length) : Vector3d(0, 0, 1);
 }

@@ -10,6 +10,17 @@ namespace crowdface::synth {
 /// Openings and ears are not part of it. Left and right are alike.
 double skin_distance(const Eigen::Vector3d& point);
 
+/// By how much a distance rises over two steps along each axis: along its gradient.
+template <class Distance>
+Eigen::Vector3d rise(const Distance& distance, const Eigen::Vector3d& point, double step) {
+  Eigen::Vector3d rise;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d along = step * Eigen::Vector3d::Unit(k);
+    rise[k] = distance(point + along) - distance(point - along);
+  }
+  return rise;
+}
+
 /// Unit normal of the skin at a point on or near it.
 Eigen::Vector3d skin_normal(const Eigen::Vector3d& point);
 

@@ -101,11 +101,8 @@ std::vector<SkinPlace> skin_atlas(int size) {
   Layout layout = make_layout(kVertices);
   const LooseParts loose(0.5 * std::sqrt(5000.0 / kVertices));
   std::vector<SkinPlace> places(layout.addresses.size());
-  parallel_blocks(static_cast<std::ptrdiff_t>(places.size()), 1024, [&](auto begin, auto end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      places[i] = place_at(layout.addresses[i]);
-    }
-  });
+  parallel_for_each(places.size(), 1024,
+                    [&](std::size_t i) { places[i] = place_at(layout.addresses[i]); });
   loose.append_to(layout.topology, layout.uvs);
   for (Index v = 0; v < loose.vertex_count(); ++v) {
     SkinPlace place;

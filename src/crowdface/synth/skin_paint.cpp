@@ -232,7 +232,6 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
   paint_around_eyes(place, colour);
   paint_lips(place, colour);
   paint_openings(place, colour);
-
   paint_beard(p, colour);
   const bool ear = place.skin.relief < 0.5;
   if (!ear && hair_.reaches(p)) {

@@ -11,6 +11,12 @@
 #include "crowdface/synth/skin_surface.h"
 
 namespace crowdface {
+namespace {
+
+constexpr std::size_t kBlock = 4096;
+
+}  // namespace
+
 struct SyntheticSkins::State {
   int size;
   std::vector<synth::SkinPlace> atlas;
@@ -32,15 +38,11 @@ int SyntheticSkins::size() const {
 
 std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index);
-  const auto texels = static_cast<std::ptrdiff_t>(state_->atlas.size());
   std::vector<std::uint8_t> bytes(3 * state_->atlas.size());
-  parallel_blocks(texels, 4096, [&](auto begin, auto end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const synth::ScreenColour colour = paint.at(state_->atlas[i]);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double value = std::floor(255 * colour[static_cast<Eigen::Index>(c)] + 0.5);
-        bytes[3 * i + c] = static_cast<std::uint8_t>(value);
-      }
+  parallel_for_each(state_->atlas.size(), kBlock, [&](std::size_t i) {
+    const synth::ScreenColour colour = paint.at(state_->atlas[i]);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      bytes[3 * i + static_cast<std::size_t>(c)] = synth::to_byte(colour[c]);
     }
   });
   return bytes;
@@ -58,11 +60,8 @@ std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint6
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index);
   std::vector<std::uint8_t> bytes(state_->atlas.size());
-  parallel_blocks(static_cast<std::ptrdiff_t>(bytes.size()), 4096, [&](auto begin, auto end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      bytes[i] =
-          static_cast<std::uint8_t>(std::floor(255 * paint.roughness_at(state_->atlas[i]) + 0.5));
-    }
+  parallel_for_each(bytes.size(), kBlock, [&](std::size_t i) {
+    bytes[i] = synth::to_byte(paint.roughness_at(state_->atlas[i]));
   });
   return bytes;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/synth/unwrap.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,16 +46,10 @@ struct Opening {
   Eigen::Vector2d edge, hole;
 };
 Opening opening_of(Sheet sheet) {
-  switch (sheet) {
-    case Sheet::kEye:
-      return {{0.62, 0.36}, {0.50, 0.28}};  // room for the eyeball's picture
-    case Sheet::kNostril:
-      return {{0.45, 0.45}, {0.2, 0.2}};
-    case Sheet::kMouth:
-      return {{0.8, 0.12}, {0.6, 0.03}};
-    default:
-      return {{0.4, 0.4}, {0.4, 0.4}};
-  }
+  if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};  // room for the eyeball's picture
+  if (sheet == Sheet::kNostril) return {{0.45, 0.45}, {0.2, 0.2}};
+  if (sheet == Sheet::kMouth) return {{0.8, 0.12}, {0.6, 0.03}};
+  return {{0.4, 0.4}, {0.4, 0.4}};
 }
 
 Eigen::Vector2d in_window(const Address& address) {

@@ -19,5 +19,10 @@ double strip_v(double unit);
 
 /// The place a ring address starts from, in the square [−1, 1]² of its window: x outward, y up.
 Eigen::Vector2d on_square(double around);
+/// In that direction on the unit circle.
+inline Eigen::Vector2d on_circle(double around) {
+  const Eigen::Vector2d start = on_square(around);
+  return start / start.norm();
+}
 
 }  // namespace crowdface::synth

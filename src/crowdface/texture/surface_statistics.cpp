@@ -66,9 +66,8 @@ void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_
       for (const SurfaceTexels::Span& span : all[p].row(y)) {
         for (int x = (span.begin + step - 1) / step * step; x < span.end; x += step) {
           visit(p, y, x, span, [&](const Sample& sample) {
-            const auto nearest = static_cast<std::size_t>(
-                std::max_element(sample.shares.begin(), sample.shares.end()) -
-                sample.shares.begin());
+            const auto nearest = static_cast<std::size_t>(std::ranges::max_element(sample.shares) -
+                                                          sample.shares.begin());
             has_any[sample.vertices[nearest]] = true;
             put(sample.vertices[nearest], sample);
           });
@@ -139,8 +138,8 @@ void multiply_details(const Grouped<Sample>& samples, const HeadMaps& maps,
     std::vector<bool> has(heads);
     std::vector<double> sums(statistics.pairs), counts(statistics.pairs);
     for (Index v = begin; v < end; ++v) {
-      std::fill(sums.begin(), sums.end(), 0.0);
-      std::fill(counts.begin(), counts.end(), 0.0);
+      std::ranges::fill(sums, 0.0);
+      std::ranges::fill(counts, 0.0);
       for (const Sample& sample : samples.of(v)) {
         for (std::size_t h = 0; h < heads; ++h) {
           const TextureMap* map = maps[sample.picture][h].get();

@@ -98,7 +98,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
     const auto face = static_cast<std::size_t>(f);
     if (layout.of_face[face] != picture) continue;
     const auto vertices = topology.face(f), face_uvs = topology.face_uvs(f);
-    if (std::count(face_uvs.begin(), face_uvs.end(), kNoIndex) > 0) continue;
+    if (std::ranges::count(face_uvs, kNoIndex) > 0) continue;
     const auto at = [&](std::size_t corner) {
       const auto uv = uvs.row(face_uvs[corner]);
       return Point((uv[0] - layout.tile[face][0]) * size_.width,

@@ -2,7 +2,6 @@
 #include "crowdface/texture/texture_blender.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
@@ -165,7 +164,7 @@ void fill_rest(const SurfaceTexels& texels, std::size_t channels, std::vector<Va
     std::size_t x = static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.width());
     const std::size_t row = x, end = x + static_cast<std::size_t>(texels.width());
     const auto fill_to = [&](std::size_t stop) {
-      for (; x < stop; ++x) std::copy(fill.begin(), fill.end(), values.data() + channels * x);
+      for (; x < stop; ++x) std::ranges::copy(fill, values.data() + channels * x);
     };
     for (const SurfaceTexels::Span& span : texels.row(y)) {
       fill_to(row + span.begin);

@@ -63,7 +63,7 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
     Row row(static_cast<std::size_t>(picture.width)), sum(row.size());
     for (int y = begin; y < end; ++y) {
       const Taps& rows = down[static_cast<std::size_t>(y)];
-      std::fill(sum.begin(), sum.end(), Eigen::Array3f::Zero());
+      std::ranges::fill(sum, Eigen::Array3f::Zero());
       for (std::size_t t = 0; t < rows.weights.size(); ++t) {
         picture.row(rows.first + static_cast<int>(t), row);
         add_row(row, rows.weights[t], sum);

@@ -43,7 +43,7 @@ double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_
   const auto look_at = [&](int thirds_b, int thirds_c) {
     const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
     const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
-    shown += std::any_of(behind.begin(), behind.end(), [&](const Eigen::Vector3d& viewer) {
+    shown += std::ranges::any_of(behind, [&](const Eigen::Vector3d& viewer) {
       return !scene.meets(point, viewer, triangle);
     });
   };

@@ -34,8 +34,8 @@ NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index
     mark(b);
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    excused_[t] = std::any_of(triangles[t].begin(), triangles[t].end(),
-                              [&](std::uint32_t vertex) { return there[vertex]; });
+    excused_[t] =
+        std::ranges::any_of(triangles[t], [&](std::uint32_t vertex) { return there[vertex]; });
   }
 }
 
@@ -46,7 +46,7 @@ Index NewIntersections::count(const std::vector<TrianglePair>& face_pairs) const
     taking_part.push_back(a);
     taking_part.push_back(b);
   }
-  std::sort(taking_part.begin(), taking_part.end());
+  std::ranges::sort(taking_part);
   return std::unique(taking_part.begin(), taking_part.end()) - taking_part.begin();
 }
 

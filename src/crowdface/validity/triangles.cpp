@@ -108,9 +108,8 @@ bool triangles_intersect(const Positions& positions, const Triangle& a, const Tr
 }
 
 bool share_vertex(const Triangle& a, const Triangle& b) {
-  return std::any_of(a.begin(), a.end(), [&](std::uint32_t vertex) {
-    return std::find(b.begin(), b.end(), vertex) != b.end();
-  });
+  return std::ranges::any_of(
+      a, [&](std::uint32_t vertex) { return std::ranges::find(b, vertex) != b.end(); });
 }
 
 }  // namespace crowdface
