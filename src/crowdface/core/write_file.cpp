@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of file.h that writes.
+// What writes of file.h and text_pieces.h.
 #include <atomic>
 #include <system_error>
 
@@ -12,6 +12,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/text_pieces.h"
 
 namespace crowdface {
 namespace {
@@ -112,15 +113,46 @@ void sync_directory(const fs::path& directory) {
 
 }  // namespace
 
-void write_file(const fs::path& path, const std::vector<std::string_view>& pieces) {
+namespace {
+
+/// \param write  gives the file its bytes.
+template <class Write>
+void write_whole(const fs::path& path, const Write& write) {
   TemporaryFile file(path);
-  for (const std::string_view piece : pieces) file.write(piece);
+  write(file);
   file.finish();
   sync_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
 
+}  // namespace
+
+void write_file(const fs::path& path, const std::vector<std::string_view>& pieces) {
+  write_whole(path, [&](TemporaryFile& file) {
+    for (const std::string_view piece : pieces) file.write(piece);
+  });
+}
+
+FileDigest write_file(const fs::path& path, const TextPieces& text) {
+  constexpr std::size_t kAtOnce = 1U << 20U;
+  FileDigest content;
+  write_whole(path, [&](TemporaryFile& file) {
+    std::string pending;
+    content = digest_of([&](const TakePiece& take) {
+      text([&](std::string_view piece) {
+        take(piece);
+        pending += piece;
+        if (pending.size() < kAtOnce) return;
+        file.write(pending);
+        pending.clear();
+      });
+    });
+    file.write(pending);
+  });
+  return content;
+}
+
 void write_file(const fs::path& path, std::string_view bytes) {
-  write_file(path, std::vector<std::string_view>{bytes});
+  write_whole(path, [&](TemporaryFile& file) { file.write(bytes); });
 }
 
 std::size_t remove_leftovers(const fs::path& folder) {
