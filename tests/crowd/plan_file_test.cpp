@@ -181,7 +181,7 @@ TEST(PlanFile, BandsThatCannotBeAreRefusedWithTheirPlace) {
 }
 
 TEST(PlanFile, TableHasTheFinerBandsLast) {
-  const std::string table = format_csv({banded()}, kBandNames);
+  const std::string table = joined(table_text({banded()}, kBandNames));
   EXPECT_NE(table.find("group,mixture,top_skin_position_x,top_skin_position_y,top_skin_weights,"
                        "top_skin_smoothness,top_skin_iterations,top_skin_extrapolation,"
                        "low_skin_position_x,"),
@@ -206,7 +206,7 @@ TEST(PlanFile, TableSaysTheSame) {
   by_hand.id = "mine";
   by_hand.index.reset();
   by_hand.notes.nearest.reset();
-  EXPECT_EQ(format_csv({example(), by_hand}, kNames),
+  EXPECT_EQ(joined(table_text({example(), by_hand}, kNames)),
             "id,index,family,target,top_position_x,top_position_y,top_weights,top_smoothness,"
             "top_iterations,top_extrapolation,low_position_x,low_position_y,low_weights,"
             "low_smoothness,low_iterations,low_extrapolation,nearest_face,nearest_face_mm,"

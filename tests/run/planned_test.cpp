@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shards that take the folder's plan in place of casting the crowd again.
+// Runs that take the folder's plan in place of casting the crowd again.
 #include "crowdface/run/planned.h"
 
 #include <gtest/gtest.h>
@@ -27,6 +27,7 @@ SmallCrowd all_kinds() {
   crowd.count = 6;
   crowd.levels = "basis";
   crowd.bowl.materials = true;
+  crowd.contact_sheet = "{columns: 3, rows: 1, cell: 32}";
   crowd.more =
       "groups: [{name: elders, share: 0.5}]\n"
       "families: [{name: smith, members: 2, parents: {mother: bob, father: cyd}, "
@@ -74,7 +75,7 @@ TEST_F(Planned, FacesReadBackAreThoseThatWereCast) {
     both.push_back(first->faces[i]);
     if (i < second->faces.size()) both.push_back(second->faces[i]);
   }
-  EXPECT_EQ(format_plan(job, both), testing::read_text(folder_.out() / "plan.jsonl"));
+  EXPECT_EQ(joined(plan_text(job, both)), testing::read_text(folder_.out() / "plan.jsonl"));
 }
 
 TEST_F(Planned, AnotherPlanIsNotTaken) {
@@ -104,6 +105,69 @@ TEST_F(Planned, AnotherPlanIsNotTaken) {
   // Heads that have changed since: the plan is none of theirs.
   folder_.folder().write("heads/bob.obj", "# edited\n" + testing::read_text(folder_.head("bob")));
   EXPECT_FALSE(faces({1, 2}).has_value());
+}
+
+/// Another crowd's plan under this one's mark: whoever takes it casts nothing.
+class PlanOfOthers : public Planned {
+ protected:
+  PlanOfOthers() {
+    run_plan();
+    const Job job = load_job(folder_.config(), {});
+    std::string plan = testing::read_text(folder_.out() / "plan.jsonl");
+    const std::string smoothness = R"("smoothness":)";
+    const std::size_t at = plan.find(smoothness) + smoothness.size();
+    plan.replace(at, plan.find(',', at) - at, "0.515625");
+    folder_.folder().write("out/plan.jsonl", plan);
+    mark_planned(job, {folder_.out()});
+  }
+  bool is_still_theirs() const {
+    return testing::read_text(folder_.out() / "plan.jsonl").find("0.515625") != std::string::npos;
+  }
+};
+
+TEST_F(PlanOfOthers, IsTakenByWhoeverGathers) {
+  for (const std::uint64_t shard : {1U, 2U}) run_shard({shard, 2}, PlanFrom::kFolder);
+  gather(folder_.out(), folder_.cache());
+  EXPECT_TRUE(is_still_theirs());
+  EXPECT_FALSE(fs::exists(folder_.out() / "planned.json"));
+}
+
+TEST_F(PlanOfOthers, IsTakenByOneRun) {
+  run_shard({}, PlanFrom::kFolderOrCasting);
+  EXPECT_TRUE(is_still_theirs());
+}
+
+TEST_F(PlanOfOthers, IsNotTakenWithForce) {
+  generate(folder_.config(), {}, {folder_.cache(), Replace::kForce});
+  EXPECT_FALSE(is_still_theirs());
+}
+
+// What shards do not read may have been altered since: then the crowd is cast again.
+TEST_F(PlanOfOthers, IsNotTakenByOneRunIfAnythingBesideItIsAltered) {
+  for (const char* file : {"out/crowd.csv", "out/casting.json", "out/founders.jsonl"}) {
+    const std::string before = testing::read_text(folder_ / file);
+    folder_.folder().write(file, before + " ");
+    EXPECT_FALSE(faces({}).has_value()) << file;
+    EXPECT_TRUE(faces({1, 2}).has_value()) << file;
+    folder_.folder().write(file, before);
+  }
+  EXPECT_TRUE(faces({}).has_value());
+}
+
+TEST_F(Planned, OneRunOfTheFoldersPlanGivesWhatItGivesWithoutOne) {
+  run_shard({}, PlanFrom::kFolderOrCasting);
+  const auto whole = testing::crowd_files(folder_.out());
+  fs::remove_all(folder_.out());
+  run_plan();
+  run_shard({}, PlanFrom::kFolderOrCasting);
+  EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
+}
+
+// A run that is stopped has left its plan to those that go on.
+TEST_F(Planned, AShardThatCastsLeavesItsPlanToOthers) {
+  run_shard({1, 2}, PlanFrom::kFolderOrCasting);
+  run_shard({2, 2}, PlanFrom::kFolder);
+  EXPECT_TRUE(faces({}).has_value());
 }
 
 // A shard without a plan of its own casts, as it always did.

@@ -21,13 +21,18 @@ std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
   return static_cast<std::size_t>(std::max_element(mm.begin(), mm.end()) - mm.begin());
 }
 
-std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points, LikenessTree& tree) {
+/// \param near  of each face: whoever is left of them is nearer than all who are not among them.
+std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points,
+                              const std::vector<std::vector<Neighbour>>& near, LikenessTree& tree) {
   std::vector<std::size_t> order = {farthest_from_first(points)};
   while (true) {
     throw_if_interrupted();
-    tree.remove(order.back());
+    const std::size_t at = order.back();
+    tree.remove(at);
     if (order.size() == points.size()) return order;
-    order.push_back(tree.nearest(order.back(), 1).front().face);
+    const auto next = std::find_if(near[at].begin(), near[at].end(),
+                                   [&](const Neighbour& other) { return tree.has(other.face); });
+    order.push_back(next != near[at].end() ? next->face : tree.nearest(at, 1).front().face);
   }
 }
 
@@ -38,12 +43,11 @@ Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t 
   if (points.empty()) return likeness;
   LikenessTree tree(points);
   likeness.near.resize(points.size());
-  if (neighbours > 0) {
-    parallel_for_each(points.size(), kBlock, [&](std::size_t face) {
-      likeness.near[face] = tree.nearest(face, neighbours);
-    });
-  }
-  likeness.order = walk(points, tree);
+  parallel_for_each(points.size(), kBlock, [&](std::size_t place) {
+    const std::size_t face = tree.faces()[place];
+    likeness.near[face] = tree.nearest(face, neighbours);
+  });
+  likeness.order = walk(points, likeness.near, tree);
   return likeness;
 }
 

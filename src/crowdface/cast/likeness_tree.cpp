@@ -8,8 +8,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kLeaf = 16;
-/// A box is left out if it is farther than what was found by more than sums of floats can err.
+/// What is farther than what was found by more than sums of floats can err is left out.
 constexpr double kRounding = 1e-4;
 
 }  // namespace
@@ -17,12 +16,9 @@ constexpr double kRounding = 1e-4;
 /// The nearest faces that a search has met.
 struct LikenessTree::Search {
   std::size_t face = 0, count = 0;
+  std::vector<std::vector<float>> queries = {};  ///< the face's point of each variant
   std::vector<Neighbour> near = {};
-
-  bool rules_out(float squared) const {
-    return near.size() == count &&
-           static_cast<double>(squared) * (1 - kRounding) > near.back().mm * near.back().mm;
-  }
+  float bound = HUGE_VALF;  ///< what has a greater squared distance need not be met
 
   void meet(std::size_t other, double mm) {
     const auto nearer = [](const Neighbour& a, const Neighbour& b) {
@@ -32,110 +28,168 @@ struct LikenessTree::Search {
     if (near.size() == count && !nearer(found, near.back())) return;
     near.insert(std::upper_bound(near.begin(), near.end(), found, nearer), found);
     if (near.size() > count) near.pop_back();
+    if (near.size() == count) {
+      bound = static_cast<float>(near.back().mm * near.back().mm * (1 + kRounding));
+    }
   }
 };
 
 LikenessTree::LikenessTree(const std::vector<FaceSpace::Point>& points)
     : points_(points),
-      box_dimensions_(points.empty() ? 0 : std::min(points[0].as_built.size(), kBoxDimensions)),
       faces_(points.size()),
-      leaf_(points.size(), -1) {
+      place_(points.size()),
+      gone_(points.size(), false),
+      leaf_((points.size() + kLeaf - 1) / kLeaf, -1) {
+  if (points.empty()) return;
   std::iota(faces_.begin(), faces_.end(), 0U);
-  if (!points.empty()) build(0, static_cast<std::uint32_t>(points.size()), -1);
-}
-
-LikenessTree::Box LikenessTree::box_of(std::uint32_t begin, std::uint32_t end,
-                                       Eigen::VectorXf FaceSpace::Point::*variant) const {
-  Box box;
-  for (Index d = 0; d < box_dimensions_; ++d) {
-    const auto c = static_cast<std::size_t>(d);
-    box.low[c] = box.high[c] = (points_[faces_[begin]].*variant)[d];
-    for (std::uint32_t f = begin + 1; f < end; ++f) {
-      const float value = (points_[faces_[f]].*variant)[d];
-      box.low[c] = std::min(box.low[c], value);
-      box.high[c] = std::max(box.high[c], value);
-    }
+  build(0, static_cast<std::uint32_t>(points.size()), -1);
+  for (std::uint32_t p = 0; p < faces_.size(); ++p) place_[faces_[p]] = p;
+  variants_.push_back(variant(&FaceSpace::Point::as_built));
+  if (std::any_of(points.begin(), points.end(),
+                  [](const FaceSpace::Point& point) { return point.as_built != point.unit; })) {
+    variants_.push_back(variant(&FaceSpace::Point::unit));
   }
-  return box;
 }
 
 std::int32_t LikenessTree::build(std::uint32_t begin, std::uint32_t end, std::int32_t parent) {
   const auto at = static_cast<std::int32_t>(nodes_.size());
-  Node node{box_of(begin, end, &FaceSpace::Point::as_built),
-            box_of(begin, end, &FaceSpace::Point::unit), begin, end - begin, parent};
-  nodes_.push_back(node);
+  nodes_.push_back({begin, end, end - begin, parent});
   if (end - begin <= kLeaf) {
-    for (std::uint32_t f = begin; f < end; ++f) leaf_[faces_[f]] = at;
+    leaf_[begin / kLeaf] = at;
     return at;
   }
+  const auto value = [&](std::uint32_t face, Index d) { return points_[face].as_built[d]; };
+  const auto first = faces_.begin() + begin, last = faces_.begin() + end;
   Index widest = 0;
-  const auto width = [&](Index d) {
-    const auto c = static_cast<std::size_t>(d);
-    return node.as_built.high[c] - node.as_built.low[c];
-  };
-  for (Index d = 1; d < box_dimensions_; ++d) {
-    if (width(d) > width(widest)) widest = d;
+  float greatest = -1;
+  const Index dimensions = std::min(points_[0].as_built.size(), static_cast<Index>(kBoxDimensions));
+  for (Index d = 0; d < dimensions; ++d) {
+    const auto [low, high] =
+        std::minmax_element(first, last, [&](auto a, auto b) { return value(a, d) < value(b, d); });
+    const float width = value(*high, d) - value(*low, d);
+    if (width > greatest) widest = d;
+    greatest = std::max(greatest, width);
   }
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(faces_.begin() + begin, faces_.begin() + middle, faces_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const float left = points_[a].as_built[widest];
-                     const float right = points_[b].as_built[widest];
-                     return left != right ? left < right : a < b;
-                   });
-  const std::int32_t left = build(begin, middle, at);
-  const std::int32_t right = build(middle, end, at);
+  // Leaves begin with whole blocks.
+  const auto half =
+      static_cast<std::uint32_t>(std::max<std::size_t>(1, (end - begin) / 2 / kLeaf) * kLeaf);
+  std::nth_element(first, first + half, last, [&](std::uint32_t a, std::uint32_t b) {
+    const float left = value(a, widest), right = value(b, widest);
+    return left != right ? left < right : a < b;
+  });
+  const std::int32_t left = build(begin, begin + half, at);
+  const std::int32_t right = build(begin + half, end, at);
   nodes_[static_cast<std::size_t>(at)].children = {left, right};
   return at;
 }
 
+LikenessTree::Variant LikenessTree::variant(Eigen::VectorXf FaceSpace::Point::*of) const {
+  Variant variant{PointBlocks((points_[0].*of).size()), std::vector<Box>(nodes_.size())};
+  for (const std::uint32_t face : faces_) {
+    variant.points.add(static_cast<Index>(face), variant.points.padded(points_[face].*of).data());
+  }
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children stand behind their parents
+    const Node& node = nodes_[n];
+    Box& box = variant.boxes[n];
+    box.low.fill(HUGE_VALF);
+    box.high.fill(-HUGE_VALF);
+    const auto widen = [&](std::size_t d, float low, float high) {
+      box.low[d] = std::min(box.low[d], low);
+      box.high[d] = std::max(box.high[d], high);
+    };
+    for (std::size_t d = 0; d < kBoxDimensions; ++d) {
+      if (node.children[0] < 0) {
+        for (std::uint32_t p = node.begin; p < node.end; ++p) {
+          const float value = variant.points.value(p, static_cast<Index>(d));
+          widen(d, value, value);
+        }
+        continue;
+      }
+      for (const std::int32_t child : node.children) {
+        const Box& part = variant.boxes[static_cast<std::size_t>(child)];
+        widen(d, part.low[d], part.high[d]);
+      }
+    }
+  }
+  return variant;
+}
+
+bool LikenessTree::has(std::size_t face) const {
+  return !gone_[place_[face]];
+}
+
 void LikenessTree::remove(std::size_t face) {
-  Node& leaf = nodes_[static_cast<std::size_t>(leaf_[face])];
-  const auto first = faces_.begin() + leaf.first, last = first + leaf.left;
-  std::iter_swap(std::find(first, last, static_cast<std::uint32_t>(face)), last - 1);
-  for (std::int32_t at = leaf_[face]; at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) {
-    --nodes_[static_cast<std::size_t>(at)].left;
+  gone_[place_[face]] = true;
+  for (std::int32_t at = leaf_[place_[face] / kLeaf]; at >= 0;) {
+    Node& node = nodes_[static_cast<std::size_t>(at)];
+    --node.left;
+    at = node.parent;
   }
 }
 
-float LikenessTree::squared_distance(const Box& box, const Eigen::VectorXf& point) const {
-  float sum = 0;
-  for (Index d = 0; d < box_dimensions_; ++d) {
-    const auto c = static_cast<std::size_t>(d);
-    const float beyond = std::max({box.low[c] - point[d], point[d] - box.high[c], 0.F});
-    sum += beyond * beyond;
+float LikenessTree::Box::squared_distance(const std::vector<float>& query) const {
+  std::array<float, kBoxDimensions> squares;
+  for (std::size_t d = 0; d < kBoxDimensions; ++d) {
+    const float beyond = std::max(std::max(low[d] - query[d], query[d] - high[d]), 0.F);
+    squares[d] = beyond * beyond;
   }
+  float sum = 0;
+  for (const float square : squares) sum += square;
   return sum;
+}
+
+float LikenessTree::squared_distance(std::int32_t node, const Search& search) const {
+  float least = HUGE_VALF;
+  for (std::size_t v = 0; v < variants_.size(); ++v) {
+    const Box& box = variants_[v].boxes[static_cast<std::size_t>(node)];
+    least = std::min(least, box.squared_distance(search.queries[v]));
+  }
+  return least;
+}
+
+void LikenessTree::search_leaf(const Node& leaf, Search& search) const {
+  constexpr auto kLanes = static_cast<std::uint32_t>(PointBlocks::kLanes);
+  for (std::uint32_t first = leaf.begin; first < leaf.end; first += kLanes) {
+    PointBlocks::Lanes least;
+    least.fill(HUGE_VALF);
+    for (std::size_t v = 0; v < variants_.size(); ++v) {
+      const PointBlocks::Lanes squared =
+          variants_[v].points.squared_distances(search.queries[v], first / kLanes, search.bound);
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        least[lane] = std::min(least[lane], squared[lane]);
+      }
+    }
+    for (std::uint32_t p = first; p < std::min(first + kLanes, leaf.end); ++p) {
+      const std::size_t other = faces_[p];
+      if (least[p - first] > search.bound || gone_[p] || other == search.face) continue;
+      search.meet(other, FaceSpace::distance(points_[search.face], points_[other]));
+    }
+  }
 }
 
 void LikenessTree::search(std::int32_t at, Search& search) const {
   const Node& node = nodes_[static_cast<std::size_t>(at)];
-  const FaceSpace::Point& point = points_[search.face];
-  if (node.children[0] < 0) {
-    for (std::uint32_t f = node.first; f < node.first + node.left; ++f) {
-      const std::size_t other = faces_[f];
-      if (other != search.face) search.meet(other, FaceSpace::distance(point, points_[other]));
-    }
-    return;
-  }
+  if (node.children[0] < 0) return search_leaf(node, search);
   std::array<std::pair<float, std::int32_t>, 2> nearer;
   for (std::size_t c = 0; c < 2; ++c) {
-    const Node& child = nodes_[static_cast<std::size_t>(node.children[c])];
-    nearer[c] = {std::min(squared_distance(child.as_built, point.as_built),
-                          squared_distance(child.unit, point.unit)),
-                 node.children[c]};
+    nearer[c] = {squared_distance(node.children[c], search), node.children[c]};
   }
   if (nearer[1].first < nearer[0].first) std::swap(nearer[0], nearer[1]);
   for (const auto& [squared, child] : nearer) {
-    if (nodes_[static_cast<std::size_t>(child)].left == 0) continue;
-    if (search.rules_out(squared)) return;
-    this->search(child, search);
+    if (squared > search.bound) return;
+    if (nodes_[static_cast<std::size_t>(child)].left > 0) this->search(child, search);
   }
 }
 
 std::vector<Neighbour> LikenessTree::nearest(std::size_t face, std::size_t count) const {
   Search found{face, count};
-  if (count > 0) search(0, found);
+  if (count == 0) return {};
+  found.near.reserve(count + 1);
+  const FaceSpace::Point& point = points_[face];
+  for (std::size_t v = 0; v < variants_.size(); ++v) {
+    found.queries.push_back(variants_[v].points.padded(v == 0 ? point.as_built : point.unit));
+  }
+  search(0, found);
   return std::move(found.near);
 }
 

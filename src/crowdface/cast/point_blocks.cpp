@@ -27,28 +27,38 @@ std::vector<float> PointBlocks::padded(const Eigen::VectorXf& query) const {
   return values;
 }
 
-void PointBlocks::search(const std::vector<float>& query, Index block, Index begin, Index end,
-                         NearestPoint& best) const {
+PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& query, Index block,
+                                                  float bound) const {
   const float* values = values_.data() + block * dimensions_ * kLanes;
-  const auto bound = static_cast<float>(std::min(best.squared, 1e30));
-  float sums[kLanes] = {};
+  Lanes sums = {};
   for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
     for (Index d = chunk; d < chunk + kChunk; ++d) {
       const float q = query[static_cast<std::size_t>(d)];
       const float* row = values + d * kLanes;
-      for (Index lane = 0; lane < kLanes; ++lane) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const float difference = q - row[lane];
         sums[lane] += difference * difference;
       }
     }
-    int below = 0;  // sums only grow
-    for (const float sum : sums) below += sum <= bound ? 1 : 0;
-    if (below == 0) return;
+    int within = 0;  // sums only grow
+    for (const float sum : sums) within += sum <= bound ? 1 : 0;
+    if (within == 0) {
+      sums.fill(HUGE_VALF);
+      return sums;
+    }
   }
+  return sums;
+}
+
+void PointBlocks::search(const std::vector<float>& query, Index block, Index begin, Index end,
+                         NearestPoint& best) const {
+  const Lanes sums =
+      squared_distances(query, block, static_cast<float>(std::min(best.squared, 1e30)));
   const Index last = std::min(kLanes, size() - block * kLanes);
   for (Index lane = 0; lane < last; ++lane) {
     const Index number = numbers_[static_cast<std::size_t>(block * kLanes + lane)];
-    if (number >= begin && number < end) best.meet(number, static_cast<double>(sums[lane]));
+    if (number < begin || number >= end) continue;
+    best.meet(number, static_cast<double>(sums[static_cast<std::size_t>(lane)]));
   }
 }
 

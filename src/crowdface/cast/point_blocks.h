@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -44,6 +45,10 @@ class PointBlocks {
 
   /// Blocks are searched for a query that is as long as theirs.
   std::vector<float> padded(const Eigen::VectorXf& query) const;
+  using Lanes = std::array<float, kLanes>;
+  /// Of the points of one block to a query; of all of them infinity, if none is within the bound. Lanes
+  /// without a point hold anything.
+  Lanes squared_distances(const std::vector<float>& query, Index block, float bound) const;
   /// Meets the points of one block with numbers in [begin, end), as far as they can be nearer.
   /// The bits do not depend on what else is stored.
   void search(const std::vector<float>& query, Index block, Index begin, Index end,

@@ -7,6 +7,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/opened_file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/text_pieces.h"
 
 namespace crowdface {
 namespace {
@@ -59,18 +60,17 @@ std::string read_file(const fs::path& path) {
   return bytes;
 }
 
-FileDigest hash_file(const fs::path& path) {
+void read_pieces(const fs::path& path, const TakePiece& take) {
   constexpr std::size_t kPiece = 1U << 20U;
   const OpenedFile file = open_for_reading(path);
-  Hasher hasher;
-  FileDigest result;
   std::string piece(std::min(kPiece, file.size + 1), '\0');
   while (const std::size_t got = read_some(file.descriptor, piece.data(), piece.size(), path)) {
-    hasher.add_raw(std::string_view(piece.data(), got));
-    result.bytes += got;
+    take({piece.data(), got});
   }
-  result.digest = hasher.digest();
-  return result;
+}
+
+FileDigest hash_file(const fs::path& path) {
+  return digest_of([&](const TakePiece& take) { read_pieces(path, take); });
 }
 
 bool holds(const std::filesystem::path& path, const FileDigest& content) {

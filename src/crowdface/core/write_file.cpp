@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of file.h that writes.
+// What writes of file.h and text_pieces.h.
 #include <atomic>
 #include <list>
 #include <set>
@@ -14,6 +14,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/text_pieces.h"
 
 namespace crowdface {
 namespace {
@@ -122,6 +123,10 @@ class TemporaryFile {
   std::size_t on_their_way_ = 0;  ///< to the disk
 };
 
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
 /// The new name must outlive a power cut, and a rename lives in the folder.
 void sync_directory(const fs::path& directory) {
   const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -140,7 +145,7 @@ void write_files(std::span<const FileToWrite> files) {
     TemporaryFile& temporary = written.emplace_back(file.path);
     for (const std::string_view piece : file.pieces) temporary.write(piece);
     temporary.start_writing_back();
-    folders.insert(file.path.has_parent_path() ? file.path.parent_path() : fs::path("."));
+    folders.insert(folder_of(file.path));
   }
   for (TemporaryFile& temporary : written) temporary.finish();
   for (const fs::path& folder : folders) sync_directory(folder);
@@ -151,8 +156,27 @@ void write_file(const fs::path& path, const std::vector<std::string_view>& piece
   write_files({&file, 1});
 }
 
+FileDigest write_file(const fs::path& path, const TextPieces& text) {
+  constexpr std::size_t kAtOnce = 1U << 20U;
+  TemporaryFile file(path);
+  std::string pending;
+  const FileDigest content = digest_of([&](const TakePiece& take) {
+    text([&](std::string_view piece) {
+      take(piece);
+      pending += piece;
+      if (pending.size() < kAtOnce) return;
+      file.write(pending);
+      pending.clear();
+    });
+  });
+  file.write(pending);
+  file.finish();
+  sync_directory(folder_of(path));
+  return content;
+}
+
 void write_file(const fs::path& path, std::string_view bytes) {
-  write_file(path, std::vector<std::string_view>{bytes});
+  write_whole(path, [&](TemporaryFile& file) { file.write(bytes); });
 }
 
 std::size_t remove_leftovers(const fs::path& folder) {

@@ -13,6 +13,7 @@
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/text_pieces.h"
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/io/glb_options.h"
 #include "crowdface/io/npy.h"
@@ -63,7 +64,7 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
 void remove_crowd(const CrowdDirectory& directory) {
   std::error_code ignored;
   if (fs::exists(directory.plan(), ignored)) {
-    const std::vector<std::string> ids = ids_in_plan(read_file(directory.plan()));
+    const std::vector<std::string> ids = ids_in_plan(directory);
     const std::set<std::string> known(ids.begin(), ids.end());
     const auto is_mesh = [&](const fs::path& path) {
       const std::string name = path.filename().string();
@@ -149,8 +150,8 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
   if (fs::exists(directory.config(), ignored)) return false;
   const std::string name = directory.relative(directory.config());
   for (const fs::path& ledger : directory.ledgers()) {
-    for (const LedgerEntry& entry : read_ledger(ledger).entries) {
-      if (entry.item == name && entry.key == hash_bytes(effective_config)) return false;
+    for (const LedgerEntry& entry : read_ledger(ledger, name).entries) {
+      if (entry.key == hash_bytes(effective_config)) return false;
     }
   }
   const std::vector<fs::path> papers = record_files(directory), folders = crowd_folders(directory);
@@ -243,17 +244,14 @@ void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& fo
                             ", where nothing is written"));
 }
 
-std::vector<std::string> ids_in_plan(const std::string& plan) {
+std::vector<std::string> ids_in_plan(const CrowdDirectory& directory) {
   std::vector<std::string> ids;
-  for (std::size_t begin = 0; begin < plan.size();) {
-    const std::size_t end = std::min(plan.find('\n', begin), plan.size());
-    const auto line = parse_shallow_json(std::string_view(plan).substr(begin, end - begin));
-    if (line.is_object() && line.contains("id") && line["id"].is_string()) {
-      const auto id = line["id"].get<std::string>();
-      if (is_name(id, kLongestId)) ids.push_back(id);
-    }
-    begin = end + 1;
-  }
+  read_lines(directory.plan(), [&](std::string_view text, bool) {
+    const auto line = parse_shallow_json(text);
+    if (!line.is_object() || !line.contains("id") || !line["id"].is_string()) return;
+    const auto id = line["id"].get<std::string>();
+    if (is_name(id, kLongestId)) ids.push_back(id);
+  });
   return ids;
 }
 
@@ -281,8 +279,7 @@ bool is_numbered_sheet(const fs::path& path) {
 std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
   std::set<std::string> recorded;
   for (const fs::path& ledger : directory.ledgers()) {
-    for (const LedgerEntry& entry : read_ledger(ledger).entries) {
-      if (entry.item != kSheetsItem) continue;
+    for (const LedgerEntry& entry : read_ledger(ledger, kSheetsItem).entries) {
       for (const LedgerEntry::File& file : entry.files) recorded.insert(file.name);
     }
   }

@@ -121,8 +121,9 @@ std::vector<std::filesystem::path> with_numbered_folders(const std::filesystem::
 /// \throws CannotCreate if `folder`, in the crowd's folder, is such a link.
 void refuse_folder_elsewhere(const CrowdDirectory& directory, const std::filesystem::path& folder);
 
-/// The ids a plan names; lines that cannot be read, or whose id is no file's name, name none.
-std::vector<std::string> ids_in_plan(const std::string& plan);
+/// The ids that the plan in a folder names; lines that cannot be read, or whose id is no file's name, name
+/// none.
+std::vector<std::string> ids_in_plan(const CrowdDirectory& directory);
 
 /// The gallery's page, in its folder; what it shows lies in `data` below.
 inline constexpr std::array<std::string_view, 4> kGalleryPageFiles = {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <system_error>
 #include <unordered_set>
 
@@ -11,6 +10,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/text_pieces.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/shallow_json.h"
 
@@ -44,24 +44,29 @@ void for_each_line(std::string_view text, const Use& use) {
   }
 }
 
-/// Faces that have a line in some ledger. Lines are not checked: whoever goes on or gathers does that.
-class FacesInLedgers {
- public:
-  explicit FacesInLedgers(const CrowdDirectory& directory) {
-    for (const fs::path& path : directory.ledgers()) {
-      texts_.push_back(std::make_unique<std::string>(text_of(path)));
-      for_each_line(*texts_.back(), [&](std::string_view line) {
-        const std::string_view id = quoted_after(line, R"({"item":"faces/)");
-        if (!id.empty()) ids_.insert(id);
-      });
-    }
+/// Calls `use` with each line of a file that has its end; others may be replacing or removing the file.
+template <class Use>
+void for_each_line_of(const fs::path& path, const Use& use) {
+  try {
+    read_lines(path, [&](std::string_view line, bool ended) {
+      if (ended) use(line);
+    });
+  } catch (const MissingInput&) {
+    return;
   }
-  bool have(std::string_view id) const { return ids_.contains(id); }
+}
 
- private:
-  std::vector<std::unique_ptr<std::string>> texts_;  ///< that the ids lie in
-  std::unordered_set<std::string_view> ids_;
-};
+/// Faces that have a line in some ledger. Lines are not checked: whoever goes on or gathers does that.
+std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory) {
+  std::unordered_set<std::string> ids;
+  for (const fs::path& path : directory.ledgers()) {
+    for_each_line_of(path, [&](std::string_view line) {
+      const std::string_view id = quoted_after(line, R"({"item":"faces/)");
+      if (!id.empty()) ids.emplace(id);
+    });
+  }
+  return ids;
+}
 
 /// "2of7" in "ledger-2of7.jsonl".
 std::optional<Shard> shard_in_name(const fs::path& path) {
@@ -188,9 +193,9 @@ CrowdStatus crowd_status(const fs::path& crowd_directory) {
   for (std::uint64_t index = 1; shards > 1 && index <= shards; ++index) {
     status.shards.push_back(status_of(directory, {index, shards}));
   }
-  const FacesInLedgers ledgers(directory);
-  for_each_line(text_of(directory.plan()), [&](std::string_view line) {
-    const bool done = ledgers.have(quoted_after(line, R"({"id":")"));
+  const std::unordered_set<std::string> made = faces_in_ledgers(directory);
+  for_each_line_of(directory.plan(), [&](std::string_view line) {
+    const bool done = made.contains(std::string(quoted_after(line, R"({"id":")")));
     if (!status.shards.empty()) {
       ShardStatus& shard = status.shards[status.faces % shards];
       ++shard.faces;

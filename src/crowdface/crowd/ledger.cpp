@@ -59,11 +59,33 @@ std::string count_files(const std::vector<LedgerEntry>& entries) {
   return Json(counts).dump();
 }
 
-std::string format_all(const std::vector<LedgerEntry>& entries) {
-  std::string text;
-  for (const LedgerEntry& entry : entries) text += format_ledger_line(entry) + '\n';
-  return text;
+std::string line_with_end(const LedgerEntry& entry) {
+  return format_ledger_line(entry) + '\n';
 }
+
+/// Takes a ledger line by line.
+class LedgerReader {
+ public:
+  void read(std::string_view line, bool ended) {
+    // A line without its end was being written when the run died, even if all else is there.
+    std::optional<LedgerEntry> entry;
+    if (ended) entry = parse_ledger_line(line);
+    if (entry && entry->item == kEndItem) {
+      lines.complete = entry->key == before_.digest() &&
+                       (entry->note.empty() || entry->note == count_files(lines.entries));
+    } else if (entry) {
+      lines.entries.push_back(std::move(*entry));
+    } else {
+      ++lines.damaged;
+    }
+    before_.add_raw(line).add_raw("\n");
+  }
+
+  LedgerLines lines;
+
+ private:
+  Hasher before_;  ///< of the lines so far
+};
 
 }  // namespace
 
@@ -105,32 +127,25 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line) {
   return entry;
 }
 
-LedgerLines parse_ledger(const std::string& text) {
-  LedgerLines lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    // A line without its end was being written when the run died, even if all else is there.
-    std::optional<LedgerEntry> entry;
-    if (end != text.npos) {
-      entry = parse_ledger_line(std::string_view(text).substr(begin, end - begin));
-    }
-    if (entry && entry->item == kEndItem) {
-      lines.complete = entry->key == hash_bytes(std::string_view(text).substr(0, begin)) &&
-                       (entry->note.empty() || entry->note == count_files(lines.entries));
-    } else if (entry) {
-      lines.entries.push_back(std::move(*entry));
-    } else {
-      ++lines.damaged;
-    }
-    begin = end == text.npos ? text.size() : end + 1;
+LedgerLines parse_ledger(std::string_view text) {
+  LedgerReader reader;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    reader.read(text.substr(0, end), end != text.npos);
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
   }
-  return lines;
+  return std::move(reader.lines);
 }
 
-LedgerLines read_ledger(const fs::path& path) {
+LedgerLines read_ledger(const fs::path& path, std::string_view item) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
-  return parse_ledger(read_file(path));
+  const std::string start = item.empty() ? "" : concat(R"({"item":)", Json(item).dump());
+  LedgerReader reader;
+  read_lines(path, [&](std::string_view line, bool ended) {
+    if (line.starts_with(start)) reader.read(line, ended);
+  });
+  return std::move(reader.lines);
 }
 
 bool files_match(const fs::path& root, const LedgerEntry& entry) {
@@ -145,22 +160,29 @@ void add_lines(LedgerLines lines, LinesOfItems& to) {
 
 Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& others)
     : root_(std::move(root)), own_(own) {
+  const auto add = [&](LedgerLines lines) {
+    for (LedgerEntry& entry : lines.entries) {
+      items_[entry.item].lines.push_back(std::move(entry));
+    }
+  };
   for (const fs::path& other : others) {
     if (other == own) continue;
     others_.push_back(other);
-    add_lines(read_ledger(other), read_);
+    add(read_ledger(other));
   }
   std::error_code ignored;
   const bool exists = fs::exists(own, ignored);
-  if (exists) settled_ = read_file(own);
-  LedgerLines lines = parse_ledger(settled_);
+  LedgerLines lines = read_ledger(own);
   if (lines.damaged > 0) {
     log_warning(concat(own.string(), ": ", lines.damaged,
                        lines.damaged == 1 ? " line is" : " lines are",
                        " not whole; what they stand for is done again"));
   }
-  if (lines.damaged > 0 || !exists) write_file(own, format_all(lines.entries));
-  add_lines(std::move(lines), read_);
+  if (lines.damaged > 0 || !exists) {
+    write_file(own, text_of_items(lines.entries.size(),
+                                  [&](std::size_t i) { return line_with_end(lines.entries[i]); }));
+  }
+  add(std::move(lines));
   file_ = std::make_unique<AppendFile>(own);
 }
 
@@ -168,35 +190,46 @@ std::optional<LedgerEntry> Ledger::proven(const std::string& item, const Digest&
   std::vector<LedgerEntry> candidates;
   {
     const std::lock_guard lock(mutex_);
-    if (const auto found = done_.find(item); found != done_.end()) {
-      candidates.push_back(found->second);
-    } else if (const auto lines = read_.find(item); lines != read_.end()) {
-      candidates.assign(lines->second.rbegin(), lines->second.rend());
+    if (const auto found = items_.find(item); found != items_.end()) {
+      const std::vector<LedgerEntry>& lines = found->second.lines;
+      candidates.assign(lines.rbegin(), lines.rend());
     }
   }
   for (const LedgerEntry& entry : candidates) {
     if (entry.key != key || !files_match(root_, entry)) continue;
     const std::lock_guard lock(mutex_);
-    done_[item] = entry;
+    settle_on(entry);
     return entry;
   }
   return std::nullopt;
 }
 
-void Ledger::record(std::vector<LedgerEntry> entries) {
+void Ledger::settle_on(LedgerEntry entry) {
+  Item& item = items_[entry.item];
+  item.lines.clear();
+  item.lines.push_back(std::move(entry));
+  item.done = true;
+}
+
+void Ledger::record_all(std::vector<LedgerEntry> entries) {
   if (entries.empty()) return;
-  file_->append(format_all(entries));
+  std::string lines;
+  for (const LedgerEntry& entry : entries) lines += line_with_end(entry);
+  file_->append(lines);
   const std::lock_guard lock(mutex_);
-  settled_.clear();
-  for (LedgerEntry& entry : entries) {
-    std::string item = entry.item;
-    done_[std::move(item)] = std::move(entry);
-  }
+  grown_ = true;
+  for (LedgerEntry& entry : entries) settle_on(std::move(entry));
+}
+
+void Ledger::record(LedgerEntry entry) {
+  std::vector<LedgerEntry> one;
+  one.push_back(std::move(entry));
+  record_all(std::move(one));
 }
 
 void Ledger::record(const std::string& item, const Digest& key,
                     const std::vector<std::string>& names) {
-  record({{item, key, files_now(names), {}}});
+  record({item, key, files_now(names), {}});
 }
 
 std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>& names) const {
@@ -205,19 +238,31 @@ std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>&
   return files;
 }
 
+void Ledger::write(const std::string& name, const TextPieces& text) {
+  std::error_code ignored;
+  if (!fs::exists(root_ / name, ignored)) {
+    const FileDigest content = write_file(root_ / name, text);
+    return record({name, content.digest, {{name, content}}, {}});
+  }
+  const LedgerEntry::File file{name, digest_of(text)};
+  if (proven(name, file.content.digest)) return;
+  if (!holds(root_ / name, file.content)) write_file(root_ / name, text);
+  keep(file);
+}
+
 void Ledger::write(const std::string& name, std::string_view bytes) {
-  const FileDigest content = {bytes.size(), hash_bytes(bytes)};
-  if (proven(name, content.digest)) return;
-  const LedgerEntry entry{name, content.digest, {{name, content}}, {}};
-  if (!files_match(root_, entry)) write_file(root_ / name, bytes);
-  record({entry});
+  write(name, [&](const TakePiece& take) { take(bytes); });
+}
+
+void Ledger::keep(const LedgerEntry::File& file) {
+  record({file.name, file.content.digest, {file}, {}});
 }
 
 void Ledger::adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files) {
   if (files == entry.files) return;
   entry.files = std::move(files);
   entry.key = Hasher().add(entry.key).add("made anew").digest();
-  record({std::move(entry)});
+  record(std::move(entry));
 }
 
 void Ledger::adopt(const std::string& item, const std::vector<std::string>& names,
@@ -226,8 +271,8 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
     return std::any_of(folders.begin(), folders.end(),
                        [&](const std::string& folder) { return name.starts_with(folder + '/'); });
   };
-  const auto known = read_.find(item);
-  adopt_entry(known == read_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.back(),
+  const auto known = items_.find(item);
+  adopt_entry(known == items_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.lines.back(),
               files_now(names));
   // Of several lines the last that the files elsewhere agree with, else the last.
   const auto line_of = [&](const std::vector<LedgerEntry>& lines) {
@@ -239,9 +284,9 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
     });
     return agreed == lines.rend() ? lines.back() : *agreed;
   };
-  for (const auto& [other, lines] : read_) {
+  for (const auto& [other, known_of] : items_) {
     if (other == item) continue;
-    LedgerEntry entry = line_of(lines);
+    LedgerEntry entry = line_of(known_of.lines);
     std::vector<LedgerEntry::File> files = entry.files;
     for (LedgerEntry::File& file : files) {
       std::error_code ignored;
@@ -252,15 +297,26 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
   }
 }
 
-void Ledger::settle() {
-  std::string text;
+void Ledger::give_text(const TakePiece& take) const {
+  Hasher before;
   FileCounts counts;
-  for (const auto& [item, entry] : done_) {
-    text += format_ledger_line(entry) + '\n';
-    add_counts(entry, counts);
+  std::vector<const LedgerEntry*> done;
+  for (const auto& [name, item] : items_) {
+    if (!item.done) continue;
+    done.push_back(&item.lines.front());
+    add_counts(*done.back(), counts);
   }
-  text += format_all({{kEndItem, hash_bytes(text), {}, Json(counts).dump()}});
-  if (settled_ != text) write_file(own_, text);
+  text_of_items(done.size(),
+                [&](std::size_t i) { return line_with_end(*done[i]); })([&](std::string_view line) {
+    before.add_raw(line);
+    take(line);
+  });
+  take(line_with_end({kEndItem, before.digest(), {}, Json(counts).dump()}));
+}
+
+void Ledger::settle() {
+  const TextPieces text = [&](const TakePiece& take) { give_text(take); };
+  if (grown_ || !holds(own_, digest_of(text))) write_file(own_, text);
   for (const fs::path& other : others_) {
     std::error_code error;
     if (!fs::remove(other, error) && error) {
@@ -277,8 +333,9 @@ void Ledger::require_files() const {
                          ": was removed while the run was at work; run the same command again"));
   };
   require(own_);
-  for (const auto& [item, entry] : done_) {
-    for (const LedgerEntry::File& file : entry.files) require(root_ / file.name);
+  for (const auto& [name, item] : items_) {
+    if (!item.done) continue;
+    for (const LedgerEntry::File& file : item.lines.front().files) require(root_ / file.name);
   }
 }
 

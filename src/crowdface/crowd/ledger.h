@@ -13,6 +13,7 @@
 #include "crowdface/core/append_file.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
+#include "crowdface/core/text_pieces.h"
 
 namespace crowdface {
 
@@ -42,9 +43,10 @@ struct LedgerLines {
   /// it counted.
   bool complete = false;
 };
-LedgerLines parse_ledger(const std::string& text);
+LedgerLines parse_ledger(std::string_view text);
+/// \param item  whose lines are read; empty: all.
 /// \return no lines if there is no such file. \throws IoError.
-LedgerLines read_ledger(const std::filesystem::path& path);
+LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item = {});
 
 /// All lines of each item, in the order in which they were read.
 using LinesOfItems = std::map<std::string, std::vector<LedgerEntry>>;
@@ -70,12 +72,16 @@ class Ledger {
   std::optional<LedgerEntry> proven(const std::string& item, const Digest& key);
 
   /// Appends a line for each. Their files must have been written by `write_file` or `write_files`. \throws IoError.
-  void record(std::vector<LedgerEntry> entries);
+  void record_all(std::vector<LedgerEntry> entries);
+  void record(LedgerEntry entry);
   /// The same for files whose hashes are not known yet. \param names  relative to the folder.
   void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
 
   /// Writes a file determined by nothing but its bytes, unless it is there, and records it.
+  void write(const std::string& name, const TextPieces& text);
   void write(const std::string& name, std::string_view bytes);
+  /// Records a file determined by nothing but its bytes that is there as it should be.
+  void keep(const LedgerEntry::File& file);
 
   /// Takes over files that were made anew, maybe in another form than the config's. What has other
   /// bytes now is recorded under another key, so that the next run makes it as the config says;
@@ -94,14 +100,21 @@ class Ledger {
   void require_files() const;
 
  private:
+  /// An item's lines as they were when this run began, or the one that it found proven or recorded.
+  struct Item {
+    std::vector<LedgerEntry> lines;
+    bool done = false;
+  };
+
+  void settle_on(LedgerEntry entry);
   std::vector<LedgerEntry::File> files_now(const std::vector<std::string>& names) const;
   void adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
+  void give_text(const TakePiece& take) const;
 
   std::filesystem::path root_, own_;
   std::vector<std::filesystem::path> others_;
-  LinesOfItems read_;                        ///< as they were when this run began
-  std::map<std::string, LedgerEntry> done_;  ///< what this run found proven or recorded
-  std::string settled_;  ///< the file's text, if nothing was appended since it was read
+  std::map<std::string, Item> items_;
+  bool grown_ = false;  ///< whether lines were appended
   std::mutex mutex_;
   std::unique_ptr<AppendFile> file_;
 };

@@ -91,31 +91,33 @@ CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
   return likeness;
 }
 
-std::string format_likeness(const CrowdLikeness& likeness, const PlanNames& names,
-                            const std::vector<std::string>& ids) {
-  Json heads = {{"heads", Json::object()}};
-  for (std::size_t h = 0; h < names.heads.size(); ++h) {
-    heads["heads"][names.heads[h]] = {likeness.anchors[h].x(), likeness.anchors[h].y()};
-  }
-  // What is said of faces goes into the text one by one: a value would look through all keys for each.
-  std::string text = heads.dump(1);
-  text.resize(text.size() - std::string_view("\n}").size());
-  text += ",\n \"order\": [";
-  std::size_t written = 0;
-  for (const std::size_t face : likeness.likeness.order) {
-    text += concat(written++ > 0 ? ",\n  " : "\n  ", Json(ids[face]).dump());
-  }
-  text += written > 0 ? "\n ],\n \"nearest\": {" : "],\n \"nearest\": {";
-  for (std::size_t face = 0; face < ids.size(); ++face) {
-    text += concat(face > 0 ? ",\n  " : "\n  ", Json(ids[face]).dump(), ": {");
-    const std::vector<Neighbour>& near = likeness.likeness.near[face];
-    for (std::size_t n = 0; n < near.size(); ++n) {
-      text += concat(n > 0 ? ",\n   " : "\n   ", Json(ids[near[n].face]).dump(), ": ",
-                     Json(near[n].mm).dump());
+TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
+                         const std::vector<std::string>& ids) {
+  const auto start = [](std::size_t i) { return i > 0 ? ",\n  " : "\n  "; };
+  return [&, start](const TakePiece& take) {
+    Json heads = {{"heads", Json::object()}};
+    for (std::size_t h = 0; h < names.heads.size(); ++h) {
+      heads["heads"][names.heads[h]] = {likeness.anchors[h].x(), likeness.anchors[h].y()};
     }
-    text += near.empty() ? "}" : "\n  }";
-  }
-  return text + (ids.empty() ? "}\n}\n" : "\n }\n}\n");
+    std::string text = heads.dump(1);
+    text.resize(text.size() - std::string_view("\n}").size());
+    take(text + ",\n \"order\": [");
+    const std::vector<std::size_t>& order = likeness.likeness.order;
+    text_of_items(order.size(), [&](std::size_t i) {
+      return concat(start(i), Json(ids[order[i]]).dump());
+    })(take);
+    take(order.empty() ? "],\n \"nearest\": {" : "\n ],\n \"nearest\": {");
+    text_of_items(ids.size(), [&](std::size_t face) {
+      std::string line = concat(start(face), Json(ids[face]).dump(), ": {");
+      const std::vector<Neighbour>& near = likeness.likeness.near[face];
+      for (std::size_t n = 0; n < near.size(); ++n) {
+        line += concat(n > 0 ? ",\n   " : "\n   ", Json(ids[near[n].face]).dump(), ": ",
+                       Json(near[n].mm).dump());
+      }
+      return line + (near.empty() ? "}" : "\n  }");
+    })(take);
+    take(ids.empty() ? "}\n}\n" : "\n }\n}\n");
+  };
 }
 
 CrowdLikeness read_likeness(const std::filesystem::path& path, const PlanNames& names,

@@ -22,9 +22,9 @@ struct CrowdLikeness {
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points);
 
-/// likeness.json (docs/crowd-directory.md).
-std::string format_likeness(const CrowdLikeness& likeness, const PlanNames& names,
-                            const std::vector<std::string>& ids);
+/// likeness.json (docs/crowd-directory.md). All must outlive the text. \param ids  of the faces.
+TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
+                         const std::vector<std::string>& ids);
 
 /// Reads it back. \param ids  of the plan, in its order.
 /// \throws MissingInput if it is not there, InvalidInput if it is of another crowd.

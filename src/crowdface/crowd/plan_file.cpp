@@ -286,33 +286,7 @@ void add_band(const BandRecipe& band, const PlanNames& names, std::vector<std::s
   row.push_back(format_number(band.extrapolation));
 }
 
-}  // namespace
-
-std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings) {
-  return face_to_json(face, names, settings).dump();
-}
-
-PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::string& place) {
-  return LineReader(names, place).read(line);
-}
-
-std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names) {
-  const std::string text = read_file(path);
-  std::vector<PlanLine> plan;
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = std::string_view(text).substr(begin, end - begin);
-    ++number;
-    if (!line.empty()) {
-      plan.push_back(parse_recipe(line, names, concat(path.string(), ":", number)));
-    }
-    begin = end + 1;
-  }
-  return plan;
-}
-
-std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& names) {
+std::string table_header(const PlanNames& names, bool any_mirrored) {
   std::vector<std::string> header = {"id", "index", "family", "target"};
   for (const std::string& region : names.regions) {
     for (const char* column : kBandColumns) {
@@ -330,41 +304,77 @@ std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& name
       }
     }
   }
-  const bool any_mirrored = std::any_of(
-      crowd.begin(), crowd.end(), [](const CastFace& face) { return !is_unmirrored(face.recipe); });
   if (any_mirrored) header.insert(header.end(), {"asymmetry", "mirrored"});
   if (!names.attachments.empty()) header.emplace_back("attachments");
-  std::string table = join(header, ",") + "\r\n";
-  for (const CastFace& face : crowd) {
-    std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
-                                    csv_field(face.family.value_or("")),
-                                    csv_field(name_at(names.heads, face.recipe.target))};
-    for (const RegionRecipe& region : face.recipe.regions) add_band(region, names, row);
-    const bool near = face.notes.nearest.has_value();
-    const bool near_crowd = near && face.notes.nearest->crowd;
-    row.push_back(near ? csv_field(name_at(names.heads, face.notes.nearest->head)) : "");
-    row.push_back(near ? format_number(rounded(face.notes.nearest->head_mm)) : "");
-    row.push_back(near_crowd ? csv_field(*face.notes.nearest->crowd) : "");
-    row.push_back(near_crowd ? format_number(rounded(face.notes.nearest->crowd_mm)) : "");
-    row.push_back(csv_field(face.group.value_or("")));
-    row.push_back(csv_weights(face.recipe.mixture, names));
-    for (const RegionRecipe& region : face.recipe.regions) {
-      for (std::size_t b = 1; b < names.bands.size(); ++b) {
-        if (b < band_count(region)) {
-          add_band(band_of(region, b), names, row);
-        } else {
-          row.resize(row.size() + std::size(kBandColumns));
-        }
+  return join(header, ",") + "\r\n";
+}
+
+std::string table_row(const CastFace& face, const PlanNames& names, bool any_mirrored) {
+  std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
+                                  csv_field(face.family.value_or("")),
+                                  csv_field(name_at(names.heads, face.recipe.target))};
+  for (const RegionRecipe& region : face.recipe.regions) add_band(region, names, row);
+  const bool near = face.notes.nearest.has_value();
+  const bool near_crowd = near && face.notes.nearest->crowd;
+  row.push_back(near ? csv_field(name_at(names.heads, face.notes.nearest->head)) : "");
+  row.push_back(near ? format_number(rounded(face.notes.nearest->head_mm)) : "");
+  row.push_back(near_crowd ? csv_field(*face.notes.nearest->crowd) : "");
+  row.push_back(near_crowd ? format_number(rounded(face.notes.nearest->crowd_mm)) : "");
+  row.push_back(csv_field(face.group.value_or("")));
+  row.push_back(csv_weights(face.recipe.mixture, names));
+  for (const RegionRecipe& region : face.recipe.regions) {
+    for (std::size_t b = 1; b < names.bands.size(); ++b) {
+      if (b < band_count(region)) {
+        add_band(band_of(region, b), names, row);
+      } else {
+        row.resize(row.size() + std::size(kBandColumns));
       }
     }
-    if (any_mirrored) {
-      row.push_back(format_number(face.recipe.asymmetry));
-      row.emplace_back(face.recipe.mirrored ? "true" : "false");
-    }
-    if (!names.attachments.empty()) row.push_back(csv_field(join(face.attachments, ";")));
-    table += join(row, ",") + "\r\n";
   }
-  return table;
+  if (any_mirrored) {
+    row.push_back(format_number(face.recipe.asymmetry));
+    row.emplace_back(face.recipe.mirrored ? "true" : "false");
+  }
+  if (!names.attachments.empty()) row.push_back(csv_field(join(face.attachments, ";")));
+  return join(row, ",") + "\r\n";
+}
+
+}  // namespace
+
+std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings) {
+  return face_to_json(face, names, settings).dump();
+}
+
+PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::string& place) {
+  return LineReader(names, place).read(line);
+}
+
+std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names) {
+  std::vector<PlanLine> plan;
+  std::size_t number = 0;
+  read_lines(path, [&](std::string_view line, bool) {
+    ++number;
+    if (line.empty()) return;
+    plan.push_back(parse_recipe(line, names, concat(path.string(), ":", number)));
+  });
+  return plan;
+}
+
+TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
+                     const Digest& settings) {
+  return text_of_items(crowd.size(), [&crowd, &names, settings](std::size_t i) {
+    return format_recipe(crowd[i], names, settings) + '\n';
+  });
+}
+
+TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names) {
+  const bool any_mirrored = std::any_of(
+      crowd.begin(), crowd.end(), [](const CastFace& face) { return !is_unmirrored(face.recipe); });
+  return [&crowd, &names, any_mirrored](const TakePiece& take) {
+    take(table_header(names, any_mirrored));
+    text_of_items(crowd.size(),
+                  [&](std::size_t i) { return table_row(crowd[i], names, any_mirrored); })(take);
+  };
 }
 
 }  // namespace crowdface

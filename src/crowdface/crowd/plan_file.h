@@ -9,6 +9,7 @@
 #include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/plan_names.h"
 #include "crowdface/core/hash.h"
+#include "crowdface/core/text_pieces.h"
 
 namespace crowdface {
 
@@ -29,8 +30,12 @@ PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::
 /// All lines of a plan file.
 std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names);
 
+/// The lines of a plan. All must outlive the text.
+TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
+                     const Digest& settings);
+
 /// The crowd as a flat table (RFC 4180) for spreadsheets: one line a face, a group of columns a
-/// region.
-std::string format_csv(const std::vector<CastFace>& crowd, const PlanNames& names);
+/// region. Both must outlive the text.
+TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names);
 
 }  // namespace crowdface

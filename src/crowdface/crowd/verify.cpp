@@ -91,7 +91,7 @@ CrowdCheck verify_crowd(const fs::path& crowd_directory) {
   const auto entries = read_ledgers(directory, check);
   compare_files(directory, entries, check);
   if (fs::exists(directory.plan(), ignored)) {
-    for (const std::string& id : ids_in_plan(read_file(directory.plan()))) {
+    for (const std::string& id : ids_in_plan(directory)) {
       if (!entries.contains(concat("faces/", id))) check.unfinished.push_back(id);
     }
   }

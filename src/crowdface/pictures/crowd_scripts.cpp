@@ -11,6 +11,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/list_files.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
@@ -173,18 +174,21 @@ void write_crowd_scripts(const CrowdDirectory& directory, const Config& config,
   Json head = head_of_script(config, shapes, likeness);
   std::set<std::filesystem::path> pages;
   std::string script;
-  if (const std::uint64_t a_page = directory.faces_per_folder; a_page == 0) {
+  if (const auto a_page = static_cast<std::size_t>(directory.faces_per_folder); a_page == 0) {
     script = whole_crowd(std::move(head), crowd, names, settings, likeness.likeness).dump();
   } else {
     make_directories(directory.gallery_pages());
-    for (std::size_t begin = 0; begin < crowd.size(); begin += a_page) {
+    const auto file = [&](std::size_t page) {
+      return directory.gallery_pages() / concat(zero_padded(page, 3), ".js");
+    };
+    const std::size_t count = (crowd.size() + a_page - 1) / a_page;
+    for (std::size_t page = 0; page < count; ++page) pages.insert(file(page));
+    parallel_for_each(count, [&](std::size_t page) {
       throw_if_interrupted();
-      const std::size_t page = begin / a_page;
-      const std::size_t end = std::min<std::size_t>(begin + a_page, crowd.size());
-      const auto path = directory.gallery_pages() / concat(zero_padded(page, 3), ".js");
-      write_file(path, page_script(crowd, begin, end, page, names, settings, likeness.likeness));
-      pages.insert(path);
-    }
+      const std::size_t begin = page * a_page, end = std::min(begin + a_page, crowd.size());
+      write_file(file(page),
+                 page_script(crowd, begin, end, page, names, settings, likeness.likeness));
+    });
     head["faces_per_page"] = a_page;
     head["on_plane"] = on_plane(crowd, names, settings);
     const std::vector<std::size_t> rank = ranks(likeness.likeness, crowd.size());

@@ -93,7 +93,8 @@ WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
                                     const CrowdLikeness& likeness) const {
   std::vector<std::string> ids;
   for (const CastFace& face : crowd) ids.push_back(face.id);
-  write_file(directory_.likeness(), format_likeness(likeness, config_.plan_names(), ids));
+  const PlanNames names = config_.plan_names();
+  write_file(directory_.likeness(), likeness_text(likeness, names, ids));
   if (page_) {
     write_gallery(directory_, config_, *page_, *gallery_, shapes_, renders_.worn_surfaces(), crowd,
                   settings_, likeness);

@@ -11,6 +11,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/progress.h"
+#include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -237,6 +238,17 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   throw Unsatisfiable(message);
 }
 
+/// What the plan has of each face with four decimals has no more here: whoever takes the plan tells the
+/// same of it.
+void round_as_planned(std::vector<CastFace>& crowd) {
+  for (CastFace& face : crowd) {
+    face.mother_share = rounded(face.mother_share);
+    Nearest& nearest = *face.notes.nearest;
+    nearest.head_mm = rounded(nearest.head_mm);
+    nearest.crowd_mm = rounded(nearest.crowd_mm);
+  }
+}
+
 }  // namespace
 
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared) {
@@ -342,6 +354,7 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   result.families = report_families(config, crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
+  round_as_planned(result.crowd);
   if (!config.attachments.items.empty()) {
     draw_attachments(attachment_draw(config), crowd.kinds, result.crowd);
   }

@@ -2,6 +2,7 @@
 #include "crowdface/run/casting_report.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "crowdface/cast/attachment_draw.h"
@@ -150,7 +151,17 @@ std::string format_founders(const Job& job, const std::vector<FamilyFounder>& fo
     face.index.reset();
     faces.push_back(std::move(face));
   }
-  return format_plan(job, faces);
+  return joined(plan_text(job, faces));
+}
+
+std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& directory) {
+  std::vector<FamilyFounder> founders;
+  std::error_code ignored;
+  if (!std::filesystem::exists(directory.founders(), ignored)) return founders;
+  for (PlanLine& line : read_plan(directory.founders(), job.names)) {
+    founders.push_back({line.face.family.value_or(line.face.id), std::move(line.face)});
+  }
+  return founders;
 }
 
 Json casting_to_json(const Config& config, const Cast& cast) {

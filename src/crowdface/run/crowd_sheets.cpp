@@ -34,15 +34,6 @@ std::vector<std::string> sheet_files(const CrowdDirectory& directory, const Writ
   return names;
 }
 
-std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& directory) {
-  std::vector<FamilyFounder> founders;
-  if (!fs::exists(directory.founders())) return founders;
-  for (PlanLine& line : read_plan(directory.founders(), job.names)) {
-    founders.push_back({line.face.family.value_or(line.face.id), std::move(line.face)});
-  }
-  return founders;
-}
-
 void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilder& builder,
                     const CrowdPictures& pictures) {
   std::vector<Positions> built(1);
@@ -54,6 +45,12 @@ void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilde
   }
 }
 
+/// Like the whole text.
+void add_text(const TextPieces& text, Hasher& hasher) {
+  hasher.add(digest_of(text).bytes);
+  text([&](std::string_view piece) { hasher.add_raw(piece); });
+}
+
 /// The hash of all that sheets and gallery show.
 Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
                      const CrowdLikeness& likeness, const std::vector<FaceFiles>& files) {
@@ -61,7 +58,8 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
   hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
   // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
-  hasher.add(format_plan(job, cast.crowd)).add(format_founders(job, cast.founders));
+  add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
+  hasher.add(format_founders(job, cast.founders));
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     ids.push_back(cast.crowd[i].id);
@@ -69,7 +67,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
     for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
     for (const FileDigest& own : files[i].own) hasher.add(own.digest);
   }
-  hasher.add(format_likeness(likeness, job.names, ids));
+  add_text(likeness_text(likeness, job.names, ids), hasher);
   return hasher.digest();
 }
 

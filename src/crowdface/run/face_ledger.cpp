@@ -164,7 +164,7 @@ LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceFiles& files) c
 void FaceLedger::record(std::span<const MadeFace> faces) const {
   std::vector<LedgerEntry> entries;
   for (const MadeFace& made : faces) entries.push_back(entry_of(*made.face, made.files));
-  ledger_.record(std::move(entries));
+  ledger_.record_all(std::move(entries));
   for (std::size_t f = 0; f < faces.size(); ++f) recorded_();
 }
 

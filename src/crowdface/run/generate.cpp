@@ -14,6 +14,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
 #include "crowdface/crowd/ledger.h"
@@ -88,7 +89,8 @@ struct CastJob {
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
   Cast cast;
-  /// If not empty, `cast` holds a shard's faces, as the folder's plan has them, and no more.
+  nlohmann::ordered_json casting;  ///< what stands in casting.json; none if the faces are a shard's
+  /// If not empty, `cast` is as the folder's plan has it; of a shard its faces and no more.
   std::vector<LedgerEntry::File> plan_files;
   bool planned() const { return !plan_files.empty(); }
 };
@@ -98,7 +100,7 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
                [&] { return prepare(job.config, job.inputs, job.smoothing, options.cache); });
 }
 
-/// A shard's faces from the folder's plan; null if there is no plan of this job.
+/// The crowd, or a shard's faces, from the folder's plan; null if there is no plan of this job.
 std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& options,
                                      StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
@@ -111,10 +113,19 @@ std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& opti
                               "crowdface plan first"));
   }
   auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
-  crowd->cast.crowd = std::move(planned->faces);
   crowd->plan_files = std::move(planned->files);
-  log_info(concat("the folder's plan is taken; ", crowd->cast.crowd.size(),
-                  " faces of it are of shard ", options.shard.name()));
+  if (options.shard.whole()) {
+    crowd->cast = timed(stages, "cast", [&] {
+      return cast_as_planned(job, directory, crowd->prepared, std::move(planned->faces));
+    });
+    crowd->casting = nlohmann::ordered_json::parse(read_file(directory.casting()));
+    check_compared_crowd(job.config, crowd->cast.crowd);
+    log_info("the folder's plan is taken");
+  } else {
+    crowd->cast.crowd = std::move(planned->faces);
+    log_info(concat("the folder's plan is taken; ", crowd->cast.crowd.size(),
+                    " faces of it are of shard ", options.shard.name()));
+  }
   return crowd;
 }
 
@@ -133,22 +144,8 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
   log_casting(crowd->cast, job.names.heads);
   for (const std::string& text : contradicted_quotas(job.config, crowd->cast)) log_warning(text);
   check_compared_crowd(job.config, crowd->cast.crowd);
+  crowd->casting = casting_to_json(job.config, crowd->cast);
   return crowd;
-}
-
-/// \param write  takes a path in the crowd's folder and the file's bytes.
-template <class Write>
-void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
-                const Write& write) {
-  {
-    const std::string plan = format_plan(job, cast.crowd);
-    remove_report_of_other_plan(directory, plan);
-    write(directory.plan(), plan);
-  }
-  write(directory.table(), format_csv(cast.crowd, job.names));
-  if (!cast.founders.empty()) write(directory.founders(), format_founders(job, cast.founders));
-  if (!cast.rejected.empty()) write(directory.rejected(), format_plan(job, cast.rejected));
-  write(directory.casting(), casting_to_json(job.config, cast).dump(2) + "\n");
 }
 
 /// \param inputs  null: only the plan is wanted
@@ -221,23 +218,28 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   const std::vector<CastFace>& crowd = cast.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard),
                 ledgers_that_matter(directory, options.shard));
-  const auto write = [&](const fs::path& path, std::string_view bytes) {
-    ledger.write(directory.relative(path), bytes);
+  ledger.write(directory.relative(directory.config()), config_in_folder(job.config, directory));
+  const auto write = [&](const fs::path& path, const TextPieces& text) {
+    ledger.write(directory.relative(path), text);
   };
-  write(directory.config(), config_in_folder(job.config, directory));
-  if (!cast_job.planned()) write_plan(job, directory, cast, write);
-  std::vector<LedgerEntry> plan_files;
-  for (const LedgerEntry::File& file : cast_job.plan_files) {
-    plan_files.push_back({file.name, file.content.digest, {file}, {}});
+  if (cast_job.planned()) {
+    for (const LedgerEntry::File& file : cast_job.plan_files) ledger.keep(file);
+  } else {
+    write_plan(job, directory, cast, cast_job.casting, write);
+    mark_planned(job, directory);
   }
-  ledger.record(std::move(plan_files));
+  const bool has_whole_crowd = options.shard.whole() || !cast_job.planned();
 
   const auto& sheet = job.config.output.contact_sheet;
   const FaceLedger face_ledger(ledger, job, directory, face_extras(job), [&] {
     if (progress) progress->step();
   });
-  FacesSoFar so_far =
-      find_done_faces(face_ledger, crowd, cast_job.planned() ? Shard() : options.shard);
+  const Shard asked_for = has_whole_crowd ? options.shard : Shard();
+  FacesSoFar so_far = timed(stages, "check", [&] {
+    if (purpose == Purpose::kGenerate) return find_done_faces(face_ledger, crowd, asked_for);
+    Progress checking("checking faces", crowd.size());
+    return find_done_faces(face_ledger, crowd, asked_for, [&] { checking.step(); });
+  });
   const std::size_t built = so_far.todo.size();
   if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);
   if (!options.shard.whole()) {
@@ -245,10 +247,11 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   }
 
   std::vector<std::string> warnings;
-  if (!cast_job.planned()) warnings = write_materials(job, directory, cast, ledger);
+  if (has_whole_crowd) warnings = write_materials(job, directory, cast, ledger);
   const auto& formats = job.config.output.meshes;
-  if (!cast_job.planned() && std::ranges::find(formats, MeshFormat::kUsd) != formats.end()) {
-    write(directory.stage(), format_stage(job.config, job.inputs, crowd));
+  if (has_whole_crowd && std::ranges::find(formats, MeshFormat::kUsd) != formats.end()) {
+    ledger.write(directory.relative(directory.stage()),
+                 format_stage(job.config, job.inputs, crowd));
   }
   write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
@@ -285,7 +288,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
     });
   }
   write(directory.report(),
-        format_report(job, cast_job.prepared, cast, so_far.files, pages, warnings));
+        report_text(job, cast_job.prepared, cast, cast_job.casting, so_far.files, pages, warnings));
   ledger.settle();
   gather_logs(directory);
   remove_notes_of_shards(directory);
@@ -321,7 +324,7 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   const bool is_new = purpose == Purpose::kGenerate && makes_faces(job.config, options);
   if (is_new) refuse_too_little_memory(job.config, job.inputs, memory_for(options));
   std::unique_ptr<CastJob> crowd;
-  if (!options.shard.whole()) crowd = planned_job(job, options, stages);
+  if (options.replace == Replace::kRefuse) crowd = planned_job(job, options, stages);
   if (!crowd) crowd = cast_job(job, options, stages);
   Lazy<FaceStages> face_stages([&] {
     return std::make_unique<FaceStages>(
@@ -397,8 +400,8 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
     const CrowdLock lock(directory, {});
     refuse_other_heads(job.settings, directory, options.replace);
     open_crowd_directory(directory, crowd_config(job.config, directory), options.replace);
-    write_plan(job, directory, crowd->cast,
-               [](const fs::path& path, std::string_view bytes) { write_file(path, bytes); });
+    write_plan(job, directory, crowd->cast, crowd->casting,
+               [](const fs::path& path, const TextPieces& text) { write_file(path, text); });
     mark_planned(job, directory);
     lock.require_still_there();
     log_info(concat(crowd->cast.crowd.size(), " recipes in ", directory.plan().string()));

@@ -226,13 +226,8 @@ LevelScale level_scale(const Config& config, const Inputs& inputs) {
   return {config.smoothing.operator_kind, inputs.max_level, inputs.edge_length_mm};
 }
 
-std::string format_plan(const Job& job, const std::vector<CastFace>& crowd) {
-  std::string plan;
-  for (const CastFace& face : crowd) {
-    plan += format_recipe(face, job.names, job.settings);
-    plan += '\n';
-  }
-  return plan;
+TextPieces plan_text(const Job& job, const std::vector<CastFace>& crowd) {
+  return plan_text(crowd, job.names, job.settings);
 }
 
 }  // namespace crowdface

@@ -46,7 +46,7 @@ CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 /// What turns a smoothness into iterations on these heads.
 LevelScale level_scale(const Config& config, const Inputs& inputs);
 
-/// The plan as it stands in plan.jsonl.
-std::string format_plan(const Job& job, const std::vector<CastFace>& crowd);
+/// The plan as it stands in plan.jsonl. Both must outlive the text.
+TextPieces plan_text(const Job& job, const std::vector<CastFace>& crowd);
 
 }  // namespace crowdface

@@ -2,13 +2,19 @@
 #include "crowdface/run/planned.h"
 
 #include <algorithm>
+#include <span>
 #include <system_error>
+#include <utility>
 
+#include "crowdface/cast/quotas.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/io/shallow_json.h"
+#include "crowdface/run/casting_report.h"
+#include "crowdface/run/resume.h"
 
 namespace crowdface {
 namespace {
@@ -17,6 +23,7 @@ namespace {
 Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;
   hasher.add(kVersion).add(config_in_folder(job.config, directory)).add(job.settings);
+  hasher.add_array(std::span(job.inputs.distance_mask));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
   return hasher.digest();
 }
@@ -43,7 +50,51 @@ std::vector<LedgerEntry::File> files_of(const nlohmann::ordered_json& mark) {
   return files;
 }
 
+/// The faces that a shard has in the plan, read by several threads.
+std::vector<CastFace> read_faces(const Job& job, const std::filesystem::path& plan,
+                                 const Shard& shard) {
+  constexpr std::size_t kAtOnce = 4096, kBlock = 16;
+  std::vector<CastFace> faces;
+  faces.reserve(face_count(job.config) / shard.count + 1);
+  std::vector<std::pair<std::size_t, std::string>> lines;
+  const auto read = [&] {
+    throw_if_interrupted();
+    const std::size_t first = faces.size();
+    faces.resize(first + lines.size());
+    parallel_for_each(lines.size(), kBlock, [&](std::size_t i) {
+      const auto& [number, line] = lines[i];
+      faces[first + i] = parse_recipe(line, job.names, concat(plan.string(), ":", number)).face;
+    });
+    lines.clear();
+  };
+  std::size_t number = 0;
+  read_lines(plan, [&](std::string_view line, bool) {
+    if (shard.owns(number++)) lines.emplace_back(number, line);
+    if (lines.size() == kAtOnce) read();
+  });
+  read();
+  return faces;
+}
+
 }  // namespace
+
+void write_plan(
+    const Job& job, const CrowdDirectory& directory, const Cast& cast,
+    const nlohmann::ordered_json& casting,
+    const std::function<void(const std::filesystem::path& path, const TextPieces& text)>& write) {
+  const auto write_whole = [&](const std::filesystem::path& path, const std::string& bytes) {
+    write(path, [&](const TakePiece& take) { take(bytes); });
+  };
+  const TextPieces plan = plan_text(job, cast.crowd);
+  remove_report_of_other_plan(directory, plan);
+  write(directory.plan(), plan);
+  write(directory.table(), table_text(cast.crowd, job.names));
+  if (!cast.founders.empty()) {
+    write_whole(directory.founders(), format_founders(job, cast.founders));
+  }
+  if (!cast.rejected.empty()) write(directory.rejected(), plan_text(job, cast.rejected));
+  write_whole(directory.casting(), casting.dump(2) + "\n");
+}
 
 void mark_planned(const Job& job, const CrowdDirectory& directory) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
@@ -73,23 +124,34 @@ std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& 
   }
   PlannedFaces planned;
   planned.files = files_of(mark);
-  const MappedFile file(directory.plan());
-  const std::string_view plan = file.bytes();
-  if (planned.files.empty() || planned.files.front().content.digest != hash_bytes(plan)) {
+  // What a shard does not read it leaves to those who gather.
+  const std::size_t read = shard.whole() ? planned.files.size() : 1;
+  if (planned.files.empty() ||
+      !std::all_of(
+          planned.files.begin(), planned.files.begin() + static_cast<std::ptrdiff_t>(read),
+          [&](const auto& file) { return holds(directory.root / file.name, file.content); })) {
     return std::nullopt;
   }
-  std::size_t place = 0;
-  for (std::size_t begin = 0; begin < plan.size(); ++place) {
-    const std::size_t end = std::min(plan.find('\n', begin), plan.size());
-    if (shard.owns(place)) {
-      throw_if_interrupted();
-      planned.faces.push_back(parse_recipe(plan.substr(begin, end - begin), job.names,
-                                           concat(directory.plan().string(), ":", place + 1))
-                                  .face);
-    }
-    begin = end + 1;
-  }
+  planned.faces = read_faces(job, directory.plan(), shard);
   return planned;
+}
+
+Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
+                     std::vector<CastFace> crowd) {
+  const FaceSpace space = casting_space(job.config, job.inputs, prepared).space;
+  const Casting casting = casting_of(job.config, job.inputs, space.head_distances());
+  Cast cast;
+  cast.anchors = casting.anchors;
+  cast.crowd = std::move(crowd);
+  cast.kinds = schedule_kinds(casting, casting.count);
+  cast.founders = read_founders(job, directory);
+  if (job.config.output.contact_sheet) {
+    cast.points.resize(cast.crowd.size());
+    constexpr std::size_t kBlock = 64;
+    parallel_for_each(cast.crowd.size(), kBlock,
+                      [&](std::size_t i) { cast.points[i] = space.point(cast.crowd[i].recipe); });
+  }
+  return cast;
 }
 
 }  // namespace crowdface

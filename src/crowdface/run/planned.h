@@ -1,28 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan that stands in the folder, for shards that need not cast the crowd again.
+// The plan in a crowd's folder: written once, then taken by shards and by whoever goes on.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/text_pieces.h"
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/crowd/shard.h"
+#include "crowdface/run/casting.h"
 #include "crowdface/run/pipeline.h"
 
 namespace crowdface {
 
-/// Says in the folder that its plan is whole, and which job's it is. To be written last.
+/// Writes the plan, the table and what else is known once a crowd is cast.
+/// \param casting  what stands in casting.json
+/// \param write    writes a file of the crowd's folder
+void write_plan(
+    const Job& job, const CrowdDirectory& directory, const Cast& cast,
+    const nlohmann::ordered_json& casting,
+    const std::function<void(const std::filesystem::path& path, const TextPieces& text)>& write);
+
+/// Says in the folder that its plan is whole, and which job's it is. To be written after it.
 void mark_planned(const Job& job, const CrowdDirectory& directory);
 
-/// A shard's part of the folder's plan.
+/// A shard's part of the folder's plan, or the whole of it.
 struct PlannedFaces {
   std::vector<CastFace> faces;           ///< the shard's, in the plan's order
   std::vector<LedgerEntry::File> files;  ///< the plan and those written with it
 };
 
-/// \return nothing if the plan is not there, not as `mark_planned` found it, or another job's.
+/// \return nothing if the plan is not there, not as `mark_planned` found it, or another job's; for the
+/// whole crowd also if one of the other files is not as it was.
 /// \throws InvalidInput if a line is none of ours.
 std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,
                                           const Shard& shard);
+
+/// What `cast` says of a crowd, as far as it is needed once its plan is written: nothing of distances,
+/// rejections and how families came out, which casting.json tells.
+Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
+                     std::vector<CastFace> crowd);
 
 }  // namespace crowdface

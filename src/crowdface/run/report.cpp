@@ -13,7 +13,6 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
-#include "crowdface/run/casting_report.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -21,12 +20,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Smallest, median and largest; null where there is nothing.
-Json distribution(const Quartiles& values) {
-  if (values.count == 0) return nullptr;
-  return {{"min", rounded(values.min)},
-          {"median", rounded(values.median)},
-          {"max", rounded(values.max)}};
+/// Smallest, median and largest of what casting.json says of distances; null where there is nothing.
+Json distribution(const Json& of) {
+  if (of.is_null()) return nullptr;
+  return {{"min", of["min"]}, {"median", of["median"]}, {"max", of["max"]}};
 }
 
 Json heads_to_json(const Job& job, const Cast& cast) {
@@ -116,10 +113,13 @@ Json smoothing_to_json(const Job& job, const Prepared& prepared, const Cast& cas
   return smoothing;
 }
 
-Json distances_to_json(const CrowdDistances& distances) {
-  return {{"between_heads_mm", distribution(distances.heads)},
-          {"to_nearest_head_mm", distribution(distances.to_nearest_head)},
-          {"to_nearest_earlier_face_mm", distribution(distances.to_nearest_face)}};
+Json distances_to_json(const Json& distances) {
+  Json json;
+  for (const char* kind :
+       {"between_heads_mm", "to_nearest_head_mm", "to_nearest_earlier_face_mm"}) {
+    json[kind] = distribution(distances[kind]);
+  }
+  return json;
 }
 
 /// "mesh" was there before there were other formats.
@@ -164,11 +164,9 @@ std::string indented(const Json& json, std::size_t levels) {
   return text;
 }
 
-}  // namespace
-
-std::string format_report(const Job& job, const Prepared& prepared, const Cast& cast,
-                          const std::vector<FaceFiles>& files, std::size_t sheets,
-                          const std::vector<std::string>& warnings) {
+/// All but the faces.
+Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const Json& casting,
+             std::size_t sheets, const std::vector<std::string>& warnings) {
   Json report;
   report["crowdface"] = kVersion;
   report["crowd"] = job.config.crowd.name;
@@ -184,19 +182,29 @@ std::string format_report(const Job& job, const Prepared& prepared, const Cast& 
   report["heads"] = heads_to_json(job, cast);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
-  report["distances"] = distances_to_json(cast.distances);
-  report["casting"] = casting_to_json(job.config, cast);
+  report["distances"] = distances_to_json(casting["distances"]);
+  report["casting"] = casting;
   report["warnings"] = warnings;
+  return report;
+}
+
+}  // namespace
+
+TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cast,
+                       const Json& casting, const std::vector<FaceFiles>& files, std::size_t sheets,
+                       const std::vector<std::string>& warnings) {
   // Warnings may name files whose names are not UTF-8.
-  std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace);
-  // The faces follow one by one: as values they would take three times their text.
-  text.resize(text.size() - std::string_view("\n}").size());
-  text += ",\n  \"faces\": [";
-  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
-    text +=
-        concat(i > 0 ? ",\n    " : "\n    ", indented(face_to_json(cast.crowd[i].id, files[i]), 2));
-  }
-  return text + (cast.crowd.empty() ? "]\n}\n" : "\n  ]\n}\n");
+  std::string head = summary(job, prepared, cast, casting, sheets, warnings)
+                         .dump(2, ' ', false, Json::error_handler_t::replace);
+  head.resize(head.size() - std::string_view("\n}").size());
+  return [&, head = head + ",\n  \"faces\": ["](const TakePiece& take) {
+    take(head);
+    text_of_items(files.size(), [&](std::size_t i) {
+      return concat(i > 0 ? ",\n    " : "\n    ",
+                    indented(face_to_json(cast.crowd[i].id, files[i]), 2));
+    })(take);
+    take(files.empty() ? "]\n}\n" : "\n  ]\n}\n");
+  };
 }
 
 std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,

@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/text_pieces.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_files.h"
 #include "crowdface/run/pipeline.h"
@@ -12,10 +15,12 @@
 namespace crowdface {
 
 /// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no
-/// time and no machine: the same inputs give the same bytes.
-std::string format_report(const Job& job, const Prepared& prepared, const Cast& cast,
-                          const std::vector<FaceFiles>& files, std::size_t sheets,
-                          const std::vector<std::string>& warnings);
+/// time and no machine: the same inputs give the same bytes. All must outlive the text.
+/// \param casting  what stands in casting.json
+/// \param files    of each face
+TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cast,
+                       const nlohmann::ordered_json& casting, const std::vector<FaceFiles>& files,
+                       std::size_t sheets, const std::vector<std::string>& warnings);
 
 /// How long each stage took, in the order it ran.
 using StageSeconds = std::vector<std::pair<std::string, double>>;

@@ -55,14 +55,14 @@ void write_iris(const Config& config, const Inputs& inputs, const CrowdDirectory
 
 }  // namespace
 
-void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan) {
+void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan) {
   std::error_code ignored;
-  if (fs::exists(directory.plan(), ignored) && MappedFile(directory.plan()).bytes() == plan) return;
+  if (!fs::exists(directory.report(), ignored) || holds(directory.plan(), digest_of(plan))) return;
   fs::remove(directory.report(), ignored);
 }
 
 FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
-                           const Shard& shard) {
+                           const Shard& shard, const std::function<void()>& asked) {
   FacesSoFar so_far;
   so_far.files.resize(crowd.size());
   std::vector<char> missing(crowd.size(), 0);
@@ -75,6 +75,7 @@ FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>
     } else {
       missing[i] = 1;
     }
+    if (asked) asked();
   });
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (shard.owns(i)) ++so_far.owned;

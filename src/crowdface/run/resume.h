@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 namespace crowdface {
 
 /// A folder with a report is complete: another plan's report must not outlive the plan.
-void remove_report_of_other_plan(const CrowdDirectory& directory, const std::string& plan);
+void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan);
 
 /// The crowd's faces as far as they are done, and which are not.
 struct FacesSoFar {
@@ -22,8 +23,9 @@ struct FacesSoFar {
 };
 
 /// Asks the ledger, in parallel: every file is read once. \throws Interrupted.
+/// \param asked  called after each face of the shard, by any thread; may be empty
 FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
-                           const Shard& shard);
+                           const Shard& shard, const std::function<void()>& asked = {});
 
 /// \throws MissingInput if there are faces to do, naming the first few.
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
