@@ -16,6 +16,7 @@ struct FaceExtras {
   bool picture = false;  ///< its render
   bool preview = false;  ///< its mesh in the gallery
   bool skin = false;     ///< its mesh is judged
+  std::size_t shapes = 0;  ///< how many are carried to it
 };
 FaceExtras face_extras(const Job& job);
 
