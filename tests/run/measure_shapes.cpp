@@ -80,13 +80,11 @@ struct LidFigures {
       ++closing;
       if (*now[i] <= 3 * kTenthOfMm) ++closed;
       widest = std::max(widest, *now[i]);
-      if (std::getenv("LIDS")) std::cerr << "P " << blinks << ' ' << i << ' ' << 10 * *wanted[i] << ' ' << 10 * *now[i] << '\n';
     }
     const auto in_template = eye.depths(there, closed_there), at_rest = eye.depths(ball, face),
                in_face = eye.depths(ball, here);
     for (std::size_t i = 0; i < in_face.size(); ++i) {
       if (in_face[i] > 2 * kTenthOfMm) ++deep;
-      if (std::getenv("LIDS") && in_face[i] > 2 * kTenthOfMm) std::cerr << "D " << blinks << ' ' << i << ' ' << 10*in_face[i] << ' ' << 10*in_template[i] << ' ' << 10*at_rest[i] << '\n';
       if (in_face[i] - std::max(scale * in_template[i], at_rest[i]) > 2 * kTenthOfMm) ++deeper;
       deepest = std::max(deepest, in_face[i]);
       of_template = std::max(of_template, in_template[i]);
@@ -157,11 +155,11 @@ int main(int argc, char** argv) try {
   std::cout << count << " faces, at rest " << mean(at_rest_in_all) << " crossing triangles\n"
             << lids.blinks << " blinks: closed at " << lids.closed << " of " << lids.closing
             << " points of the rim where the template's is ("
-            << format_fixed(100.0 * static_cast<double>(lids.closed) /
-                                static_cast<double>(lids.closing),
-                            2)
+            << format_fixed(
+                   100.0 * static_cast<double>(lids.closed) / static_cast<double>(lids.closing), 2)
             << " %), widest " << mm(lids.widest) << " mm; vertices of the lids' outer skin more "
-            << "than 0.2 mm in an eyeball " << lids.deep << ", of those by 0.2 mm more than at rest "
+            << "than 0.2 mm in an eyeball " << lids.deep
+            << ", of those by 0.2 mm more than at rest "
             << "and on the template " << lids.deeper << ", deepest " << mm(lids.deepest)
             << " mm, on the template " << mm(lids.of_template) << " mm\n"
             << "shape: crossing triangles of the template; new in a face, unchanged and carried; "

@@ -16,7 +16,7 @@ namespace crowdface {
 /// An attachment on a face.
 struct WornAttachment {
   const Attachment* item;
-  Positions positions;  ///< of its own vertices
+  Positions positions;                    ///< of its own vertices
   std::vector<Displacements> moves = {};  ///< of those, in each of the face's shapes
 };
 
@@ -40,7 +40,8 @@ class FaceAttachments {
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< none: there are no attachments
   std::vector<std::unique_ptr<const AttachmentCarrier>> carriers_;  ///< of each item
-  std::vector<std::unique_ptr<const ShapeBend>> bends_;  ///< #items, of those that bend, if there are shapes
+  std::vector<std::unique_ptr<const ShapeBend>>
+      bends_;  ///< #items, of those that bend, if there are shapes
 };
 
 }  // namespace crowdface

@@ -66,8 +66,8 @@ Match match_by_id(const GltfRig& rig, Index vertices) {
     const std::uint32_t id = rig.vertex_ids[p];
     if (id < match.points.size() && match.points[id] == kNoIndex) match.points[id] = p;
   }
-  match.missing = static_cast<std::size_t>(
-      std::count(match.points.begin(), match.points.end(), kNoIndex));
+  match.missing =
+      static_cast<std::size_t>(std::count(match.points.begin(), match.points.end(), kNoIndex));
   return match;
 }
 
@@ -113,8 +113,7 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
   for (const Head& head : inputs.faces.heads) meshes.push_back(&head.positions);
   std::vector<std::uint32_t> all(static_cast<std::size_t>(rig.points.rows()));
   std::iota(all.begin(), all.end(), 0U);
-  std::vector<std::uint32_t> vertices(
-      static_cast<std::size_t>(inputs.faces.topology.vertex_count));
+  std::vector<std::uint32_t> vertices(static_cast<std::size_t>(inputs.faces.topology.vertex_count));
   std::iota(vertices.begin(), vertices.end(), 0U);
   Fit best;
   for (const Frame& frame : {from_gltf(config.faces), Frame()}) {
@@ -127,11 +126,12 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
       if (best.match.missing == 0) return best;
     }
   }
-  throw InvalidInput(concat(
-      config.rig.string(), ": ", best.match.missing, " of the ", best.mesh.rows(),
-      " vertices of the heads lie on no vertex of its meshes (one is ",
-      format_fixed(best.match.farthest * mm_per(config.faces.units), 1),
-      " mm off), neither on the shapes' template nor on any head; expected the rig of one of them, at rest"));
+  throw InvalidInput(concat(config.rig.string(), ": ", best.match.missing, " of the ",
+                            best.mesh.rows(),
+                            " vertices of the heads lie on no vertex of its meshes (one is ",
+                            format_fixed(best.match.farthest * mm_per(config.faces.units), 1),
+                            " mm off), neither on the shapes' template nor on any head; expected "
+                            "the rig of one of them, at rest"));
 }
 
 /// A joint's axes in the heads'. \throws InvalidInput if their lengths differ.
@@ -162,8 +162,7 @@ Rig bind(const GltfRig& file, Fit fit, const Config& config) {
     const GltfRig::Joint& joint = file.joints[j];
     rig.skin.joints.push_back({joint.name, joint.parent, axes_of(joint, fit.frame, config)});
     rig.points.names.push_back(joint.name);
-    places.row(static_cast<Index>(j)) =
-        fit.frame.place(joint.rest.col(3).head<3>()).transpose();
+    places.row(static_cast<Index>(j)) = fit.frame.place(joint.rest.col(3).head<3>()).transpose();
   }
   for (const std::uint32_t point : fit.match.points) {
     rig.skin.influences.add_group(file.influences.of(point));
@@ -184,8 +183,7 @@ Digest digest_of(const Rig& rig) {
   }
   hasher.add_array(std::span<const std::uint32_t>(rig.skin.influences.offsets));
   for (const Positions* rows : {&rig.points.positions.front(), &rig.points.meshes.front()}) {
-    hasher.add_array(
-        std::span<const double>(rows->data(), static_cast<std::size_t>(rows->size())));
+    hasher.add_array(std::span<const double>(rows->data(), static_cast<std::size_t>(rows->size())));
   }
   return hasher.digest();
 }

@@ -69,8 +69,9 @@ void add_joints(const GlbSkin& skin, std::size_t matrices, Json& scene) {
     if (joint.parent != kNoIndex) {
       local = skin.joints[joint.parent].rotation.transpose() * joint.rotation;
     }
-    scene["nodes"].push_back(
-        {{"name", joint.name}, {"translation", {0.0, 0.0, 0.0}}, {"rotation", rotation_json(local)}});
+    scene["nodes"].push_back({{"name", joint.name},
+                              {"translation", {0.0, 0.0, 0.0}},
+                              {"rotation", rotation_json(local)}});
     joints.push_back(first + j);
   }
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {

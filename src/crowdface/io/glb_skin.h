@@ -24,7 +24,7 @@ struct GlbJoint {
 
 /// Joints below a face's node, and which of them move its vertices.
 struct GlbSkin {
-  std::vector<GlbJoint> joints;      ///< none: there is no rig
+  std::vector<GlbJoint> joints;        ///< none: there is no rig
   Grouped<Influence> influences = {};  ///< #V
 
   std::size_t matrix_bytes() const { return joints.size() * 16 * sizeof(float); }

@@ -199,8 +199,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   if (!options.skin.joints.empty()) {
     skin = skin_attributes(options.skin.influences, split.vertices);
   }
-  const Json attributes =
-      attributes_json(buffer, split.vertices.size(), !split.uvs.empty(), skin);
+  const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty(), skin);
   std::optional<std::size_t> places, picture;
   if (options.overlay) {
     require(options.overlay->places.size() == static_cast<std::size_t>(vertices_),

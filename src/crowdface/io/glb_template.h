@@ -39,8 +39,7 @@ class GlbTemplate {
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
                      std::span<const std::string_view> images = {}, const Positions& points = {},
-                     std::span<const PlacedGlbPart> parts = {},
-                     const Positions& joints = {}) const;
+                     std::span<const PlacedGlbPart> parts = {}, const Positions& joints = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;
@@ -64,7 +63,7 @@ class GlbTemplate {
   std::vector<std::uint32_t> split_;  ///< original vertices of the split ones from #V on
   std::string shared_;                ///< the part of the buffer that all faces share
   std::vector<Target> targets_;
-  GlbSkin skin_;  ///< without influences
+  GlbSkin skin_;                  ///< without influences
   std::size_t target_bytes_ = 0;  ///< of the values of all targets
   std::string json_;              ///< the scene of any face; bounds and names to be filled in
 };

@@ -44,13 +44,16 @@ class GltfFile {
     }
     const Json& view = scene_.at("bufferViews").at(json.at("bufferView").get<std::size_t>());
     const auto type = json.at("componentType").get<int>();
-    const std::size_t size = type == 5121 || type == 5120 ? 1 : type == 5123 || type == 5122 ? 2 : 4;
+    const std::size_t size = type == 5121 || type == 5120   ? 1
+                             : type == 5123 || type == 5122 ? 2
+                                                            : 4;
     const std::size_t count = json.at("count").get<std::size_t>();
     const std::size_t stride = view.value("byteStride", size * width);
     const std::size_t begin =
         view.value("byteOffset", std::size_t{0}) + json.value("byteOffset", std::size_t{0});
-    if (view.value("buffer", 0) != 0 || count == 0 || begin > binary_.size() || stride > binary_.size() ||
-        count > binary_.size() || begin + (count - 1) * stride + size * width > binary_.size()) {
+    if (view.value("buffer", 0) != 0 || count == 0 || begin > binary_.size() ||
+        stride > binary_.size() || count > binary_.size() ||
+        begin + (count - 1) * stride + size * width > binary_.size()) {
       fail(concat("accessor ", accessor, " lies outside the file's own buffer"));
     }
     const double unit = !json.value("normalized", false) ? 1 : size == 1 ? 1.0 / 255 : 1.0 / 65535;
@@ -68,11 +71,16 @@ class GltfFile {
  private:
   double number(const char* at, int type, std::size_t accessor) const {
     switch (type) {
-      case 5121: return number_at<std::uint8_t>(at);
-      case 5123: return number_at<std::uint16_t>(at);
-      case 5125: return number_at<std::uint32_t>(at);
-      case 5126: return static_cast<double>(number_at<float>(at));
-      default: fail(concat("accessor ", accessor, " has numbers of the unexpected type ", type));
+      case 5121:
+        return number_at<std::uint8_t>(at);
+      case 5123:
+        return number_at<std::uint16_t>(at);
+      case 5125:
+        return number_at<std::uint32_t>(at);
+      case 5126:
+        return static_cast<double>(number_at<float>(at));
+      default:
+        fail(concat("accessor ", accessor, " has numbers of the unexpected type ", type));
     }
   }
 
@@ -233,8 +241,7 @@ class RigReader {
     for (std::size_t set = 0; attributes.contains(concat("JOINTS_", set)); ++set) {
       const std::string of_weights = concat("WEIGHTS_", set);
       if (!attributes.contains(of_weights)) file_.fail(concat("a mesh lacks ", of_weights));
-      bound.push_back(
-          file_.numbers(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
+      bound.push_back(file_.numbers(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
       weights.push_back(file_.numbers(attributes.at(of_weights).get<std::size_t>(), 4));
       if (bound.back().size() != 4 * count || weights.back().size() != 4 * count) {
         file_.fail("JOINTS_n, WEIGHTS_n and POSITION differ in length");

@@ -103,8 +103,7 @@ std::size_t carried_shapes(const Job& job) {
 
 FaceExtras face_extras(const Job& job) {
   return {job.config.output.contact_sheet.has_value(), has_gallery(job.config),
-          skin_is_judged(job.config, job.inputs),
-          carried_shapes(job)};
+          skin_is_judged(job.config, job.inputs), carried_shapes(job)};
 }
 
 FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,

@@ -126,15 +126,15 @@ GlbPart part_of(const Attachment& item, const Inputs& inputs) {
   }
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return {item.name,     item.file.topology, item.file.uvs,
-          materials,     named.of_face,      images,
-          influences_of(item, inputs), std::move(targets)};
+  return {item.name, item.file.topology,          item.file.uvs,     materials, named.of_face,
+          images,    influences_of(item, inputs), std::move(targets)};
 }
 
 }  // namespace
 
 GlbAttachments::GlbAttachments(const Inputs& inputs) {
-  for (const Attachment& item : inputs.attachments.items) parts_.emplace(&item, part_of(item, inputs));
+  for (const Attachment& item : inputs.attachments.items)
+    parts_.emplace(&item, part_of(item, inputs));
 }
 
 std::vector<PlacedGlbPart> GlbAttachments::parts(std::span<const WornAttachment> worn) const {

@@ -119,7 +119,8 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   }
   if (need_normals) fans_.emplace(faces.topology);
   if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
-  if (!inputs.rig.empty() && glb_) joints_.emplace(inputs.rig.points, inputs.parts, skin_of(inputs));
+  if (!inputs.rig.empty() && glb_)
+    joints_.emplace(inputs.rig.points, inputs.parts, skin_of(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
     levels_.emplace_back(config, inputs, level, formats_, all_targets, shared);
   }
@@ -171,8 +172,7 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
   const Positions moved = in_shape(face, mesh.shape);
   const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
   const WholeFace acting{face.id,       face.target,        moved,       normals, face.moves,
-                         face.textures, face.texture_names, face.points, {},
-                         face.joints};
+                         face.textures, face.texture_names, face.points, {},      face.joints};
   return level.encode(mesh, acting, had_normals(face.target));
 }
 

@@ -19,7 +19,7 @@ using Box = CrossingSearch::Box;
 
 /// Triangles so many edges apart are of one sheet if they face alike: the least cosine.
 constexpr int kSheetRings = 6;
-constexpr double kAlike = 0.6;
+constexpr double kAlike = 0.9;
 
 constexpr float kEnd = std::numeric_limits<float>::infinity();
 constexpr Box kNoBox{{kEnd, kEnd, kEnd}, {-kEnd, -kEnd, -kEnd}};

@@ -128,8 +128,8 @@ void LidClosure::put_profiles_first() {
       for (const Point& point : *points) rows.insert({point.row_a, point.row_b});
     }
   }
-  const auto rest = std::stable_partition(
-      lids_.begin(), lids_.end(), [&](const Lid& lid) { return rows.contains(lid.row); });
+  const auto rest = std::stable_partition(lids_.begin(), lids_.end(),
+                                          [&](const Lid& lid) { return rows.contains(lid.row); });
   in_profiles_ = static_cast<std::size_t>(rest - lids_.begin());
 }
 

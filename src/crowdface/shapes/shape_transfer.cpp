@@ -150,17 +150,16 @@ struct ShapeTransfer::State {
   void bind_lids(const Displacements& moves, const Adjacency& adjacency, ShapeState& state) const;
   SkinCrossings::Watched watch(const Displacements& moves, const ShapeState& state) const;
   void add_sets();
-  void add_set(const Carrier& carrier, const Displacements& shape, std::span<const PlacedEye> at_eyes,
-               ShapeState& state) const;
+  void add_set(const Carrier& carrier, const Displacements& shape,
+               std::span<const PlacedEye> at_eyes, ShapeState& state) const;
   void keep_contacts(const ShapeState& state, const Carrier& carrier, const RegionShares& shares,
                      Positions& mesh, Displacements& result) const;
   SingleRows undone(const Carrier& carrier, const ShapeState& state, const Positions& moves) const;
   Positions mixed_moves(std::size_t shape, const RegionShares& shares) const;
   Eigen::Matrix3d map_of(const PartMove& part, const ShapeState& state,
                          std::span<const Eigen::Matrix3d> maps) const;
-  Displacements carry(std::size_t shape, std::span<const PlacedEye> at_eyes,
-                      const Carrier& carrier, const RegionShares& shares, Positions& mesh,
-                      Index& crossing) const;
+  Displacements carry(std::size_t shape, std::span<const PlacedEye> at_eyes, const Carrier& carrier,
+                      const RegionShares& shares, Positions& mesh, Index& crossing) const;
 };
 
 void ShapeTransfer::State::add_part(const Part& part, const PartList& parts,
@@ -400,8 +399,7 @@ void ShapeTransfer::State::add_sets() {
 }
 
 void ShapeTransfer::State::add_set(const Carrier& carrier, const Displacements& shape,
-                                   std::span<const PlacedEye> at_eyes,
-                                   ShapeState& state) const {
+                                   std::span<const PlacedEye> at_eyes, ShapeState& state) const {
   const Positions& moves = shape.moves;
   const RigidMotion& whole = carrier.frames.whole;
   for (PartMove& part : state.parts) {

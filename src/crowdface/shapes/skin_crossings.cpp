@@ -177,8 +177,8 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
 void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
   const CrossingSearch& search = watched.search;
   std::vector<bool> there(is_skin_.size(), false);
-  for (const std::uint32_t v : vertices_of(
-           search.crossing(mesh, search.boxes_of(mesh), watched.excused), search)) {
+  for (const std::uint32_t v :
+       vertices_of(search.crossing(mesh, search.boxes_of(mesh), watched.excused), search)) {
     there[v] = true;
   }
   for (std::size_t i = 0; i < watched.excused.size(); ++i) {
