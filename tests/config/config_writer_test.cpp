@@ -202,6 +202,7 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  together: []\n"
             "shapes: none\n"
             "points: none\n"
+            "rig: none\n"
             "textures:\n"
             "  blend: auto\n"
             "  formats: [png]\n"

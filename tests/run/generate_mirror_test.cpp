@@ -183,5 +183,35 @@ TEST(GenerateMirror, HeadsThatAreNotSymmetricAreRefused) {
   EXPECT_NO_THROW(heads.run("", "plain"));
 }
 
+TEST(GenerateMirror, KeepLeftShapesOnTheirLeft) {
+  const Heads heads;
+  const SyntheticHeads synthetic(5000, SyntheticHeads::Parts::kEyesAndTeeth);
+  Mesh mesh{synthetic.topology(), synthetic.positions(5, 0), synthetic.uvs()};
+  const Positions rest = mesh.positions;
+  constexpr double kLeftFrom = 3;
+  for (Index v = 0; v < rest.rows(); ++v) {
+    if (rest(v, 0) > kLeftFrom) mesh.positions(v, 1) += 0.1 * (rest(v, 0) - kLeftFrom);
+  }
+  std::filesystem::create_directories(heads.folder() / "shapes");
+  encode_obj(mesh, "").write(heads.folder() / "shapes/left.obj");
+  const std::string face = "target: head_0, regions: {all: {iterations: 0, extrapolation: 1}}";
+  const auto out = heads.run(
+      concat("shapes: {neutral: heads/head_0.obj, directory: shapes}\n", "recipes: [{id: plain, ",
+             face, "}, {id: image, mirrored: true, ", face, "}]\n"),
+      "acting");
+  for (const std::string id : {"plain", "image"}) {
+    const Positions at_rest = mesh_of(out, id), acting = mesh_of(out, id + "+left");
+    double left = 0;
+    for (Index v = 0; v < rest.rows(); ++v) {
+      const double moved = (acting.row(v) - at_rest.row(v)).norm();
+      if (rest(v, 0) <= kLeftFrom) EXPECT_EQ(moved, 0) << id << ' ' << v;
+      if (moved > 0) EXPECT_GT(at_rest(v, 0), 0) << id << ' ' << v;
+      left = std::max(left, moved);
+    }
+    const double wanted = (mesh.positions - rest).rowwise().norm().maxCoeff();
+    EXPECT_NEAR(left, wanted, 0.25 * wanted) << id;
+  }
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
-#include <iterator>
 #include <string>
 
 #include "crowdface/core/text.h"
@@ -13,13 +12,12 @@
 #include "crowdface/io/single_precision.h"
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/parts/ball_map.h"
-#include "crowdface/parts/eye_socket.h"
-#include "crowdface/parts/rigid_motion.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/pipeline.h"
 #include "crowdface/validity/intersections.h"
+
+#include "measured_lids.h"
 
 using namespace crowdface;
 
@@ -60,112 +58,36 @@ Positions in_shape(const Positions& face, const Displacements& moves) {
   return mesh;
 }
 
-/// One eye's lids.
-class EyeLids {
- public:
-  EyeLids(const Inputs& inputs, const Part& part, const HeadAxes& axes)
-      : inputs_(inputs),
-        part_(part),
-        axes_(axes),
-        ones_(part.vertices.size(), 1.0),
-        mean_(mean_head(inputs.faces)),
-        around_(inputs.faces.topology) {
-    const Positions& neutral = inputs.shapes.neutral;
-    const BallMap ball = map_in(neutral);
-    std::vector<std::uint32_t> skin;
-    for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
-      if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
-    }
-    lids_ = find_lids(neutral, PointGrid(neutral, part.vertices), ball.centre(), ball.radius(),
-                      axes, skin);
-  }
-  BallMap map_in(const Positions& mesh) const {
-    const ComponentShape& ball = inputs_.parts.shapes[part_.ball];
-    const RigidMotion motion = fit_rigid_motion(mean_, mesh, part_.vertices, ones_);
-    return BallMap(inputs_.faces.topology, around_, mesh, part_.surface, motion.apply(ball.centre),
-                   motion.scale * ball.radius, axes_);
-  }
-  /// Straight down from the upper rim's points to the lower rim.
-  std::vector<double> gaps(const Positions& mesh) const {
-    std::vector<std::pair<double, double>> low;
-    for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
-      const Eigen::Vector3d p = row3(mesh, lids_.vertices[lids_.rim[r]]);
-      if (!lids_.upper[r]) low.emplace_back(dot3(p, axes_.side()), dot3(p, axes_.up));
-    }
-    std::sort(low.begin(), low.end());
-    std::vector<double> gaps;
-    for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
-      if (!lids_.upper[r]) continue;
-      const Eigen::Vector3d p = row3(mesh, lids_.vertices[lids_.rim[r]]);
-      const double at = dot3(p, axes_.side());
-      const auto next = std::lower_bound(low.begin(), low.end(), std::pair(at, -1e9));
-      if (next == low.begin() || next == low.end()) {
-        gaps.push_back(0);
-        continue;
-      }
-      const auto before = std::prev(next);
-      const double t = (at - before->first) / (next->first - before->first);
-      gaps.push_back(dot3(p, axes_.up) - (1 - t) * before->second - t * next->second);
-    }
-    return gaps;
-  }
-  /// How deep lids and lining are in the eyeball.
-  std::vector<double> depths(const BallMap& ball, const Positions& mesh) const {
-    std::vector<double> depths;
-    for (const std::uint32_t v : lids_.vertices) {
-      depths.push_back(std::max(0.0, -ball.gap_at(row3(mesh, v) - ball.centre()).gap));
-    }
-    return depths;
-  }
-  double moved(const Displacements& moves) const {
-    double most = 0;
-    for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
-      const std::uint32_t v = lids_.vertices[lids_.rim[r]];
-      const auto at = std::lower_bound(moves.vertices.begin(), moves.vertices.end(), v);
-      if (at != moves.vertices.end() && *at == v)
-        most = std::max(most, length3(row3(moves.moves, at - moves.vertices.begin())));
-    }
-    return most;
-  }
-  const Lids& lids() const { return lids_; }
-
- private:
-  const Inputs& inputs_;
-  const Part& part_;
-  HeadAxes axes_;
-  std::vector<double> ones_;
-  Positions mean_;
-  FacesAround around_;
-  Lids lids_;
-};
-
 constexpr double kTenthOfMm = 0.01;  // of centimetres
 
 /// Of blinks of a crowd in centimetres.
 struct LidFigures {
-  std::size_t closing = 0, closed = 0, deep = 0, blinks = 0;
-  double widest = 0, deepest = 0;
+  std::size_t closing = 0, closed = 0, deep = 0, deeper = 0, blinks = 0;
+  double widest = 0, deepest = 0, of_template = 0;
 
   /// \param moves  of the face
-  void add(const EyeLids& eye, const Positions& neutral, const Positions& face,
-           const Displacements& of_template, const Displacements& moves) {
+  void add(MeasuredLids& eye, const Positions& neutral, const Positions& face,
+           const Displacements& of_template_moves, const Displacements& moves) {
     const BallMap ball = eye.map_in(face), there = eye.map_in(neutral);
     const double scale = ball.radius() / there.radius();
-    const Positions closed_there = in_shape(neutral, of_template), here = in_shape(face, moves);
+    const Positions closed_there = in_shape(neutral, of_template_moves),
+                    here = in_shape(face, moves);
+    eye.find_points(neutral, closed_there);
     const auto wanted = eye.gaps(closed_there), now = eye.gaps(here);
     ++blinks;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      if (wanted[i] > 3 * kTenthOfMm) continue;
+      if (!wanted[i] || !now[i] || *wanted[i] > 3 * kTenthOfMm) continue;
       ++closing;
-      if (now[i] <= 3 * kTenthOfMm) ++closed;
-      widest = std::max(widest, now[i]);
+      if (*now[i] <= 3 * kTenthOfMm) ++closed;
+      widest = std::max(widest, *now[i]);
     }
     const auto in_template = eye.depths(there, closed_there), at_rest = eye.depths(ball, face),
                in_face = eye.depths(ball, here);
     for (std::size_t i = 0; i < in_face.size(); ++i) {
-      const double more = in_face[i] - std::max(scale * in_template[i], at_rest[i]);
-      if (more > 2 * kTenthOfMm) ++deep;
-      deepest = std::max(deepest, more);
+      if (in_face[i] > 2 * kTenthOfMm) ++deep;
+      if (in_face[i] - std::max(scale * in_template[i], at_rest[i]) > 2 * kTenthOfMm) ++deeper;
+      deepest = std::max(deepest, in_face[i]);
+      of_template = std::max(of_template, in_template[i]);
     }
   }
 };
@@ -195,9 +117,15 @@ int main(int argc, char** argv) try {
     of_template.push_back(crossings.of(in_shape(set.neutral, set.shapes[s].moves)));
     counted[s].of_template = crossings.all(of_template[s]);
   }
-  std::vector<EyeLids> eyes;
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < job.inputs.skin.of_vertex.size(); ++v) {
+    if (job.inputs.skin.of_vertex[v] == job.inputs.skin.largest()) skin.push_back(v);
+  }
+  std::vector<MeasuredLids> eyes;
   for (const Part& part : job.inputs.parts.parts) {
-    if (part.eyeball) eyes.emplace_back(job.inputs, part, head_axes(job.config));
+    if (!part.eyeball) continue;
+    eyes.emplace_back(job.inputs.faces, skin, job.inputs.parts, part, set.neutral,
+                      head_axes(job.config));
   }
   LidFigures lids;
   Index at_rest_in_all = 0;
@@ -211,7 +139,7 @@ int main(int argc, char** argv) try {
     const std::vector<Displacements> moves = shapes.of_face(*recipe, face);
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       const Displacements& shape = set.shapes[s].moves;
-      for (const EyeLids& eye : eyes) {
+      for (MeasuredLids& eye : eyes) {
         if (eye.moved(shape) > 50 * kTenthOfMm) lids.add(eye, set.neutral, face, shape, moves[s]);
       }
       const Index carried = crossings.beyond(of_template[s], at_rest, in_shape(face, moves[s]));
@@ -226,9 +154,14 @@ int main(int argc, char** argv) try {
   };
   std::cout << count << " faces, at rest " << mean(at_rest_in_all) << " crossing triangles\n"
             << lids.blinks << " blinks: closed at " << lids.closed << " of " << lids.closing
-            << " points of the rim where the template's is, widest " << mm(lids.widest)
-            << " mm; vertices too deep in eyeballs " << lids.deep << ", by " << mm(lids.deepest)
-            << " mm at most\n"
+            << " points of the rim where the template's is ("
+            << format_fixed(
+                   100.0 * static_cast<double>(lids.closed) / static_cast<double>(lids.closing), 2)
+            << " %), widest " << mm(lids.widest) << " mm; vertices of the lids' outer skin more "
+            << "than 0.2 mm in an eyeball " << lids.deep
+            << ", of those by 0.2 mm more than at rest "
+            << "and on the template " << lids.deeper << ", deepest " << mm(lids.deepest)
+            << " mm, on the template " << mm(lids.of_template) << " mm\n"
             << "shape: crossing triangles of the template; new in a face, unchanged and carried; "
                "at most; faces with any\n";
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {

@@ -2,6 +2,7 @@
 #include "crowdface/shapes/skin_crossings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -75,7 +76,8 @@ class SkinCrossingsTest : public ::testing::Test {
   }
   Displacements mended(const Positions& face, const Displacements& shape,
                        const SkinCrossings::Watched& watched) const {
-    const SkinCrossings::Watched all = crossings_.watch_all({&watched, 1});
+    const std::array watching = {&watched.search};
+    const CrossingSearch all = crossings_.watch_all(face, watching);
     Displacements result = shape;
     Positions mesh = face;
     crossings_.mend(face, crossings_.crossing_at_rest(face, all), watched, mesh, result);
@@ -144,7 +146,7 @@ TEST_F(SkinCrossingsTest, OfTheTemplateAndOfTheFaceAtRestStay) {
 
 TEST_F(SkinCrossingsTest, SkinThatAShapeDoesNotBringTogetherIsNotWatched) {
   const Displacements shape = pressed(folded(6), 0.1);
-  EXPECT_TRUE(crossings_.watch(folded(6), shape, {}).triangles.empty());
+  EXPECT_TRUE(crossings_.watch(folded(6), shape, {}).search.triangles().empty());
 }
 
 }  // namespace

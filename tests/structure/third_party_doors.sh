@@ -26,14 +26,15 @@ door 'spdlog/' 'crowdface/core/[a-z_]*\.cpp'
 door 'xxhash' 'crowdface/core/[a-z_]*\.cpp'
 door 'Random123/' 'crowdface/core/[a-z_]*\.cpp'
 door 'hwy/' 'crowdface/core/fused_lanes-inl\.h' 'crowdface/core/[a-z_]*\.cpp' \
-  'crowdface/smooth/[a-z_]*_kernels\.cpp' 'crowdface/blend/[a-z_]*_kernels\.cpp'
+  'crowdface/smooth/[a-z_]*_kernels\.cpp' 'crowdface/blend/[a-z_]*_kernels\.cpp' \
+  'crowdface/shapes/crossing_search\.cpp'
 door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/openimageio_codec\.cpp'
 door 'ft2build|freetype' 'crowdface/render/text_label\.cpp'
 door 'embree' 'crowdface/render/[a-z_]*\.cpp'
 door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'
 door 'yaml-cpp/' 'crowdface/config/[a-z_]*\.cpp'
-door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|crowd/face_json|run/casting_report)\.h' \
+door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|io/glb_skin|crowd/face_json|run/casting_report)\.h' \
   'crowdface/(io|morph|wrap|crowd|pictures|run)/[a-z_]*\.cpp' 'crowdface/(editor|page|pick)/[a-z_]*\.(cpp|h)'
 door 'httplib' 'crowdface/page/local_server\.cpp'
 door 'CLI/' 'cli/[a-z_]*\.(cpp|h)'

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "crowdface/attach/bend_places.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/rigid_motion.h"
@@ -11,39 +12,8 @@
 namespace crowdface {
 namespace {
 
-/// How far places are apart, as a share of how far they hear the skin, and how far points hear them,
-/// in such distances.
-constexpr double kApart = 0.3, kHeard = 2;
 constexpr std::size_t kPlacesPerBlock = 64;
 constexpr Index kPointsPerBlock = 1024;
-
-double bump(double distance) {
-  const double rest = 1 - distance * distance;
-  return rest > 0 ? rest * rest : 0;
-}
-
-/// Points none of which is within the other's distance, and from which all others are.
-struct Places {
-  std::vector<std::uint32_t> points;
-  std::vector<FittedSkin::Patch> patches;
-};
-
-Places find_places(const FittedSkin& skin, const Positions& points, const PointGrid& grid) {
-  Places places;
-  std::vector<bool> covered(static_cast<std::size_t>(points.rows()), false);
-  for (std::uint32_t p = 0; p < covered.size(); ++p) {
-    if (covered[p]) continue;
-    const Eigen::Vector3d middle = row3(points, p);
-    places.points.push_back(p);
-    places.patches.push_back(skin.patch_around(middle));
-    const double apart = kApart * places.patches.back().reach;
-    for (const std::uint32_t other : grid.about(middle, apart)) {
-      if (length3(row3(points, other) - middle) < apart) covered[other] = true;
-    }
-    covered[p] = true;
-  }
-  return places;
-}
 
 }  // namespace
 
@@ -53,18 +23,15 @@ SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(points, all);
-  Places places = find_places(skin, points, grid);
-  places_ = std::move(places.patches);
+  BendPlaces places = find_places(skin, points, grid);
   shares_ = grouped<Share>(all.size(), [&](const auto& put) {
-    for (std::uint32_t n = 0; n < places_.size(); ++n) {
-      const Eigen::Vector3d middle = row3(points, places.points[n]);
-      const double heard = kHeard * kApart * places_[n].reach;
-      for (const std::uint32_t p : grid.about(middle, heard)) {
-        const double weight = bump(length3(row3(points, p) - middle) / heard);
-        if (weight > 0) put(p, Share{n, static_cast<float>(weight)});
-      }
+    for (std::uint32_t n = 0; n < places.points.size(); ++n) {
+      visit_hearers(points, grid, places, n, [&](std::uint32_t p, double weight) {
+        put(p, Share{n, static_cast<float>(weight)});
+      });
     }
   });
+  places_ = std::move(places.patches);
 }
 
 std::size_t SmoothBend::memory_bytes() const {

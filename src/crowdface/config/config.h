@@ -148,6 +148,7 @@ struct Config {
   } shapes;
 
   std::filesystem::path points;  ///< that follow the face: a file; empty: none
+  std::filesystem::path rig;     ///< joints and what is bound to them: a GLB file; empty: none
 
   /// Something that may sit on a head, in a mesh of its own.
   struct Attachment : AttachmentItem {

@@ -62,6 +62,7 @@ std::vector<fs::path> input_files(const Config& config) {
   files.insert(files.end(), config.faces.files.begin(), config.faces.files.end());
   add_shapes(config.shapes, files);
   if (!config.points.empty()) files.push_back(config.points);
+  if (!config.rig.empty()) files.push_back(config.rig);
   const Config::Attachments& attachments = config.attachments;
   if (!attachments.file.empty()) files.push_back(attachments.file);
   for (const Config::Attachment& item : attachments.items) files.push_back(item.file);

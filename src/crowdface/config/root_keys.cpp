@@ -119,6 +119,18 @@ std::string write_points(const Config& config, const ConfigWriting& writing) {
   return config.points.empty() ? "none" : path("").write(config.points, writing);
 }
 
+void read_rig(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  if (is_word(node, "none")) return;
+  const auto file = path("none, or a GLB file with joints").read(node, draft);
+  if (!file) return;
+  expect_file(node, *file, draft);
+  config.rig = *file;
+}
+
+std::string write_rig(const Config& config, const ConfigWriting& writing) {
+  return config.rig.empty() ? "none" : path("").write(config.rig, writing);
+}
+
 /// A GLB file holds pictures, and knows no EXR.
 void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
   const Config& config = draft.config;
@@ -155,6 +167,7 @@ const Keys<Config>& root_keys() {
       {"parts", read_parts, write_parts},
       {"shapes", read_shapes, write_shapes},
       {"points", read_points, write_points},
+      {"rig", read_rig, write_rig},
       {"attachments", read_attachments, write_attachments, {}, attachments_starter},
       section_key("textures", &Config::textures, textures_keys()),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "crowdface/attach/attachment_carrier.h"
+#include "crowdface/attach/shape_bend.h"
 #include "crowdface/cast/cast_face.h"
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
@@ -14,7 +16,8 @@ namespace crowdface {
 /// An attachment on a face.
 struct WornAttachment {
   const Attachment* item;
-  Positions positions;  ///< of its own vertices
+  Positions positions;                    ///< of its own vertices
+  std::vector<Displacements> moves = {};  ///< of those, in each of the face's shapes
 };
 
 /// The attachments of faces: what is bound to the fitted mesh is bound once.
@@ -25,7 +28,9 @@ class FaceAttachments {
 
   /// What a face wears, in the order of its recipe; refers to the inputs.
   /// \param positions  of the face, #V by 3.
-  std::vector<WornAttachment> worn_by(const CastFace& face, const Positions& positions) const;
+  /// \param moves      of the face, in each of the inputs' shapes; none: it is at rest.
+  std::vector<WornAttachment> worn_by(const CastFace& face, const Positions& positions,
+                                      std::span<const Displacements> moves = {}) const;
 
   /// What this object takes, and what the attachments of one face take at most.
   std::size_t memory_bytes() const;
@@ -35,6 +40,8 @@ class FaceAttachments {
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< none: there are no attachments
   std::vector<std::unique_ptr<const AttachmentCarrier>> carriers_;  ///< of each item
+  std::vector<std::unique_ptr<const ShapeBend>>
+      bends_;  ///< #items, of those that bend, if there are shapes
 };
 
 }  // namespace crowdface

@@ -82,9 +82,10 @@ std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
   return shares;
 }
 
-std::vector<Displacements> FaceShapes::of_face(const Recipe& recipe, const Positions& face) const {
+std::vector<Displacements> FaceShapes::of_face(const Recipe& recipe, const Positions& face,
+                                               std::vector<Index>* crossing) const {
   if (!transfer_) return {};
-  return transfer_->carry(recipe.target, face, shares_of(recipe));
+  return transfer_->carry(recipe.target, face, shares_of(recipe), crossing);
 }
 
 std::vector<Displacements> FaceShapes::of_head(Index head) const {

@@ -19,7 +19,9 @@ class FaceShapes {
 
   /// Of a face built from a recipe, one for each of the inputs' shapes; none without shapes. Where the heads
   /// have shapes of their own, those of the heads that the recipe takes, as it takes them at each region.
-  std::vector<Displacements> of_face(const Recipe& recipe, const Positions& face) const;
+  /// \param crossing  as ShapeTransfer::carry takes it
+  std::vector<Displacements> of_face(const Recipe& recipe, const Positions& face,
+                                     std::vector<Index>* crossing = nullptr) const;
   /// Of one of the heads.
   std::vector<Displacements> of_head(Index head) const;
 

@@ -8,6 +8,7 @@
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/attachments.h"
 #include "crowdface/heads/head_textures.h"
+#include "crowdface/heads/rig.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/lod/detail_level.h"
 #include "crowdface/mesh/adjacency.h"
@@ -43,6 +44,7 @@ struct Inputs {
   std::vector<MeasuredLevel> levels;
   PointSet points;
   Digest points_digest;  ///< if there are any
+  Rig rig;
   AttachmentSet attachments;
   RegionWeights regions;
   std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without

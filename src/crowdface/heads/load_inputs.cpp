@@ -18,6 +18,7 @@
 #include "crowdface/heads/head_mirror.h"
 #include "crowdface/heads/load_attachments.h"
 #include "crowdface/heads/load_points.h"
+#include "crowdface/heads/load_rig.h"
 #include "crowdface/heads/load_shapes.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
@@ -366,6 +367,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   read_textures(config, inputs, problems);
   load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);
+  load_rig(config, inputs, problems);
   load_attachments(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;
   find_levels(config, inputs);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crowdface/core/units.h"
+#include "crowdface/io/glb_skin.h"
 
 namespace crowdface {
 
@@ -45,6 +46,7 @@ struct GlbOptions {
   std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
   std::vector<GlbTarget> targets;
   std::vector<std::string> points;        ///< nodes below the face's, at places of its own
+  GlbSkin skin;                           ///< joints below the face's node, at places of its own
   std::vector<std::uint32_t> vertex_ids;  ///< #V, what `_VERTEX_ID` says; empty: 0, 1, 2, …
   /// "image/png" or "image/jpeg" of each image that every file brings along.
   std::vector<std::string> image_types;

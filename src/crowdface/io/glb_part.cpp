@@ -61,8 +61,13 @@ Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture
 GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
                  const std::vector<GlbPartMaterial>& materials,
                  const std::vector<std::uint32_t>& face_materials,
-                 const std::vector<GlbImage>& images)
-    : name_(std::move(name)), topology_(topology), fans_(topology), materials_(materials) {
+                 const std::vector<GlbImage>& images, const Grouped<Influence>& influences,
+                 std::vector<std::string> targets)
+    : name_(std::move(name)),
+      topology_(topology),
+      fans_(topology),
+      materials_(materials),
+      targets_(std::move(targets)) {
   require(!materials.empty() && static_cast<Index>(face_materials.size()) == topology.face_count(),
           "GlbPart: a material of each face");
   const SplitVertices split = split_vertices(topology);
@@ -75,6 +80,8 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
       append_number(shared_, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v goes down
     }
   }
+  if (influences.group_count() > 0) skin_ = skin_attributes(influences, split_);
+  for (GlbSkinAttribute& one : skin_) shared_ += std::exchange(one.bytes, {});
   for (std::size_t m = 0; m < materials.size(); ++m) {
     std::size_t indices = 0;
     for (std::size_t t = 0; t < split.triangles.size(); ++t) {
@@ -92,12 +99,16 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   shared_.append((4 - shared_.size() % 4) % 4, '\0');
 }
 
-std::size_t GlbPart::describe(Json& scene, const Positions& positions, std::size_t size) const {
+std::size_t GlbPart::describe(Json& scene, const Positions& positions,
+                              std::span<const Displacements> moves, std::size_t size) const {
+  require(moves.size() == targets_.size(), "GlbPart: displacements of each target");
   const std::size_t vertices = split_.size(), begin = size;
   Json attributes = Json::object();
-  const auto add_attribute = [&](const char* called, const char* type, std::size_t width) {
-    const std::size_t view = add_view(scene, size, vertices * width * sizeof(float), kArrayBuffer);
-    attributes[called] = add_accessor(scene, view, 0, kFloat, type, vertices);
+  const auto add_attribute = [&](const std::string& called, const char* type, std::size_t width,
+                                 int component = kFloat) {
+    const std::size_t one = component == kFloat ? sizeof(float) : sizeof(std::uint16_t);
+    const std::size_t view = add_view(scene, size, vertices * width * one, kArrayBuffer);
+    attributes[called] = add_accessor(scene, view, 0, component, type, vertices);
   };
   add_attribute("POSITION", "VEC3", 3);
   Json& bounded = scene["accessors"].back();
@@ -105,6 +116,7 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions, std::size
   bounded["max"] = bounds_json(positions.colwise().maxCoeff());
   add_attribute("NORMAL", "VEC3", 3);
   if (has_uvs_) add_attribute("TEXCOORD_0", "VEC2", 2);
+  for (const GlbSkinAttribute& one : skin_) add_attribute(one.name, "VEC4", 4, one.component);
   std::size_t all = 0;
   for (const Primitive& primitive : primitives_) all += primitive.indices;
   const std::size_t view = add_view(scene, size, all * sizeof(std::uint32_t), kElementArrayBuffer);
@@ -126,15 +138,57 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions, std::size
     scene["images"].push_back(
         {{"bufferView", add_view(scene, size, image_sizes_[i], 0)}, {"mimeType", image_types_[i]}});
   }
-  scene["nodes"][0]["children"].push_back(scene["nodes"].size());
-  scene["nodes"].push_back({{"name", name_}, {"mesh", scene["meshes"].size()}});
-  scene["meshes"].push_back(Json::object({{"name", name_}, {"primitives", std::move(primitives)}}));
   size = begin + 2 * vertices * kVectorSize + shared_.size();
+  Json mesh = {{"name", name_}, {"primitives", std::move(primitives)}};
+  describe_targets(scene, moves, mesh, size);
+  Json node = {{"name", name_}, {"mesh", scene["meshes"].size()}};
+  if (skin_.empty()) {
+    scene["nodes"][0]["children"].push_back(scene["nodes"].size());
+  } else {
+    node["skin"] = 0;
+    scene["scenes"][0]["nodes"].push_back(scene["nodes"].size());
+  }
+  scene["nodes"].push_back(std::move(node));
+  scene["meshes"].push_back(std::move(mesh));
   scene["buffers"][0]["byteLength"] = size;
   return size;
 }
 
-void GlbPart::append(EncodedFile& file, const Positions& positions) const {
+GlbTargetRows GlbPart::rows_of(const Displacements& moves) const {
+  return target_rows({{}, moves.vertices}, split_, topology_.vertex_count);
+}
+
+void GlbPart::describe_targets(Json& scene, std::span<const Displacements> moves, Json& mesh,
+                               std::size_t& size) const {
+  if (targets_.empty()) return;
+  Json accessors = Json::array(), weights = Json::array();
+  for (const Displacements& target : moves) {
+    const GlbTargetRows moved = rows_of(target);
+    const std::size_t rows = moved.rows.size();
+    const auto [least, most] = target_bounds(target, moved.whole);
+    Json accessor = {{"componentType", kFloat},
+                     {"count", split_.size()},
+                     {"type", "VEC3"},
+                     {"min", bounds_json(least)},
+                     {"max", bounds_json(most)}};
+    if (rows > 0) {
+      const std::size_t indices = add_view(scene, size, rows * sizeof(std::uint32_t), 0);
+      accessor["sparse"] = {
+          {"count", rows},
+          {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
+          {"values", {{"bufferView", add_view(scene, size, rows * kVectorSize, 0)}}}};
+    }
+    accessors.push_back({{"POSITION", scene["accessors"].size()}});
+    scene["accessors"].push_back(std::move(accessor));
+    weights.push_back(0.0);
+  }
+  for (Json& primitive : mesh["primitives"]) primitive["targets"] = accessors;
+  mesh["weights"] = std::move(weights);
+  mesh["extras"] = {{"targetNames", targets_}};
+}
+
+void GlbPart::append(EncodedFile& file, const Positions& positions,
+                     std::span<const Displacements> moves) const {
   require_finite(positions, topology_.vertex_count, name_);
   const Positions normals = vertex_normals(fans_, topology_, positions);
   const std::size_t length = 2 * split_.size() * kVectorSize;
@@ -145,6 +199,16 @@ void GlbPart::append(EncodedFile& file, const Positions& positions) const {
   }
   file.refer_to({vectors, length});
   file.refer_to(shared_);
+  for (const Displacements& target : moves) {
+    require_finite(target.moves, target.moves.rows(), name_);
+    const GlbTargetRows rows = rows_of(target);
+    std::string bytes;
+    for (const std::uint32_t vertex : rows.vertices) append_number(bytes, vertex);
+    bytes.resize(bytes.size() + rows.rows.size() * kVectorSize);
+    char* value = bytes.data() + rows.rows.size() * sizeof(std::uint32_t);
+    for (const std::uint32_t row : rows.rows) value = put_row(value, target.moves, row);
+    file.add(bytes);
+  }
 }
 
 }  // namespace crowdface

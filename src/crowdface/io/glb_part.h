@@ -4,12 +4,15 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "crowdface/io/encoded_file.h"
+#include "crowdface/io/glb_targets.h"
+#include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
 
@@ -42,17 +45,22 @@ class GlbPart {
   /// \param uvs             #T by 2, v upwards as in OBJ; may be empty.
   /// \param materials       at least one.
   /// \param face_materials  #F rows of `materials`.
+  /// \param influences      #V, of the joints of the faces' rig; of no groups: it has none.
+  /// \param targets         names of its morph targets.
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
           const std::vector<GlbPartMaterial>& materials,
-          const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images);
+          const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images,
+          const Grouped<Influence>& influences = {}, std::vector<std::string> targets = {});
 
   /// Adds node, mesh, materials and arrays to a scene.
   /// \param size  of the buffer so far, a multiple of four. \return its size afterwards, likewise.
+  /// \param moves  #targets, in vertices of its own.
   std::size_t describe(nlohmann::ordered_json& scene, const Positions& positions,
-                       std::size_t size) const;
+                       std::span<const Displacements> moves, std::size_t size) const;
   /// Adds the bytes that describe() speaks of; the file refers to this object.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
-  void append(EncodedFile& file, const Positions& positions) const;
+  void append(EncodedFile& file, const Positions& positions,
+              std::span<const Displacements> moves) const;
 
   std::size_t memory_bytes() const { return shared_.size(); }
 
@@ -60,6 +68,10 @@ class GlbPart {
   struct Primitive {
     std::size_t material, indices;  ///< which material, and how many
   };
+
+  void describe_targets(nlohmann::ordered_json& scene, std::span<const Displacements> moves,
+                        nlohmann::ordered_json& mesh, std::size_t& size) const;
+  GlbTargetRows rows_of(const Displacements& moves) const;
 
   std::string name_;
   Topology topology_;
@@ -70,13 +82,16 @@ class GlbPart {
   std::vector<GlbPartMaterial> materials_;
   std::vector<std::size_t> image_sizes_;
   std::vector<std::string> image_types_;
-  std::string shared_;  ///< texture coordinates, triangles, images
+  std::vector<GlbSkinAttribute> skin_;  ///< without their bytes; empty: not bound to joints
+  std::vector<std::string> targets_;
+  std::string shared_;  ///< texture coordinates, influences, triangles, images
 };
 
 /// One in the file of a face.
 struct PlacedGlbPart {
   const GlbPart* part;
   const Positions* positions;
+  std::span<const Displacements> moves = {};
 };
 
 }  // namespace crowdface

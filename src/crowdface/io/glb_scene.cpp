@@ -56,7 +56,8 @@ Json material_json(const GlbMaterial& material, std::size_t overlay) {
 }
 
 Json node_json(const GlbOptions& options) {
-  Json node = {{"mesh", 0}, {"name", ""}};
+  Json node = {{"name", ""}};
+  if (options.skin.joints.empty()) node = {{"mesh", 0}, {"name", ""}};
   const auto rotation = rotation_to_gltf(options.up, options.front);
   if (rotation[3] != 1) node["rotation"] = rotation;
   constexpr double kMmPerMetre = 1000;

@@ -17,7 +17,7 @@ inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 /// \param overlay  which of the file's images that is.
 nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay);
-/// The node of a face, without a name: unit and axes.
+/// The node of a face, without a name: unit and axes. With a rig it is the joints', and the mesh has its own.
 nlohmann::ordered_json node_json(const GlbOptions& options);
 
 /// Adds arrays to a glTF buffer, one view each, and describes them.

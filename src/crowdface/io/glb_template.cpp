@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/glb_container.h"
 #include "crowdface/io/glb_scene.h"
 #include "crowdface/io/little_endian.h"
 #include "crowdface/io/single_precision.h"
@@ -26,13 +26,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using namespace gltf;
+using namespace glb;
 
-constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2;  // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-
-constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
-/// What stands around the JSON text before the buffer.
-constexpr std::size_t kBinaryHeader = kFileHeader + 2 * kChunkHeader;
 constexpr std::size_t kVectorSize = 3 * sizeof(float);
 constexpr Index kRowsPerBlock = 1 << 15;
 
@@ -78,7 +73,8 @@ std::string places_on_overlay(const SplitVertices& split, const GlbOverlay& over
   return bytes;
 }
 
-Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_uvs) {
+Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_uvs,
+                     const std::vector<GlbSkinAttribute>& skin) {
   Json attributes = Json::object();
   buffer.add_view(vertices * kVectorSize, kArrayBuffer);
   attributes["POSITION"] = buffer.add_accessor(kFloat, "VEC3", vertices);
@@ -90,6 +86,10 @@ Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_uvs) {
   }
   buffer.add_view(vertices * sizeof(float), kArrayBuffer);
   attributes["_VERTEX_ID"] = buffer.add_accessor(kFloat, "SCALAR", vertices);
+  for (const GlbSkinAttribute& one : skin) {
+    buffer.add_view(one.bytes.size(), kArrayBuffer);
+    attributes[one.name] = buffer.add_accessor(one.component, "VEC4", vertices);
+  }
   return attributes;
 }
 
@@ -154,37 +154,6 @@ Json to_json(const Eigen::RowVector3d& vector) {
   return json;
 }
 
-/// The rows of a target's moves that the file holds: of its vertices, then of what seams split off.
-/// \param split    the original vertices of those from `vertices` on
-/// \param indices  gets the vertices of the file
-std::vector<std::uint32_t> target_rows(const GlbTarget& target, Index vertices,
-                                       const std::vector<std::uint32_t>& split,
-                                       std::string& indices) {
-  std::vector<std::uint32_t> row_of(static_cast<std::size_t>(vertices), kNoIndex), rows;
-  for (std::uint32_t row = 0; row < target.vertices.size(); ++row) {
-    row_of[target.vertices[row]] = row;
-    rows.push_back(row);
-    append_number(indices, target.vertices[row]);
-  }
-  for (std::size_t i = 0; i < split.size(); ++i) {
-    if (row_of[split[i]] == kNoIndex) continue;
-    rows.push_back(row_of[split[i]]);
-    append_number(indices, static_cast<std::uint32_t>(static_cast<std::size_t>(vertices) + i));
-  }
-  return rows;
-}
-
-/// The bounds of a target in which some vertices may stay.
-std::pair<Eigen::RowVector3d, Eigen::RowVector3d> bounds_of(const Displacements& target,
-                                                            Index vertices) {
-  Eigen::RowVector3d least = Eigen::RowVector3d::Zero(), most = least;
-  if (target.moves.rows() == 0) return {least, most};
-  least = target.moves.colwise().minCoeff();
-  most = target.moves.colwise().maxCoeff();
-  if (target.moves.rows() == vertices) return {least, most};
-  return {least.cwiseMin(0), most.cwiseMax(0)};
-}
-
 /// One row a split vertex: first all rows, then those of the further split vertices again.
 void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32_t>& split) {
   const auto further = static_cast<Index>(split.size());
@@ -226,7 +195,11 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     scene["nodes"].push_back({{"name", point}, {"translation", {0.0, 0.0, 0.0}}});
   }
   GlbBuffer buffer(scene);
-  const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty());
+  std::vector<GlbSkinAttribute> skin;
+  if (!options.skin.joints.empty()) {
+    skin = skin_attributes(options.skin.influences, split.vertices);
+  }
+  const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty(), skin);
   std::optional<std::size_t> places, picture;
   if (options.overlay) {
     require(options.overlay->places.size() == static_cast<std::size_t>(vertices_),
@@ -240,7 +213,9 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   std::vector<std::size_t> views;
   for (const GlbTarget& target : options.targets) {
     const std::size_t before = indices.size();
-    targets_.push_back({target_rows(target, vertices_, split_, indices), 0});
+    targets_.push_back({target_rows(target, split.vertices, vertices_), 0});
+    for (const std::uint32_t vertex : targets_.back().rows.vertices) append_number(indices, vertex);
+    targets_.back().rows.vertices = {};
     if (target.vertices.empty()) continue;
     views.push_back(buffer.add_view(indices.size() - before));
   }
@@ -252,10 +227,10 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   Json accessors = Json::array(), names = Json::array(), weights = Json::array();
   for (std::size_t t = 0, view = 0; t < targets_.size(); ++t) {
     Target& target = targets_[t];
-    const std::size_t size = target.rows.size() * kVectorSize;
-    target.accessor = target.rows.empty()
+    const std::size_t size = target.rows.rows.size() * kVectorSize;
+    target.accessor = target.rows.rows.empty()
                           ? buffer.add_zeros(split.vertices.size())
-                          : buffer.add_sparse(split.vertices.size(), target.rows.size(),
+                          : buffer.add_sparse(split.vertices.size(), target.rows.rows.size(),
                                               views[view++], buffer.add_view(size));
     target_bytes_ += size;
     accessors.push_back({{"POSITION", target.accessor}});
@@ -268,11 +243,19 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     mesh["weights"] = std::move(weights);
     mesh["extras"] = {{"targetNames", std::move(names)}};
   }
+  if (!options.skin.joints.empty()) {
+    skin_.joints = options.skin.joints;
+    buffer.add_view(skin_.matrix_bytes());
+    add_joints(skin_, buffer.add_accessor(kFloat, "MAT4", skin_.joints.size()), scene);
+    scene["scenes"][0]["nodes"].push_back(scene["nodes"].size());
+    scene["nodes"].push_back({{"name", ""}, {"mesh", 0}, {"skin", 0}});
+  }
   buffer.finish();
   add_images(scene, picture, options);
   json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 
   shared_ = texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
+  for (const GlbSkinAttribute& one : skin) shared_ += one.bytes;
   if (options.overlay) shared_ += places_on_overlay(split, *options.overlay);
   for (const Triangles& group : groups) {
     shared_.append(reinterpret_cast<const char*>(group.data()), group.size() * sizeof(group[0]));
@@ -292,7 +275,8 @@ std::size_t GlbTemplate::memory_bytes() const {
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
                                 const std::string& name, std::span<const Displacements> moves,
                                 std::span<const std::string_view> images, const Positions& points,
-                                std::span<const PlacedGlbPart> parts) const {
+                                std::span<const PlacedGlbPart> parts,
+                                const Positions& joints) const {
   require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
   require(images.size() == images_, "a GLB file with ", images.size(), " images for ", images_);
   require_finite(positions, vertices_, name);
@@ -302,7 +286,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   scene["accessors"][0]["max"] = to_json(positions.colwise().maxCoeff());
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     require_finite(moves[t].moves, moves[t].moves.rows(), name);
-    const auto [least, most] = bounds_of(moves[t], vertices_);
+    const auto [least, most] = target_bounds(moves[t], targets_[t].rows.whole);
     Json& accessor = scene["accessors"][targets_[t].accessor];
     accessor["min"] = to_json(least);
     accessor["max"] = to_json(most);
@@ -311,6 +295,11 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   for (Index p = 0; p < points_; ++p) {
     scene["nodes"][static_cast<std::size_t>(p + 1)]["translation"] = to_json(points.row(p));
   }
+  if (!skin_.joints.empty()) {
+    require_finite(joints, static_cast<Index>(skin_.joints.size()), name);
+    place_joints(skin_, static_cast<std::size_t>(1 + points_), joints, scene);
+    scene["nodes"].back()["name"] = name;
+  }
   scene["nodes"][0]["name"] = name;
   scene["meshes"][0]["name"] = name;
   const std::size_t arrays_size = encode_bytes() + shared_.size();
@@ -318,7 +307,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
       images.empty() ? arrays_size : place_images(scene, arrays_size, images);
   std::size_t binary_size = own_size;
   for (const PlacedGlbPart& one : parts) {
-    binary_size = one.part->describe(scene, *one.positions, binary_size);
+    binary_size = one.part->describe(scene, *one.positions, one.moves, binary_size);
   }
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');
@@ -348,37 +337,35 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   char* const values = vectors + 2 * vector_bytes();
   char* at = values;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    for (const std::uint32_t row : targets_[t].rows) at = put_row(at, moves[t].moves, row);
+    for (const std::uint32_t row : targets_[t].rows.rows) at = put_row(at, moves[t].moves, row);
   }
-  file.refer_to({values, target_bytes_});
+  if (!skin_.joints.empty()) put_bind_matrices(at, skin_, joints);
+  file.refer_to({values, target_bytes_ + skin_.matrix_bytes()});
   std::size_t written = arrays_size;
   for (const std::string_view image : images) {
     file.refer_to(image);
     written += image.size();
   }
   file.add(std::string(own_size - written, '\0'));
-  for (const PlacedGlbPart& one : parts) one.part->append(file, *one.positions);
+  for (const PlacedGlbPart& one : parts) one.part->append(file, *one.positions, one.moves);
   return file;
 }
 
 Positions read_glb_positions(const std::filesystem::path& path, Index vertices) {
   const MappedFile file(path);
-  const std::string_view bytes = file.bytes();
   const auto need = [&](bool is_so) {
     if (is_so) return;
     throw InvalidInput(concat(path.string(), ": expected a GLB file as crowdface writes it for ",
                               vertices, " vertices, found another"));
   };
-  need(bytes.size() >= kBinaryHeader && number_at<std::uint32_t>(bytes.data()) == kMagic);
-  const std::size_t json_size = number_at<std::uint32_t>(bytes.data() + kFileHeader);
-  need(json_size <= bytes.size() - kBinaryHeader);
-  const Json scene =
-      Json::parse(bytes.substr(kFileHeader + kChunkHeader, json_size), nullptr, false);
+  const auto chunks = glb_chunks(file.bytes());
+  need(chunks.has_value());
+  const Json scene = Json::parse(chunks->json, nullptr, false);
   const Json generator = scene.value(Json::json_pointer("/asset/generator"), Json());
-  const std::size_t data = kBinaryHeader + json_size;  // positions come first in the buffer
+  // Positions come first in the buffer.
   need(generator == "crowdface" &&
-       static_cast<std::size_t>(vertices) <= (bytes.size() - data) / kVectorSize);
-  Positions positions = read_singles(bytes.data() + data, vertices, kVectorSize);
+       static_cast<std::size_t>(vertices) <= chunks->binary.size() / kVectorSize);
+  Positions positions = read_singles(chunks->binary.data(), vertices, kVectorSize);
   require_finite(positions, vertices, path.string());
   return positions;
 }

@@ -10,6 +10,7 @@
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_options.h"
 #include "crowdface/io/glb_part.h"
+#include "crowdface/io/glb_targets.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
@@ -32,22 +33,25 @@ class GlbTemplate {
   /// \param points   #points by 3, in the positions' unit.
   /// \param images   files, as many as the options say; must outlive the result.
   /// \param parts    what stands beside the face; must outlive the result.
+  /// \param joints   #joints by 3, as points.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   /// \param moves    #targets: of their vertices, from `positions`.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
                      std::span<const std::string_view> images = {}, const Positions& points = {},
-                     std::span<const PlacedGlbPart> parts = {}) const;
+                     std::span<const PlacedGlbPart> parts = {}, const Positions& joints = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;
   /// What one encode takes.
-  std::size_t encode_bytes() const { return 2 * vector_bytes() + target_bytes_; }
+  std::size_t encode_bytes() const {
+    return 2 * vector_bytes() + target_bytes_ + skin_.matrix_bytes();
+  }
 
  private:
-  /// One target: the rows of its moves that its values are, one after the other, and its accessor.
+  /// One target and its accessor.
   struct Target {
-    std::vector<std::uint32_t> rows;
+    GlbTargetRows rows;  ///< without the vertices
     std::size_t accessor = 0;
   };
 
@@ -59,6 +63,7 @@ class GlbTemplate {
   std::vector<std::uint32_t> split_;  ///< original vertices of the split ones from #V on
   std::string shared_;                ///< the part of the buffer that all faces share
   std::vector<Target> targets_;
+  GlbSkin skin_;                  ///< without influences
   std::size_t target_bytes_ = 0;  ///< of the values of all targets
   std::string json_;              ///< the scene of any face; bounds and names to be filled in
 };

@@ -220,6 +220,14 @@ double SkinContacts::wider(const Positions& positions) const {
   return most;
 }
 
+std::vector<std::uint32_t> SkinContacts::moved() const {
+  std::vector<std::uint32_t> vertices;
+  for (const Contact& contact : contacts_) {
+    vertices.insert(vertices.end(), contact.vertices.begin(), contact.vertices.end());
+  }
+  return vertices;
+}
+
 /// What to ask for at each place, added to what was asked for already. None is asked to close what is
 /// not too wide or to open what is not too narrow, so that neighbours seldom pull against each other: a
 /// linear complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, chapter 5).

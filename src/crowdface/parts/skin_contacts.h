@@ -34,6 +34,9 @@ class SkinContacts {
   /// How much wider the widest gap is than that of any head at its place; 0: none is wider.
   double wider(const Positions& positions) const;
 
+  /// The vertices that bring_into may move.
+  std::vector<std::uint32_t> moved() const;
+
   struct Range {
     double least, most;
   };

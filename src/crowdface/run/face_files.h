@@ -46,6 +46,7 @@ struct FaceFiles {
   std::optional<FileDigest> picture;  ///< if it was rendered
   std::optional<FileDigest> preview;  ///< its mesh in the gallery, if there is one
   std::optional<SkinDefects> skin;    ///< against the target's, if it was judged
+  std::vector<Index> crossing;  ///< see FaceShapes::of_face; of no shapes if none were carried
 };
 
 }  // namespace crowdface

@@ -30,6 +30,7 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
   }
   if (!job.inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(job.inputs.shapes_digest);
   if (!job.inputs.points.empty()) hasher.add(kPointsVersion).add(job.inputs.points_digest);
+  if (!job.inputs.rig.empty()) hasher.add(kRigVersion).add(job.inputs.rig.digest);
   if (!job.inputs.attachments.empty()) {
     hasher.add(kAttachmentsVersion).add(job.inputs.attachments.digest);
   }
@@ -50,7 +51,7 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
     for (const TextureFormat format : config.textures.formats) hasher.add(static_cast<int>(format));
   }
   if (config.output.faces_per_folder.value_or(0) > 0) hasher.add("numbered folders");
-  hasher.add(extras.skin).add(extras.picture).add(extras.preview);
+  hasher.add(extras.skin).add(extras.shapes > 0).add(extras.picture).add(extras.preview);
   if (extras.picture) {
     const Config::ContactSheet& sheet = *config.output.contact_sheet;
     hasher.add(sheet.cell).add(sheet.views.size());
@@ -79,8 +80,7 @@ Json to_json(const SkinDefects& skin) {
 
 /// The line's checksum was right, so it is what `to_json` made; a line of another program's version
 /// throws.
-SkinDefects skin_of(const std::string& note) {
-  const Json json = Json::parse(note);
+SkinDefects skin_of(const Json& json) {
   SkinDefects skin;
   skin.local.compared = json.at("compared").get<Index>();
   skin.local.flipped = json.at("flipped").get<Index>();
@@ -91,11 +91,19 @@ SkinDefects skin_of(const std::string& note) {
   return skin;
 }
 
+/// How many, if a format or the gallery has them.
+std::size_t carried_shapes(const Job& job) {
+  const auto holds = [](MeshFormat format) { return format != MeshFormat::kPly; };
+  const bool is_carried =
+      has_gallery(job.config) || std::ranges::any_of(job.config.output.meshes, holds);
+  return is_carried ? job.inputs.shapes.shapes.size() : 0;
+}
+
 }  // namespace
 
 FaceExtras face_extras(const Job& job) {
   return {job.config.output.contact_sheet.has_value(), has_gallery(job.config),
-          skin_is_judged(job.config, job.inputs)};
+          skin_is_judged(job.config, job.inputs), carried_shapes(job)};
 }
 
 FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
@@ -132,7 +140,12 @@ std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   if (extras_.picture) files.picture = entry->files[names.size() + own.size()].content;
   if (extras_.preview) files.preview = entry->files.back().content;
   try {
-    if (extras_.skin) files.skin = skin_of(entry->note);
+    if (extras_.skin || extras_.shapes > 0) {
+      const Json note = Json::parse(entry->note);
+      if (extras_.skin) files.skin = skin_of(note);
+      if (extras_.shapes > 0) files.crossing = note.at("crossing").get<std::vector<Index>>();
+      if (files.crossing.size() != extras_.shapes) return std::nullopt;
+    }
   } catch (const Json::exception&) {
     return std::nullopt;
   }
@@ -157,7 +170,10 @@ LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceFiles& files) c
   if (files.preview) {
     entry.files.push_back({directory_.relative(directory_.gallery_face(face.id)), *files.preview});
   }
-  if (files.skin) entry.note = to_json(*files.skin).dump();
+  Json note;
+  if (files.skin) note = to_json(*files.skin);
+  if (!files.crossing.empty()) note["crossing"] = files.crossing;
+  if (!note.is_null()) entry.note = note.dump();
   return entry;
 }
 

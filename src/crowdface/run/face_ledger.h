@@ -14,9 +14,10 @@ namespace crowdface {
 
 /// What belongs to a face beside its meshes.
 struct FaceExtras {
-  bool picture = false;  ///< its render
-  bool preview = false;  ///< its mesh in the gallery
-  bool skin = false;     ///< its mesh is judged
+  bool picture = false;    ///< its render
+  bool preview = false;    ///< its mesh in the gallery
+  bool skin = false;       ///< its mesh is judged
+  std::size_t shapes = 0;  ///< how many are carried to it
 };
 FaceExtras face_extras(const Job& job);
 

@@ -141,15 +141,15 @@ class FaceOutput {
       const Busy busy(blend_);
       pictures = textures_.blend(face.recipe);
     }
-    std::vector<WornAttachment> worn;
-    if (attachments_ != nullptr) {
-      const Busy busy(blend_);
-      worn = attachments_->worn_by(face, positions);
-    }
     std::vector<Displacements> moves;
     if (writers_.holds_shapes() || (renders_ != nullptr && renders_->show_shapes())) {
       const Busy busy(encode_);
-      moves = shapes_.of_face(face.recipe, as_written(positions));
+      moves = shapes_.of_face(face.recipe, as_written(positions), &made.files.crossing);
+    }
+    std::vector<WornAttachment> worn;
+    if (attachments_ != nullptr) {
+      const Busy busy(blend_);
+      worn = attachments_->worn_by(face, positions, moves);
     }
     std::vector<ReadyFile> ready = encode(face, positions, moves, worn, pictures, made.files);
     if (renders_ != nullptr) {

@@ -12,6 +12,8 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/surface_materials.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/point_grid.h"
 
 namespace crowdface {
 namespace {
@@ -83,7 +85,29 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
   return material;
 }
 
-GlbPart part_of(const Attachment& item) {
+/// Each vertex goes with the joints of the skin nearest to it; what is rigid, as a whole, with those of the skin
+/// nearest to its middle.
+Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
+  Grouped<Influence> influences;
+  if (inputs.rig.empty()) return influences;
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
+    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
+  }
+  const Positions& points = item.file.positions;
+  const PointGrid grid(inputs.attachments.fitted_to, skin);
+  const auto nearest = [&](const Eigen::Vector3d& point) {
+    return inputs.rig.skin.influences.of(grid.nearest(point).vertex);
+  };
+  const bool is_rigid = item.moves == AttachmentMove::kRigid;
+  const Eigen::Vector3d middle = points.colwise().mean().transpose();
+  for (Index p = 0; p < points.rows(); ++p) {
+    influences.add_group(nearest(is_rigid ? middle : row3(points, p)));
+  }
+  return influences;
+}
+
+GlbPart part_of(const Attachment& item, const Inputs& inputs) {
   const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   const std::vector<SurfaceMaterial> known = read_surface_materials(item.materials);
   std::vector<GlbPartMaterial> materials;
@@ -100,18 +124,24 @@ GlbPart part_of(const Attachment& item) {
       log_warning(concat(error.what(), "; GLB files do without"));
     }
   }
-  return {item.name, item.file.topology, item.file.uvs, materials, named.of_face, images};
+  std::vector<std::string> targets;
+  for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
+  return {item.name, item.file.topology,          item.file.uvs,     materials, named.of_face,
+          images,    influences_of(item, inputs), std::move(targets)};
 }
 
 }  // namespace
 
 GlbAttachments::GlbAttachments(const Inputs& inputs) {
-  for (const Attachment& item : inputs.attachments.items) parts_.emplace(&item, part_of(item));
+  for (const Attachment& item : inputs.attachments.items)
+    parts_.emplace(&item, part_of(item, inputs));
 }
 
 std::vector<PlacedGlbPart> GlbAttachments::parts(std::span<const WornAttachment> worn) const {
   std::vector<PlacedGlbPart> parts;
-  for (const WornAttachment& one : worn) parts.push_back({&parts_.at(one.item), &one.positions});
+  for (const WornAttachment& one : worn) {
+    parts.push_back({&parts_.at(one.item), &one.positions, one.moves});
+  }
   return parts;
 }
 

@@ -137,6 +137,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   options.front = config.faces.front;
   options.face_materials = inputs.materials.of_face;
   options.points = inputs.points.names;
+  options.skin = inputs.rig.skin;
   for (const Shape& shape : inputs.shapes.shapes) {
     options.targets.push_back({shape.name, shape.moves.vertices});
   }
@@ -166,6 +167,13 @@ GlbOptions glb_options(GlbOptions whole, const DetailLevel& level, const ShapeSe
       places.push_back(whole.overlay->places[vertex]);
     }
     whole.overlay->places = std::move(places);
+  }
+  if (!whole.skin.joints.empty()) {
+    Grouped<Influence> influences;
+    for (const std::uint32_t vertex : level.vertices) {
+      influences.add_group(whole.skin.influences.of(vertex));
+    }
+    whole.skin.influences = std::move(influences);
   }
   whole.vertex_ids = level.vertices;
   whole.points.clear();  // those of the whole mesh are the face's

@@ -78,7 +78,7 @@ EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
     std::vector<Displacements> moves;
     for (const Displacements& shape : face.moves) moves.push_back(level_.of(shape));
     return name.format == MeshFormat::kGlb
-               ? glb_->encode(positions, normals, id, moves, face.textures)
+               ? glb_->encode(positions, normals, id, moves, face.textures, {}, {}, face.joints)
                : usd_->encode(positions, normals, id, moves, face.texture_names);
   }
   require(name.format == MeshFormat::kObj, "LevelWriter: a format without faces");

@@ -30,6 +30,7 @@ struct WholeFace {
   std::span<const std::string> texture_names;  ///< … and where they lie, from its mesh
   const Positions& points;                     ///< that follow it, or none
   std::span<const PlacedGlbPart> parts;        ///< what it wears, as GLB files have it
+  const Positions& joints;                     ///< of its rig, or none
 };
 
 /// Writes faces on one level of detail, in the formats that hold faces.

@@ -119,6 +119,8 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   }
   if (need_normals) fans_.emplace(faces.topology);
   if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
+  if (!inputs.rig.empty() && glb_)
+    joints_.emplace(inputs.rig.points, inputs.parts, skin_of(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
     levels_.emplace_back(config, inputs, level, formats_, all_targets, shared);
   }
@@ -170,14 +172,14 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
   const Positions moved = in_shape(face, mesh.shape);
   const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
   const WholeFace acting{face.id,       face.target,        moved,       normals, face.moves,
-                         face.textures, face.texture_names, face.points, {}};
+                         face.textures, face.texture_names, face.points, {},      face.joints};
   return level.encode(mesh, acting, had_normals(face.target));
 }
 
 EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) const {
   if (mesh.level > 0) return encode_level(mesh, face);
-  const auto& [id, target, positions, normals, moves, textures, texture_names, points, parts] =
-      face;
+  const auto& [id, target, positions, normals, moves, textures, texture_names, points, parts,
+               joints] = face;
   switch (mesh.format) {
     case MeshFormat::kObj: {
       if (mesh.shape.empty()) return obj_.at(target).encode(positions, id);
@@ -186,7 +188,7 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) con
     case MeshFormat::kPly:
       return ply_->encode(positions, had_normals(target) ? normals : Positions(), id);
     case MeshFormat::kGlb:
-      return glb_->encode(positions, normals, id, moves, textures, points, parts);
+      return glb_->encode(positions, normals, id, moves, textures, points, parts, joints);
     case MeshFormat::kUsd:
       return usd_->encode(positions, normals, id, moves, texture_names, points);
     case MeshFormat::kPoints:
@@ -206,11 +208,13 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   }
   Positions points;
   if (points_) points = points_->carry(face.recipe.target, positions);
+  Positions joints;
+  if (joints_) joints = joints_->carry(face.recipe.target, positions);
   const std::vector<std::string> texture_names = own_texture_names(config_, inputs_, face.id);
   std::vector<PlacedGlbPart> parts;
   if (glb_attachments_) parts = glb_attachments_->parts(worn);
   const WholeFace whole{face.id,  face.recipe.target, positions, normals, moves,
-                        textures, texture_names,      points,    parts};
+                        textures, texture_names,      points,    parts,   joints};
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
     meshes.push_back({name, encode(name, whole)});

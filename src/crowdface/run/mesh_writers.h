@@ -90,7 +90,7 @@ class MeshWriters {
   std::optional<GlbAttachments> glb_attachments_;  ///< if there are any
   std::optional<UsdaTemplate> usd_;
   std::vector<MeshName> names_;
-  std::optional<PointCarrier> points_;  ///< if there are any
+  std::optional<PointCarrier> points_, joints_;  ///< if there are any
   std::vector<LevelWriter> levels_;
   std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
 };

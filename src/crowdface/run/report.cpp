@@ -154,6 +154,23 @@ Json face_to_json(const std::string& id, const FaceFiles& files) {
   return face;
 }
 
+/// Where shapes take skin through skin that neither the template nor the face at rest does.
+Json shapes_to_json(const ShapeSet& set, const std::vector<FaceFiles>& files) {
+  Json shapes = Json::object();
+  for (std::size_t s = 0; s < set.shapes.size(); ++s) {
+    std::size_t faces = 0;
+    Index most = 0;
+    for (const FaceFiles& face : files) {
+      if (s >= face.crossing.size() || face.crossing[s] == 0) continue;
+      ++faces;
+      most = std::max(most, face.crossing[s]);
+    }
+    shapes[set.shapes[s].name] = {{"faces_with_crossing_skin", faces},
+                                  {"most_crossing_triangles", most}};
+  }
+  return shapes;
+}
+
 /// Two blanks a level, as the whole report has.
 std::string indented(const Json& json, std::size_t levels) {
   std::string text;
@@ -166,7 +183,7 @@ std::string indented(const Json& json, std::size_t levels) {
 
 /// All but the faces.
 Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const Json& casting,
-             std::size_t sheets, const std::vector<std::string>& warnings) {
+             const std::vector<FaceFiles>& files, std::size_t sheets, const std::vector<std::string>& warnings) {
   Json report;
   report["crowdface"] = kVersion;
   report["crowd"] = job.config.crowd.name;
@@ -184,6 +201,9 @@ Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const J
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
   report["distances"] = distances_to_json(casting["distances"]);
   report["casting"] = casting;
+  if (!job.inputs.shapes.shapes.empty()) {
+    report["shapes"] = shapes_to_json(job.inputs.shapes, files);
+  }
   report["warnings"] = warnings;
   return report;
 }
@@ -194,7 +214,7 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cas
                        const Json& casting, const std::vector<FaceFiles>& files, std::size_t sheets,
                        const std::vector<std::string>& warnings) {
   // Warnings may name files whose names are not UTF-8.
-  std::string head = summary(job, prepared, cast, casting, sheets, warnings)
+  std::string head = summary(job, prepared, cast, casting, files, sheets, warnings)
                          .dump(2, ' ', false, Json::error_handler_t::replace);
   head.resize(head.size() - std::string_view("\n}").size());
   return [&, head = head + ",\n  \"faces\": ["](const TakePiece& take) {

@@ -54,16 +54,16 @@ void write_iris(const Job& job, MeshFormat format, const fs::path& folder) {
 void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file) {
   const MeshWriters writers(job.config, job.inputs, {format}, {&face, 1});
-  std::vector<WornAttachment> worn;
-  if (!face.attachments.empty()) {
-    worn = FaceAttachments(job.config, job.inputs).worn_by(face, positions);
-  }
-  write_attachments(job, face, format, worn, file);
-  write_iris(job, format, file.parent_path());
   std::vector<Displacements> moves;
   if (writers.holds_shapes()) {
     moves = FaceShapes(job.config, job.inputs).of_face(face.recipe, as_written(positions));
   }
+  std::vector<WornAttachment> worn;
+  if (!face.attachments.empty()) {
+    worn = FaceAttachments(job.config, job.inputs).worn_by(face, positions, moves);
+  }
+  write_attachments(job, face, format, worn, file);
+  write_iris(job, format, file.parent_path());
   if (!textures.any()) {
     write_mesh(writers.encode(face, positions, moves, {}, worn).front(), file);
     return;

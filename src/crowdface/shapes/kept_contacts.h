@@ -22,6 +22,9 @@ class KeptContacts {
   /// A vertex of each place where skin nearly touches skin.
   std::vector<std::uint32_t> vertices() const;
 
+  /// The vertices that `keep` may move.
+  const std::vector<std::uint32_t>& moved() const { return moved_; }
+
   /// Of all places. \param positions  #V by 3
   std::vector<double> gaps(const Positions& positions) const { return contacts_.gaps(positions); }
 
@@ -33,6 +36,7 @@ class KeptContacts {
 
  private:
   SkinContacts contacts_;
+  std::vector<std::uint32_t> moved_;
   double most_ = 0;  ///< a gap that changes by more is not kept
 };
 

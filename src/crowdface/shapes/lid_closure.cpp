@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 
 #include "crowdface/core/fixed_order.h"
 #include "crowdface/mesh/vector3.h"
@@ -24,6 +25,9 @@ constexpr double kLeastClosed = 0.05;
 /// What is left of an opening that counts as closed.
 constexpr double kLeft = 0.4;
 constexpr double kMargin = 0.004;  // kept free where template and face are
+/// By so much lids close further than the template's, where its shape does not fit by itself: what lies between the
+/// places closes too.
+constexpr double kSure = 0.02;
 constexpr int kSteps = 8;
 
 /// From 1 up to `whole` to 0 from `none` on, smoothly.
@@ -74,6 +78,12 @@ FaceEye::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
   return {motion.scale * found.gap, motion.turn(found.normal) / motion.scale};
 }
 
+std::vector<double> eye_gaps(const TemplateEye& eye, const FaceEye& there, const Positions& mesh) {
+  std::vector<double> gaps;
+  for (const std::uint32_t v : eye.skin) gaps.push_back(there.gap_at(row3(mesh, v)).gap);
+  return gaps;
+}
+
 LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
                        const Displacements& shape, const HeadAxes& axes)
     : axes_(axes), radius_(eye.ball.radius()) {
@@ -81,31 +91,46 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   add_places(eye, adjacency, neutral, shape, axes);
   const FaceEye at_rest{&eye.ball, {}};
   const Eigen::Vector3d along = axes.side();
-  std::vector<double> middles;
-  for (const Place& place : places_) middles.push_back(place.along);
-  for (const std::uint32_t v : eye.skin) {
-    const std::uint32_t row = row_of(shape, v);
+  for (std::uint32_t i = 0; i < eye.skin.size(); ++i) {
+    const std::uint32_t v = eye.skin[i], row = row_of(shape, v);
     if (row == kNoIndex) continue;
     const Eigen::Vector3d before = row3(neutral, v), after = before + row3(shape.moves, row);
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
     const double cosine = dot3(from, axes.front) / length3(from);
-    Lid lid{row, v, 0, 0, {}};
+    Lid lid{row, v, i, 0, 0};
     lid.hold = fading(std::min(std::abs(gap_before), std::abs(gap_after)), kWholeHold * radius_,
                       kNoHold * radius_) *
                std::clamp((cosine - kHoldFrom) / kHoldOver, 0.0, 1.0);
     if (!places_.empty())
       lid.share = fading(length3(from), kWholeShare * radius_, kNoShare * radius_);
-    if (lid.share == 0 && lid.hold == 0) continue;
-    double sum = 0;
-    for (const double middle : middles) {
-      const double x = (dot3(after, along) - middle) / (kBlur * radius_);
-      lid.places.push_back(1 / ((x * x + 1) * (x * x + 1)));
-      sum += lid.places.back();
-    }
-    for (double& weight : lid.places) weight *= lid.share / sum;
-    lids_.push_back(std::move(lid));
+    if (lid.share > 0 || lid.hold > 0) lids_.push_back(lid);
   }
+  put_profiles_first();
+  for (const Lid& lid : lids_) {
+    const double at = dot3(row3(neutral, lid.vertex) + row3(shape.moves, lid.row), along);
+    const std::size_t first = heard_.size();
+    double sum = 0;
+    for (const Place& place : places_) {
+      const double x = (at - place.along) / (kBlur * radius_);
+      heard_.push_back(1 / ((x * x + 1) * (x * x + 1)));
+      sum += heard_.back();
+    }
+    for (std::size_t p = first; p < heard_.size(); ++p) heard_[p] *= lid.share / sum;
+  }
+}
+
+/// While gains are looked for, only those move.
+void LidClosure::put_profiles_first() {
+  std::set<std::uint32_t> rows;
+  for (const Place& place : places_) {
+    for (const auto* points : {&place.low, &place.high}) {
+      for (const Point& point : *points) rows.insert({point.row_a, point.row_b});
+    }
+  }
+  const auto rest = std::stable_partition(lids_.begin(), lids_.end(),
+                                          [&](const Lid& lid) { return rows.contains(lid.row); });
+  in_profiles_ = static_cast<std::size_t>(rest - lids_.begin());
 }
 
 void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
@@ -155,16 +180,15 @@ LidClosure::Axes LidClosure::axes_on(const RigidMotion& whole) const {
 }
 
 LidClosure::Goals LidClosure::goals(const Positions& mesh, const FaceEye& eye,
-                                    const RigidMotion& whole, const Positions& moves) const {
+                                    std::span<const double> rest_gaps, const RigidMotion& whole,
+                                    const Positions& moves) const {
   Goals goals;
   if (!places_.empty()) goals.gaps = gaps(axes_on(whole), mesh, moves);
   for (Gap& gap : goals.gaps) gap = {gap.paired / whole.scale, gap.plumb / whole.scale};
   for (const Lid& lid : lids_) {
-    const Eigen::Vector3d before = row3(mesh, lid.vertex);
-    const double gap_before = eye.gap_at(before).gap;
-    const double gap_after = eye.gap_at(before + row3(moves, lid.row)).gap;
-    goals.least.push_back(gap_after / whole.scale);
-    goals.gap_change.push_back((gap_after - gap_before) / whole.scale);
+    const double after = eye.gap_at(row3(mesh, lid.vertex) + row3(moves, lid.row)).gap;
+    goals.least.push_back(after / whole.scale);
+    goals.gap_change.push_back((after - rest_gaps[lid.number]) / whole.scale);
   }
   return goals;
 }
@@ -226,48 +250,64 @@ std::vector<LidClosure::Gap> LidClosure::gaps(const Axes& axes, const Positions&
   return gaps;
 }
 
-void LidClosure::close(const Eigen::Vector3d& up, const Positions& carried,
+void LidClosure::close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
                        std::span<const double> gains, Positions& moves) const {
-  for (const Lid& lid : lids_) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Lid& lid = lids_[i];
     const Eigen::Vector3d move = row3(carried, lid.row);
-    const double gain = fixed_dot(lid.places, gains);
+    const double gain = fixed_dot(heard(i), gains);
     moves.row(lid.row) = (move + gain * dot3(move, up) * up).transpose();
   }
 }
 
-void LidClosure::hold_off(const Positions& face, const FaceEye& eye,
+void LidClosure::hold_off(std::size_t count, const Positions& face, const FaceEye& eye,
                           std::span<const double> rest_gaps, double scale, const Goals& goals,
                           Positions& moves) const {
-  for (std::size_t i = 0; i < lids_.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const Lid& lid = lids_[i];
     if (lid.hold == 0) continue;
     const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
-    const double least =
-        std::min({rest_gaps[i], scale * goals.least[i], kMargin * scale * radius_});
-    const double wanted = std::max(rest_gaps[i] + scale * goals.gap_change[i], least);
+    const double rest = rest_gaps[lid.number];
+    const double least = std::min({rest, scale * goals.least[i], kMargin * scale * radius_});
+    const double wanted = std::max(rest + scale * goals.gap_change[i], least);
     moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
   }
 }
 
-void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
-                     const Goals& goals, Positions& moves) const {
+std::vector<double> LidClosure::missing_gaps(const std::vector<Gap>& now, const Goals& goals,
+                                             double scale) {
+  std::vector<double> missing;
+  for (std::size_t p = 0; p < now.size(); ++p) {
+    const Gap& wanted = goals.gaps[p];
+    missing.push_back(std::max(now[p].paired - scale * wanted.paired,
+                               now[p].plumb - scale * std::max(wanted.plumb, 0.0)));
+  }
+  return missing;
+}
+
+void LidClosure::fit(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
+                     const RigidMotion& whole, const Goals& goals, Positions& moves) const {
   const Axes axes = axes_on(whole);
+  if (places_.empty()) {
+    return hold_off(lids_.size(), face, eye, rest_gaps, whole.scale, goals, moves);
+  }
   const Positions carried = moves;
-  std::vector<double> rest_gaps;
-  for (const Lid& lid : lids_) rest_gaps.push_back(eye.gap_at(row3(face, lid.vertex)).gap);
   std::vector<double> gains(places_.size(), 0.0);
-  for (int step = 0;; ++step) {
-    close(axes.up, carried, gains, moves);
-    hold_off(face, eye, rest_gaps, whole.scale, goals, moves);
-    if (step == kSteps || places_.empty()) return;
-    const std::vector<Gap> now = gaps(axes, face, moves);
+  double sure = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    if (step > 0) close(in_profiles_, axes.up, carried, gains, moves);
+    hold_off(in_profiles_, face, eye, rest_gaps, whole.scale, goals, moves);
+    const std::vector<double> missing = missing_gaps(gaps(axes, face, moves), goals, whole.scale);
+    if (step == 0) {
+      for (const double gap : missing) sure = std::max(sure, std::abs(gap) / 2);
+      sure = std::min(sure, kSure * whole.scale * radius_);
+    }
     for (std::size_t p = 0; p < places_.size(); ++p) {
-      const Gap& wanted = goals.gaps[p];
-      const double missing = std::max(now[p].paired - whole.scale * wanted.paired,
-                                      now[p].plumb - whole.scale * std::max(wanted.plumb, 0.0));
-      gains[p] += missing / (whole.scale * places_[p].closed);
+      gains[p] += (missing[p] + sure) / (whole.scale * places_[p].closed);
     }
   }
+  close(lids_.size(), axes.up, carried, gains, moves);
+  hold_off(lids_.size(), face, eye, rest_gaps, whole.scale, goals, moves);
 }
 
 }  // namespace crowdface

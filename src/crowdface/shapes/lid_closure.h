@@ -34,6 +34,9 @@ struct FaceEye {
   Gap gap_at(const Eigen::Vector3d& point) const;
 };
 
+/// How far the skin around an eye is from the eyeball, #skin. \param mesh  #V by 3
+std::vector<double> eye_gaps(const TemplateEye& eye, const FaceEye& there, const Positions& mesh);
+
 /// Writes 1 for skin around an eye that belongs to the upper lid and −1 for the lower one's, by what of the rim is
 /// nearest.
 /// \param side  #V
@@ -66,8 +69,9 @@ class LidClosure {
   /// \param mesh   #V by 3, at rest
   /// \param whole  from the template to the mesh
   /// \param moves  its own, as the shape's rows
-  Goals goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& whole,
-              const Positions& moves) const;
+  /// \param rest_gaps  see eye_gaps
+  Goals goals(const Positions& mesh, const FaceEye& eye, std::span<const double> rest_gaps,
+              const RigidMotion& whole, const Positions& moves) const;
   /// Between those of several sets.
   static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
   /// Whether the shape closes the lids.
@@ -78,8 +82,8 @@ class LidClosure {
   /// \param face   #V by 3, at rest
   /// \param whole  from the template to the face
   /// \param moves  as the shape's, carried to the face; made to fit
-  void fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole, const Goals& goals,
-           Positions& moves) const;
+  void fit(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
+           const RigidMotion& whole, const Goals& goals, Positions& moves) const;
 
  private:
   /// A point of a lid's profile; rows are of the shape, or kNoIndex for what does not move.
@@ -102,26 +106,37 @@ class LidClosure {
   };
   struct Lid {
     std::uint32_t row, vertex;
-    double share;                ///< of what closes the lids: 1 around the eye, less farther off
-    double hold;                 ///< of what holds it off the eyeball: 1 near it
-    std::vector<double> places;  ///< how much it hears of each, of sum one
+    std::uint32_t number;  ///< among the skin around the eye
+    double share;          ///< of what closes the lids: 1 around the eye, less farther off
+    double hold;           ///< of what holds it off the eyeball: 1 near it
   };
 
   void add_places(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
                   const Displacements& shape, const HeadAxes& axes);
-  void close(const Eigen::Vector3d& up, const Positions& carried, std::span<const double> gains,
-             Positions& moves) const;
-  void hold_off(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
-                double scale, const Goals& goals, Positions& moves) const;
+  void put_profiles_first();
+  std::span<const double> heard(std::size_t lid) const {
+    return {heard_.data() + lid * places_.size(), places_.size()};
+  }
+  /// Of the first `count` lids.
+  void close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
+             std::span<const double> gains, Positions& moves) const;
+  void hold_off(std::size_t count, const Positions& face, const FaceEye& eye,
+                std::span<const double> rest_gaps, double scale, const Goals& goals,
+                Positions& moves) const;
   Axes axes_on(const RigidMotion& whole) const;
   static Rim rim_point(const std::vector<Point>& points, double sign, const Axes& axes,
                        const Positions& face, const Positions& moves);
+  /// By how much gaps are wider than they are to be; negative: narrower.
+  static std::vector<double> missing_gaps(const std::vector<Gap>& now, const Goals& goals,
+                                          double scale);
   std::vector<Gap> gaps(const Axes& axes, const Positions& face, const Positions& moves) const;
 
   HeadAxes axes_;
   double radius_ = 0;
   std::vector<Place> places_;
   std::vector<Lid> lids_;
+  std::size_t in_profiles_ = 0;  ///< so many of them come first
+  std::vector<double> heard_;    ///< #lids by #places: how much a lid hears of each
 };
 
 }  // namespace crowdface

@@ -121,9 +121,14 @@ struct ShapeTransfer::State {
   FrameField field;
   double extent = 0;  ///< of the template's skin
   SkinCrossings crossings;
-  SkinCrossings::Watched watched;  ///< of any shape
+  CrossingSearch watched;  ///< of any shape
   std::vector<ShapeState> shapes;
 
+  /// An eyeball of a face, and how far the skin around it is from it at rest.
+  struct PlacedEye {
+    FaceEye eye;
+    std::vector<double> rest_gaps;
+  };
   /// A face, and how it is turned and stretched.
   struct Carrier {
     const Positions& mesh;
@@ -133,6 +138,10 @@ struct ShapeTransfer::State {
     std::vector<bool> at_rest;          ///< #V: at crossings of its skin
   };
   Carrier carrier_to(const Positions& face) const;
+  PlacedEye placed(const Eye& eye, const FaceEye& there, const Positions& face) const {
+    return {there, eye_gaps(eye.of_template, there, face)};
+  }
+  std::vector<PlacedEye> placed_eyes(std::size_t target, const Positions& face) const;
 
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
@@ -141,16 +150,16 @@ struct ShapeTransfer::State {
   void bind_lids(const Displacements& moves, const Adjacency& adjacency, ShapeState& state) const;
   SkinCrossings::Watched watch(const Displacements& moves, const ShapeState& state) const;
   void add_sets();
-  void add_set(const Carrier& carrier, const Displacements& shape, std::span<const FaceEye> at_eyes,
-               ShapeState& state) const;
+  void add_set(const Carrier& carrier, const Displacements& shape,
+               std::span<const PlacedEye> at_eyes, ShapeState& state) const;
   void keep_contacts(const ShapeState& state, const Carrier& carrier, const RegionShares& shares,
-                     Positions& scratch, Displacements& result) const;
+                     Positions& mesh, Displacements& result) const;
   SingleRows undone(const Carrier& carrier, const ShapeState& state, const Positions& moves) const;
   Positions mixed_moves(std::size_t shape, const RegionShares& shares) const;
   Eigen::Matrix3d map_of(const PartMove& part, const ShapeState& state,
                          std::span<const Eigen::Matrix3d> maps) const;
-  Displacements carry(std::size_t shape, std::size_t target, const Carrier& carrier,
-                      const RegionShares& shares, Positions& scratch, Positions& mesh) const;
+  Displacements carry(std::size_t shape, std::span<const PlacedEye> at_eyes, const Carrier& carrier,
+                      const RegionShares& shares, Positions& mesh, Index& crossing) const;
 };
 
 void ShapeTransfer::State::add_part(const Part& part, const PartList& parts,
@@ -228,9 +237,9 @@ ShapeTransfer::ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency,
   parallel_for_each(shapes.shapes.size(), [&](std::size_t s) {
     state->shapes[s] = state->bind(shapes.shapes[s].moves, adjacency);
   });
-  std::vector<SkinCrossings::Watched> watched;
-  for (const ShapeState& shape : state->shapes) watched.push_back(shape.watched);
-  state->watched = state->crossings.watch_all(watched);
+  std::vector<const CrossingSearch*> watched;
+  for (const ShapeState& shape : state->shapes) watched.push_back(&shape.watched.search);
+  state->watched = state->crossings.watch_all(shapes.neutral, watched);
   state->add_sets();
   state_ = std::move(state);
 }
@@ -289,16 +298,18 @@ SkinCrossings::Watched ShapeTransfer::State::watch(const Displacements& moves,
                                                    const ShapeState& state) const {
   Positions mesh = set.neutral;
   moves.add_to(mesh);
-  for (const double gap : contacts.gaps(mesh)) {
-    if (gap < -kMeant * extent) return {};
-  }
+  const std::vector<double> gaps = contacts.gaps(mesh);
+  const bool is_meant =
+      std::ranges::any_of(gaps, [&](double gap) { return gap < -kMeant * extent; });
   std::vector<signed char> side;
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     if (!state.lids[e].lids.closes()) continue;
     side.resize(static_cast<std::size_t>(mesh.rows()), 0);
     lid_sides(eyes[e].of_template, set.neutral, side);
   }
-  return crossings.watch(set.neutral, moves, std::move(side));
+  SkinCrossings::Watched found = crossings.watch(set.neutral, moves, std::move(side));
+  found.is_meant = is_meant;
+  return found;
 }
 
 void ShapeTransfer::State::bind_lids(const Displacements& moves, const Adjacency& adjacency,
@@ -347,6 +358,18 @@ ShapeTransfer::State::Carrier ShapeTransfer::State::carrier_to(const Positions& 
   return carrier;
 }
 
+std::vector<ShapeTransfer::State::PlacedEye> ShapeTransfer::State::placed_eyes(
+    std::size_t target, const Positions& face) const {
+  std::vector<PlacedEye> there;
+  for (const Eye& eye : eyes) {
+    const RigidPart& part = rigid[eye.part];
+    const RigidMotion motion =
+        fit_rigid_motion(faces.heads[target].positions, face, part.fitted, part.ones);
+    there.push_back(placed(eye, {&eye.balls[target], motion}, face));
+  }
+  return there;
+}
+
 Eigen::Matrix3d ShapeTransfer::State::map_of(const PartMove& part, const ShapeState& state,
                                              std::span<const Eigen::Matrix3d> maps) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
@@ -360,9 +383,10 @@ void ShapeTransfer::State::add_sets() {
   const std::size_t heads = set.of_head.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
     const Carrier carrier = carrier_to(heads > 0 ? faces.heads[h].positions : set.neutral);
-    std::vector<FaceEye> at_eyes;
+    std::vector<PlacedEye> at_eyes;
     for (const Eye& eye : eyes) {
-      at_eyes.push_back({heads > 0 ? &eye.balls[h] : &eye.of_template.ball, {}});
+      const FaceEye there{heads > 0 ? &eye.balls[h] : &eye.of_template.ball, {}};
+      at_eyes.push_back(placed(eye, there, carrier.mesh));
     }
     parallel_for_each(shapes.size(), [&](std::size_t s) {
       const Displacements& all = set.shapes[s].moves;
@@ -375,7 +399,7 @@ void ShapeTransfer::State::add_sets() {
 }
 
 void ShapeTransfer::State::add_set(const Carrier& carrier, const Displacements& shape,
-                                   std::span<const FaceEye> at_eyes, ShapeState& state) const {
+                                   std::span<const PlacedEye> at_eyes, ShapeState& state) const {
   const Positions& moves = shape.moves;
   const RigidMotion& whole = carrier.frames.whole;
   for (PartMove& part : state.parts) {
@@ -387,11 +411,12 @@ void ShapeTransfer::State::add_set(const Carrier& carrier, const Displacements& 
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     LidMove& move = state.lids[e];
     if (move.lids.empty()) continue;
-    move.goals.push_back(move.lids.goals(carrier.mesh, at_eyes[e], whole, moves));
+    const auto& [eye, rest_gaps] = at_eyes[e];
+    move.goals.push_back(move.lids.goals(carrier.mesh, eye, rest_gaps, whole, moves));
   }
   Positions moved = carrier.mesh;
   shape.add_to(moved);
-  if (!set.of_head.empty() && !state.watched.triangles.empty()) {
+  if (!set.of_head.empty() && !state.watched.search.triangles().empty()) {
     crossings.excuse(moved, state.watched);
   }
   if (!state.moves_contacts) return;
@@ -403,7 +428,7 @@ void ShapeTransfer::State::add_set(const Carrier& carrier, const Displacements& 
 
 /// Lips that the shape leaves closed stay closed.
 void ShapeTransfer::State::keep_contacts(const ShapeState& state, const Carrier& carrier,
-                                         const RegionShares& shares, Positions& scratch,
+                                         const RegionShares& shares, Positions& mesh,
                                          Displacements& result) const {
   std::vector<double> widening(state.widening.front().size(), 0.0);
   for (std::size_t p = 0; p < widening.size(); ++p) {
@@ -417,15 +442,16 @@ void ShapeTransfer::State::keep_contacts(const ShapeState& state, const Carrier&
       widening[p] += of_set.share * carrier.frames.whole.scale * state.widening[of_set.set][p];
     }
   }
-  scratch = carrier.mesh;
-  result.add_to(scratch);
-  contacts.keep(carrier.gaps, widening, scratch);
+  result.add_to(mesh);
+  contacts.keep(carrier.gaps, widening, mesh);
   for (std::size_t i = 0; i < result.vertices.size(); ++i) {
     const std::uint32_t v = result.vertices[i];
     auto move = result.moves.row(static_cast<Index>(i));
     const Eigen::RowVector3d before = carrier.mesh.row(v) + move;
-    move += scratch.row(v) - before;
+    move += mesh.row(v) - before;
   }
+  for (const std::uint32_t v : result.vertices) mesh.row(v) = carrier.mesh.row(v);
+  for (const std::uint32_t v : contacts.moved()) mesh.row(v) = carrier.mesh.row(v);
 }
 
 SingleRows ShapeTransfer::State::undone(const Carrier& carrier, const ShapeState& state,
@@ -455,9 +481,10 @@ Positions ShapeTransfer::State::mixed_moves(std::size_t number, const RegionShar
   return moves;
 }
 
-Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target,
+/// \param mesh  the face at rest; changed while it works
+Displacements ShapeTransfer::State::carry(std::size_t number, std::span<const PlacedEye> at_eyes,
                                           const Carrier& carrier, const RegionShares& shares,
-                                          Positions& scratch, Positions& mesh) const {
+                                          Positions& mesh, Index& crossing) const {
   const ShapeState& state = shapes[number];
   const SetShares one_set = {{0, 1}};
   const auto shares_of = [&](std::size_t part) {
@@ -483,15 +510,12 @@ Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     const LidMove& move = state.lids[e];
     if (move.lids.empty()) continue;
-    const BallMap& ball = eyes[e].balls[target];
-    const RigidPart& part = rigid[eyes[e].part];
-    const FaceEye eye{&ball, fit_rigid_motion(faces.heads[target].positions, carrier.mesh,
-                                              part.fitted, part.ones)};
-    move.lids.fit(carrier.mesh, eye, whole, LidClosure::mean(move.goals, shares_of(eyes[e].part)),
-                  result.moves);
+    const auto& [eye, rest_gaps] = at_eyes[e];
+    move.lids.fit(carrier.mesh, eye, rest_gaps, whole,
+                  LidClosure::mean(move.goals, shares_of(eyes[e].part)), result.moves);
   }
-  if (state.moves_contacts) keep_contacts(state, carrier, shares, scratch, result);
-  crossings.mend(carrier.mesh, carrier.at_rest, state.watched, mesh, result);
+  if (state.moves_contacts) keep_contacts(state, carrier, shares, mesh, result);
+  crossing = crossings.mend(carrier.mesh, carrier.at_rest, state.watched, mesh, result);
   for (const Hanging& hanging : state.hanging) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t on = hanging.rows[k];
@@ -503,15 +527,19 @@ Displacements ShapeTransfer::State::carry(std::size_t number, std::size_t target
 }
 
 std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& face,
-                                                std::span<const RegionShares> shares) const {
+                                                std::span<const RegionShares> shares,
+                                                std::vector<Index>* crossing) const {
   const State& state = *state_;
   const State::Carrier carrier = state.carrier_to(face);
   std::vector<Displacements> shapes;
-  Positions scratch, mesh = face;
+  std::vector<Index> left(state.shapes.size());
+  const auto at_eyes = state.placed_eyes(static_cast<std::size_t>(target), face);
+  Positions mesh = face;
   for (std::size_t s = 0; s < state.shapes.size(); ++s) {
-    shapes.push_back(state.carry(s, static_cast<std::size_t>(target), carrier,
-                                 s < shares.size() ? shares[s] : RegionShares(), scratch, mesh));
+    shapes.push_back(state.carry(s, at_eyes, carrier,
+                                 s < shares.size() ? shares[s] : RegionShares(), mesh, left[s]));
   }
+  if (crossing != nullptr) *crossing = std::move(left);
   return shapes;
 }
 

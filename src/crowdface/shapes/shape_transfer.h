@@ -38,9 +38,12 @@ class ShapeTransfer {
   /// \param target  the head the face was built on, whose eyeballs it has.
   /// \param face    #V by 3.
   /// \param shares  #shapes: whose shapes count how much, by head; none: the template's.
+  /// \param crossing  if given, gets how many triangles of the skin pass through other skin in each shape and
+  ///                  neither in that shape on the template nor in the face at rest.
   /// \return        #shapes, each with the vertices of the set's shape.
   std::vector<Displacements> carry(Index target, const Positions& face,
-                                   std::span<const RegionShares> shares = {}) const;
+                                   std::span<const RegionShares> shares = {},
+                                   std::vector<Index>* crossing = nullptr) const;
 
   /// What it keeps of the heads' own shapes.
   std::size_t memory_bytes() const;

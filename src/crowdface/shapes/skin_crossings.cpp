@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
+#include <set>
 
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
-#include "crowdface/validity/triangles.h"
 
 namespace crowdface {
 namespace {
@@ -27,105 +26,24 @@ constexpr double kGrowth = 0.08;                       // of those, a round
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
 constexpr int kRounds = 30;
-constexpr double kBar = 0.01;  // in which triangles are looked up
-
-bool have_common(const Triangle& a, const Triangle& b) {
-  for (const std::uint32_t v : a) {
-    if (v == b[0] || v == b[1] || v == b[2]) return true;
-  }
-  return false;
-}
+constexpr double kMeets = 0.008;  // how near on the template is what may meet on a face
 
 double square(double x) {
   return x * x;
 }
 
-struct Box {
-  std::array<float, 3> low, high;
-
-  void add(const Box& other) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], other.low[c]);
-      high[c] = std::max(high[c], other.high[c]);
+std::vector<std::uint32_t> vertices_of(const std::vector<CrossingSearch::Pair>& pairs,
+                                       const CrossingSearch& search) {
+  std::vector<std::uint32_t> vertices;
+  for (const CrossingSearch::Pair& pair : pairs) {
+    for (const std::uint32_t place : pair) {
+      const Triangle& corners = search.triangles()[place];
+      vertices.insert(vertices.end(), corners.begin(), corners.end());
     }
   }
-  /// Without branches, which no processor foresees here.
-  bool meets(const Box& other) const {
-    unsigned apart = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      apart |= static_cast<unsigned>(low[c] > other.high[c]);
-      apart |= static_cast<unsigned>(other.low[c] > high[c]);
-    }
-    return apart == 0;
-  }
-};
-constexpr float kEnd = std::numeric_limits<float>::infinity();
-constexpr Box kNoBox{{kEnd, kEnd, kEnd}, {-kEnd, -kEnd, -kEnd}};
-
-/// No smaller than in double precision: what is rounded keeps its order.
-Box box_of(const Positions& mesh, const Triangle& triangle) {
-  const auto& [a, b, d] = triangle;
-  Box box;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto k = static_cast<Index>(c);
-    box.low[c] = static_cast<float>(std::min({mesh(a, k), mesh(b, k), mesh(d, k)}));
-    box.high[c] = static_cast<float>(std::max({mesh(a, k), mesh(b, k), mesh(d, k)}));
-  }
-  return box;
-}
-
-/// Pairs of boxes that meet, each once: boxes are put into bars along x, and sorted along each of them.
-/// \param fresh  #boxes: pairs of which neither is may be left out
-/// \param all    of the fresh boxes
-/// \param width  of a bar
-/// \param visit  visit(one, other)
-template <class Visit>
-void visit_meeting(std::span<const Box> boxes, std::span<const std::uint8_t> fresh, const Box& all,
-                   float width, const Visit& visit) {
-  if (!(all.high[1] >= all.low[1])) return;
-  const float per_width = 1 / width;
-  const auto bar_at = [&](float at, std::size_t axis) {
-    return static_cast<std::size_t>(std::max(at - all.low[axis], 0.0F) * per_width);
-  };
-  const std::size_t last_y = bar_at(all.high[1], 1), last_z = bar_at(all.high[2], 2);
-  struct Placed {
-    float low;
-    std::uint32_t number;
-  };
-  const std::size_t count = (last_y + 1) * (last_z + 1);
-  Grouped<Placed> bars = grouped<Placed>(count, [&](const auto& put) {
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-      const Box& box = boxes[i];
-      if (!box.meets(all)) continue;
-      const std::size_t end_y = std::min(bar_at(box.high[1], 1), last_y);
-      const std::size_t end_z = std::min(bar_at(box.high[2], 2), last_z);
-      for (std::size_t z = bar_at(box.low[2], 2); z <= end_z; ++z) {
-        for (std::size_t y = bar_at(box.low[1], 1); y <= end_y; ++y) {
-          put(z * (last_y + 1) + y, Placed{box.low[0], i});
-        }
-      }
-    }
-  });
-  std::vector<Box> here;
-  for (std::size_t bar = 0; bar < count; ++bar) {
-    const std::span<Placed> placed = bars.of(bar);
-    const auto is_fresh = [&](const Placed& one) { return fresh[one.number] != 0; };
-    if (std::none_of(placed.begin(), placed.end(), is_fresh)) continue;
-    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-      return a.low != b.low ? a.low < b.low : a.number < b.number;
-    });
-    here.clear();
-    for (const Placed& one : placed) here.push_back(boxes[one.number]);
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      const Box& box = here[i];
-      for (std::size_t j = i + 1; j < here.size() && here[j].low[0] <= box.high[0]; ++j) {
-        if (!box.meets(here[j])) continue;
-        const std::size_t y = bar_at(std::max(box.low[1], here[j].low[1]), 1);
-        const std::size_t z = bar_at(std::max(box.low[2], here[j].low[2]), 2);
-        if (z * (last_y + 1) + y == bar) visit(placed[i].number, placed[j].number);
-      }
-    }
-  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 /// Means of a field over the cells of a grid.
@@ -246,83 +164,32 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
     }
     near = std::move(wider);
   }
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    const Triangle& corners = triangles_[t];
-    if (near[corners[0]] || near[corners[1]] || near[corners[2]]) watched.triangles.push_back(t);
-  }
-  watched.excused.assign(watched.triangles.size(), false);
+  std::vector<Triangle> triangles;
+  std::copy_if(triangles_.begin(), triangles_.end(), std::back_inserter(triangles),
+               [&](const Triangle& t) { return near[t[0]] || near[t[1]] || near[t[2]]; });
+  watched.excused.assign(triangles.size(), false);
+  watched.search = CrossingSearch(std::move(triangles), mesh, kMeets * extent_);
   excuse(mesh, watched);
   return watched;
 }
 
+/// The same as in NewIntersections: those with a vertex at a triangle of a pair.
 void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
-  const std::vector<bool> touched =
-      touched_by(crossing(mesh, watched, watched.excused, {}), watched);
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    if (touched[i]) watched.excused[i] = true;
+  const CrossingSearch& search = watched.search;
+  std::vector<bool> there(is_skin_.size(), false);
+  for (const std::uint32_t v :
+       vertices_of(search.crossing(mesh, search.boxes_of(mesh), watched.excused), search)) {
+    there[v] = true;
   }
-}
-
-std::vector<SkinCrossings::Pair> SkinCrossings::crossing(const Positions& mesh,
-                                                         const Watched& watched,
-                                                         const std::vector<bool>& excused,
-                                                         const std::vector<bool>& changed) const {
-  const std::vector<std::uint32_t>& triangles = watched.triangles;
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
-  std::vector<std::uint8_t> fresh;
-  fresh.reserve(triangles.size());
-  Box all = kNoBox;
-  for (const std::uint32_t triangle : triangles) {
-    boxes.push_back(box_of(mesh, triangles_[triangle]));
-    const auto& [a, b, c] = triangles_[triangle];
-    const bool is_fresh = changed.empty() || changed[a] || changed[b] || changed[c];
-    fresh.push_back(is_fresh ? 1 : 0);
-    if (is_fresh) all.add(boxes.back());
+  for (std::size_t i = 0; i < watched.excused.size(); ++i) {
+    const auto& [a, b, c] = search.triangles()[i];
+    if (there[a] || there[b] || there[c]) watched.excused[i] = true;
   }
-  std::vector<Pair> pairs;
-  visit_meeting(boxes, fresh, all, static_cast<float>(kBar * extent_),
-                [&](std::uint32_t one, std::uint32_t other) {
-                  if (excused[one] && excused[other]) return;
-                  const Triangle &a = triangles_[triangles[one]], &b = triangles_[triangles[other]];
-                  if (have_common(a, b) || !triangles_intersect(mesh, a, b)) return;
-                  pairs.push_back({std::min(one, other), std::max(one, other)});
-                });
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
-std::vector<std::uint32_t> SkinCrossings::vertices_of(const std::vector<Pair>& pairs,
-                                                      const Watched& watched) const {
-  std::vector<std::uint32_t> vertices;
-  for (const Pair& pair : pairs) {
-    for (const std::uint32_t place : pair) {
-      const Triangle& corners = triangles_[watched.triangles[place]];
-      vertices.insert(vertices.end(), corners.begin(), corners.end());
-    }
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
-
-/// The same as in NewIntersections: those with a vertex at a triangle of the pairs.
-std::vector<bool> SkinCrossings::touched_by(const std::vector<Pair>& pairs,
-                                            const Watched& watched) const {
-  const std::vector<std::uint32_t> there = vertices_of(pairs, watched);
-  std::vector<bool> touched(watched.triangles.size(), false);
-  for (std::size_t i = 0; i < touched.size() && !there.empty(); ++i) {
-    const Triangle& corners = triangles_[watched.triangles[i]];
-    touched[i] = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
-      return std::binary_search(there.begin(), there.end(), v);
-    });
-  }
-  return touched;
 }
 
 int SkinCrossings::side_of(const Watched& watched, std::uint32_t place) const {
   if (watched.side.empty()) return 0;
-  for (const std::uint32_t v : triangles_[watched.triangles[place]]) {
+  for (const std::uint32_t v : watched.search.triangles()[place]) {
     if (watched.side[v] != 0) return watched.side[v];
   }
   return 0;
@@ -346,13 +213,13 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
   for (const Pair& pair : pairs) {
     std::array<Eigen::Vector3d, 2> middle;
     for (std::size_t k = 0; k < 2; ++k) {
-      const auto& [a, b, c] = triangles_[watched.triangles[pair[k]]];
+      const auto& [a, b, c] = watched.search.triangles()[pair[k]];
       middle[k] = row3(rest, a) + row3(rest, b) + row3(rest, c);
     }
     const Eigen::Vector3d between =
         unit3(unit3(middle[0] - middle[1]) + side_of(watched, pair[0]) * axes_.front);
     for (std::size_t k = 0; k < 2; ++k) {
-      for (const std::uint32_t v : triangles_[watched.triangles[pair[k]]]) {
+      for (const std::uint32_t v : watched.search.triangles()[pair[k]]) {
         wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? between : -between;
       }
     }
@@ -383,7 +250,7 @@ void SkinCrossings::even_out(const std::vector<Pair>& pairs, const Watched& watc
                              Displacements& shape, std::vector<bool>& changed) const {
   const double cell = grown * kCell * extent_, whole = grown * kEvened * extent_,
                none = grown * kNotEvened * extent_;
-  const std::vector<std::uint32_t> crossing = vertices_of(pairs, watched);
+  const std::vector<std::uint32_t> crossing = vertices_of(pairs, watched.search);
   Eigen::Vector3d low = row3(rest, crossing.front()), high = low;
   for (const std::uint32_t v : crossing) {
     low = low.cwiseMin(row3(rest, v));
@@ -418,42 +285,51 @@ void SkinCrossings::even_out(const std::vector<Pair>& pairs, const Watched& watc
   }
 }
 
-SkinCrossings::Watched SkinCrossings::watch_all(std::span<const Watched> shapes) const {
-  std::vector<bool> watched(triangles_.size(), false);
-  for (const Watched& shape : shapes) {
-    for (const std::uint32_t t : shape.triangles) watched[t] = true;
+CrossingSearch SkinCrossings::watch_all(const Positions& neutral,
+                                        std::span<const CrossingSearch* const> shapes) const {
+  std::vector<Triangle> all;
+  for (const CrossingSearch* shape : shapes) {
+    all.insert(all.end(), shape->triangles().begin(), shape->triangles().end());
   }
-  Watched all;
-  for (std::uint32_t t = 0; t < watched.size(); ++t) {
-    if (watched[t]) all.triangles.push_back(t);
-  }
-  all.excused.assign(all.triangles.size(), false);
-  return all;
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return {std::move(all), neutral, kMeets * extent_};
 }
 
-std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest, const Watched& all) const {
+std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
+                                                  const CrossingSearch& all) const {
   std::vector<bool> at(is_skin_.size(), false);
-  for (const std::uint32_t v : vertices_of(crossing(rest, all, all.excused, {}), all)) at[v] = true;
+  const std::vector<bool> none(all.triangles().size(), false);
+  for (const std::uint32_t v : vertices_of(all.crossing(rest, all.boxes_of(rest), none), all)) {
+    at[v] = true;
+  }
   return at;
 }
 
-void SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_rest,
-                         const Watched& watched, Positions& mesh, Displacements& shape) const {
-  if (watched.triangles.empty()) return;
+Index SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_rest,
+                          const Watched& watched, Positions& mesh, Displacements& shape) const {
+  const CrossingSearch& search = watched.search;
+  if (search.triangles().empty()) return 0;
   std::vector<bool> excused = watched.excused;
   for (std::size_t i = 0; i < excused.size(); ++i) {
-    const auto& [a, b, c] = triangles_[watched.triangles[i]];
+    const auto& [a, b, c] = search.triangles()[i];
     if (at_rest[a] || at_rest[b] || at_rest[c]) excused[i] = true;
   }
   shape.add_to(mesh);
-  std::vector<Pair> pairs = crossing(mesh, watched, excused, {});
-  if (!pairs.empty()) take_apart(rest, watched, excused, std::move(pairs), mesh, shape);
+  CrossingSearch::Boxes boxes = search.boxes_of(mesh);
+  std::vector<Pair> pairs = search.crossing(mesh, boxes, excused);
+  if (!watched.is_meant) take_apart(rest, watched, excused, boxes, pairs, mesh, shape);
   for (const std::uint32_t v : shape.vertices) mesh.row(v) = rest.row(v);
+  std::set<std::uint32_t> left;
+  for (const Pair& pair : pairs) left.insert(pair.begin(), pair.end());
+  return static_cast<Index>(left.size());
 }
 
 void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
-                               const std::vector<bool>& excused, std::vector<Pair> pairs,
-                               Positions& mesh, Displacements& shape) const {
+                               const std::vector<bool>& excused, CrossingSearch::Boxes& boxes,
+                               std::vector<Pair>& pairs, Positions& mesh,
+                               Displacements& shape) const {
+  if (pairs.empty()) return;
   const std::vector<Row> rows = rows_of(rest, shape);
   double grown = 1;
   for (int round = 0; round < kRounds && !pairs.empty(); ++round, grown += kGrowth) {
@@ -472,7 +348,8 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
       if (!changed[row.vertex]) continue;
       mesh.row(row.vertex) = rest.row(row.vertex) + shape.moves.row(row.row);
     }
-    pairs = crossing(mesh, watched, excused, changed);
+    watched.search.renew(mesh, changed, boxes);
+    pairs = watched.search.crossing(mesh, boxes, excused);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/parts/head_axes.h"
+#include "crowdface/shapes/crossing_search.h"
 
 namespace crowdface {
 
@@ -26,10 +27,11 @@ class SkinCrossings {
 
   /// Which skin of a shape is looked at: that which the shape brings, or may on a face bring, to other skin.
   struct Watched {
-    std::vector<std::uint32_t> triangles;
-    std::vector<bool> excused;  ///< #triangles: at crossings of the template's own
+    CrossingSearch search;
+    std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
     std::vector<signed char>
-        side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+        side;               ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+    bool is_meant = false;  ///< its crossings are counted and left
   };
   /// \param neutral  of the template, #V by 3
   Watched watch(const Positions& neutral, const Displacements& shape,
@@ -37,10 +39,11 @@ class SkinCrossings {
   /// Crossings in this mesh are to be found on faces as well.
   void excuse(const Positions& mesh, Watched& watched) const;
 
-  /// What is watched in any of the shapes.
-  Watched watch_all(std::span<const Watched> shapes) const;
+  /// What is watched in any of the shapes. \param neutral  of the template, #V by 3
+  CrossingSearch watch_all(const Positions& neutral,
+                           std::span<const CrossingSearch* const> shapes) const;
   /// #V: whether a vertex is one of triangles that pass through others in a face at rest.
-  std::vector<bool> crossing_at_rest(const Positions& rest, const Watched& all) const;
+  std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
 
   /// Makes a shape fit: displacements around crossings are evened out over what is near each other at rest, so
   /// that it stays as it lies there; and lids are pushed off each other. Crossings of the face at rest are
@@ -49,11 +52,12 @@ class SkinCrossings {
   /// \param at_rest  #V, see crossing_at_rest
   /// \param mesh     the same as `rest`; changed while it works
   /// \param shape    of the face
-  void mend(const Positions& rest, const std::vector<bool>& at_rest, const Watched& watched,
-            Positions& mesh, Displacements& shape) const;
+  /// \return         how many triangles still pass through others
+  Index mend(const Positions& rest, const std::vector<bool>& at_rest, const Watched& watched,
+             Positions& mesh, Displacements& shape) const;
 
  private:
-  using Pair = std::array<std::uint32_t, 2>;  ///< places among the watched triangles
+  using Pair = CrossingSearch::Pair;
   /// A row of the displacements that is skin.
   struct Row {
     Index row;
@@ -61,16 +65,10 @@ class SkinCrossings {
     Eigen::Vector3d rest;
   };
 
-  /// \param excused  #triangles: pairs of two such are left out
-  /// \param changed  #V: only pairs of which one has a vertex that changed; empty: all
-  std::vector<Pair> crossing(const Positions& mesh, const Watched& watched,
-                             const std::vector<bool>& excused,
-                             const std::vector<bool>& changed) const;
-  std::vector<bool> touched_by(const std::vector<Pair>& pairs, const Watched& watched) const;
-  std::vector<std::uint32_t> vertices_of(const std::vector<Pair>& pairs,
-                                         const Watched& watched) const;
+  /// \param pairs  that cross; those that are left, in the end
   void take_apart(const Positions& rest, const Watched& watched, const std::vector<bool>& excused,
-                  std::vector<Pair> pairs, Positions& mesh, Displacements& shape) const;
+                  CrossingSearch::Boxes& boxes, std::vector<Pair>& pairs, Positions& mesh,
+                  Displacements& shape) const;
   int side_of(const Watched& watched, std::uint32_t place) const;
   std::vector<Row> rows_of(const Positions& rest, const Displacements& shape) const;
   void push_apart(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/attach/fitted_skin.h"
+#include "crowdface/core/grouped.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/displacements.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// Moves what bends with the skin when a face's expression moves that: at places among the points the best turn, shift
+/// and scale of the skin around, as SmoothBend, but of skin alone that is near along the surface. A moustache does
+/// not hear of the lower lip.
+class ShapeBend {
+ public:
+  /// \param skin       must outlive this object.
+  /// \param adjacency  of the skin's mesh.
+  /// \param points     #P by 3, beside the fitted mesh.
+  ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Positions& points);
+
+  /// \param face    #V by 3, at rest
+  /// \param worn    #P by 3, on that face
+  /// \param shape   of the face
+  /// \return        of those points that hear of skin that the shape moves
+  Displacements in_shape(const Positions& face, const Positions& worn,
+                         const Displacements& shape) const;
+
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Share {
+    std::uint32_t place;
+    float weight;
+  };
+  std::vector<FittedSkin::Patch> places_;
+  Grouped<Share> shares_;  ///< #P
+};
+
+}  // namespace crowdface

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/load_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/gltf_rig.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
+#include "crowdface/parts/point_grid.h"
+
+namespace crowdface {
+namespace {
+
+/// How far a rig's vertex may be from the template's, as a share of its extent: 0.1 mm on a head.
+constexpr double kSame = 2e-4;
+constexpr double kMmPerMetre = 1000;
+
+/// From glTF's axes and metres, or from whatever the file was exported in, to the heads'.
+struct Frame {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  double scale = 1;
+
+  Eigen::Vector3d place(const Eigen::Vector3d& p) const { return scale * direction(p); }
+  Eigen::Vector3d direction(const Eigen::Vector3d& d) const {
+    return {dot3(turn.row(0).transpose(), d), dot3(turn.row(1).transpose(), d),
+            dot3(turn.row(2).transpose(), d)};
+  }
+};
+
+Frame from_gltf(const Config::Faces& faces) {
+  const Eigen::Vector3d up = unit_vector(faces.up), front = unit_vector(faces.front);
+  Frame frame;
+  frame.turn.col(0) = cross3(up, front);
+  frame.turn.col(1) = up;
+  frame.turn.col(2) = front;
+  frame.scale = kMmPerMetre / mm_per(faces.units);
+  return frame;
+}
+
+Positions in_frame(const Frame& frame, const Positions& points) {
+  Positions placed(points.rows(), 3);
+  for (Index p = 0; p < points.rows(); ++p) {
+    placed.row(p) = frame.place(row3(points, p)).transpose();
+  }
+  return placed;
+}
+
+/// For each vertex of the heads one of the rig's.
+struct Match {
+  std::vector<std::uint32_t> points;
+  std::size_t missing = 0;
+  double farthest = 0;  ///< of those missing, from the rig's nearest
+};
+
+Match match_by_id(const GltfRig& rig, Index vertices) {
+  Match match{std::vector<std::uint32_t>(static_cast<std::size_t>(vertices), kNoIndex)};
+  for (std::uint32_t p = 0; p < rig.vertex_ids.size(); ++p) {
+    const std::uint32_t id = rig.vertex_ids[p];
+    if (id < match.points.size() && match.points[id] == kNoIndex) match.points[id] = p;
+  }
+  match.missing =
+      static_cast<std::size_t>(std::count(match.points.begin(), match.points.end(), kNoIndex));
+  return match;
+}
+
+Match match_by_place(const PointGrid& grid, const Positions& mesh, double reach) {
+  Match match;
+  for (Index v = 0; v < mesh.rows(); ++v) {
+    const PointGrid::Nearest nearest = grid.nearest(row3(mesh, v));
+    match.points.push_back(nearest.vertex);
+    if (nearest.distance <= reach) continue;
+    ++match.missing;
+    match.farthest = std::max(match.farthest, nearest.distance);
+  }
+  return match;
+}
+
+/// Where the rig stands against the heads.
+struct Fit {
+  Frame frame;
+  Match match;
+  Positions mesh;  ///< of the heads' topology
+};
+
+Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
+  Fit fit{from_gltf(config.faces), match_by_id(rig, inputs.faces.topology.vertex_count), {}};
+  if (fit.match.missing > 0) {
+    throw InvalidInput(concat(config.rig.string(), ": its _VERTEX_ID tells ", fit.match.missing,
+                              " of the ", inputs.faces.topology.vertex_count,
+                              " vertices of the heads nothing; is it the whole mesh?"));
+  }
+  fit.mesh.resize(inputs.faces.topology.vertex_count, 3);
+  for (Index v = 0; v < fit.mesh.rows(); ++v) {
+    const std::uint32_t point = fit.match.points[static_cast<std::size_t>(v)];
+    fit.mesh.row(v) = fit.frame.place(row3(rig.points, point)).transpose();
+  }
+  return fit;
+}
+
+Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs) {
+  std::vector<const Positions*> meshes;
+  if (config.shapes.heads.empty() && !config.shapes.neutral.empty()) {
+    meshes.push_back(&inputs.shapes.neutral);
+  }
+  for (const Head& head : inputs.faces.heads) meshes.push_back(&head.positions);
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(rig.points.rows()));
+  std::iota(all.begin(), all.end(), 0U);
+  std::vector<std::uint32_t> vertices(static_cast<std::size_t>(inputs.faces.topology.vertex_count));
+  std::iota(vertices.begin(), vertices.end(), 0U);
+  Fit best;
+  for (const Frame& frame : {from_gltf(config.faces), Frame()}) {
+    const Positions points = in_frame(frame, rig.points);
+    const PointGrid grid(points, all);
+    for (const Positions* mesh : meshes) {
+      Match match = match_by_place(grid, *mesh, kSame * extent_of(*mesh, vertices));
+      if (best.mesh.rows() > 0 && match.missing >= best.match.missing) continue;
+      best = {frame, std::move(match), *mesh};
+      if (best.match.missing == 0) return best;
+    }
+  }
+  throw InvalidInput(concat(config.rig.string(), ": ", best.match.missing, " of the ",
+                            best.mesh.rows(),
+                            " vertices of the heads lie on no vertex of its meshes (one is ",
+                            format_fixed(best.match.farthest * mm_per(config.faces.units), 1),
+                            " mm off), neither on the shapes' template nor on any head; expected "
+                            "the rig of one of them, at rest"));
+}
+
+/// A joint's axes in the heads'. \throws InvalidInput if their lengths differ.
+Eigen::Matrix3d axes_of(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
+  constexpr double kAlike = 1e-3;
+  Eigen::Matrix3d axes;
+  std::array<double, 3> lengths;
+  for (Index c = 0; c < 3; ++c) {
+    const Eigen::Vector3d axis = frame.direction(joint.rest.col(c).head<3>());
+    lengths[static_cast<std::size_t>(c)] = length3(axis);
+    axes.col(c) = unit3(axis);
+  }
+  const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
+  const double turned = dot3(cross3(axes.col(0), axes.col(1)), axes.col(2));
+  if (!(*least > 0) || *most > (1 + kAlike) * *least || std::abs(turned - 1) > kAlike) {
+    throw InvalidInput(concat(config.rig.string(), ": the joint ", quoted(joint.name),
+                              " is scaled by its axes differently, mirrored or sheared; expected "
+                              "a rig whose scale is applied"));
+  }
+  return axes;
+}
+
+Rig bind(const GltfRig& file, Fit fit, const Config& config) {
+  Rig rig;
+  const auto count = static_cast<Index>(file.joints.size());
+  Positions places(count, 3);
+  for (std::size_t j = 0; j < file.joints.size(); ++j) {
+    const GltfRig::Joint& joint = file.joints[j];
+    rig.skin.joints.push_back({joint.name, joint.parent, axes_of(joint, fit.frame, config)});
+    rig.points.names.push_back(joint.name);
+    places.row(static_cast<Index>(j)) = fit.frame.place(joint.rest.col(3).head<3>()).transpose();
+  }
+  for (const std::uint32_t point : fit.match.points) {
+    rig.skin.influences.add_group(file.influences.of(point));
+  }
+  rig.points.positions = {std::move(places)};
+  rig.points.meshes = {std::move(fit.mesh)};
+  return rig;
+}
+
+Digest digest_of(const Rig& rig) {
+  Hasher hasher;
+  for (const GlbJoint& joint : rig.skin.joints) {
+    hasher.add(joint.name).add(joint.parent);
+    hasher.add_array(std::span<const double>(joint.rotation.data(), 9));
+  }
+  for (const Influence& one : rig.skin.influences.items) {
+    hasher.add(one.joint).add(static_cast<double>(one.weight));
+  }
+  hasher.add_array(std::span<const std::uint32_t>(rig.skin.influences.offsets));
+  for (const Positions* rows : {&rig.points.positions.front(), &rig.points.meshes.front()}) {
+    hasher.add_array(std::span<const double>(rows->data(), static_cast<std::size_t>(rows->size())));
+  }
+  return hasher.digest();
+}
+
+}  // namespace
+
+void load_rig(const Config& config, Inputs& inputs, Problems& problems) {
+  if (config.rig.empty()) return;
+  try {
+    constexpr std::size_t kMostJoints = 65535;
+    const GltfRig file = read_gltf_rig(config.rig);
+    if (file.joints.size() > kMostJoints) {
+      throw InvalidInput(concat(config.rig.string(), ": expected at most ", kMostJoints,
+                                " joints, found ", file.joints.size()));
+    }
+    inputs.rig = bind(file,
+                      file.vertex_ids.empty() ? fit_by_place(file, config, inputs)
+                                              : fit_by_id(file, config, inputs),
+                      config);
+    inputs.rig.digest = digest_of(inputs.rig);
+  } catch (const Error& error) {
+    problems.add(error);
+  }
+}
+
+}  // namespace crowdface

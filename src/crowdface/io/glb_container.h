@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "crowdface/io/little_endian.h"
+
+namespace crowdface {
+
+/// The container of binary glTF 2.0: a header, a chunk of JSON, a chunk with the buffer.
+namespace glb {
+inline constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2;  // "glTF"
+inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+inline constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
+/// What stands around the JSON text before the buffer.
+inline constexpr std::size_t kBinaryHeader = kFileHeader + 2 * kChunkHeader;
+}  // namespace glb
+
+struct GlbChunks {
+  std::string_view json, binary;
+};
+
+/// None if the bytes are no such file, or cut off.
+inline std::optional<GlbChunks> glb_chunks(std::string_view bytes) {
+  using namespace glb;
+  if (bytes.size() < kBinaryHeader || number_at<std::uint32_t>(bytes.data()) != kMagic ||
+      number_at<std::uint32_t>(bytes.data() + 4) != kVersion) {
+    return std::nullopt;
+  }
+  const std::size_t json = number_at<std::uint32_t>(bytes.data() + kFileHeader);
+  if (json > bytes.size() - kBinaryHeader) return std::nullopt;
+  const std::size_t binary =
+      number_at<std::uint32_t>(bytes.data() + kFileHeader + kChunkHeader + json);
+  if (binary > bytes.size() - kBinaryHeader - json) return std::nullopt;
+  return GlbChunks{bytes.substr(kFileHeader + kChunkHeader, json),
+                   bytes.substr(kBinaryHeader + json, binary)};
+}
+
+}  // namespace crowdface

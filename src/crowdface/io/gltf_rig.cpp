@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/gltf_rig.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/glb_container.h"
+#include "crowdface/io/little_endian.h"
+
+namespace crowdface {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A glTF scene and its buffer, with messages that name the file.
+class GltfFile {
+ public:
+  explicit GltfFile(const std::filesystem::path& path) : path_(path.string()), file_(path) {
+    const auto chunks = glb_chunks(file_.bytes());
+    if (!chunks) fail("expected a binary glTF 2.0 file (GLB), found another");
+    scene_ = Json::parse(chunks->json, nullptr, false);
+    binary_ = chunks->binary;
+    if (!scene_.is_object()) fail("its JSON cannot be read");
+  }
+
+  const Json& scene() const { return scene_; }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InvalidInput(concat(path_, ": ", what));
+  }
+
+  /// The numbers of an accessor, row after row; those that are normalized as what they stand for.
+  std::vector<double> numbers(std::size_t accessor, std::size_t width) const {
+    const Json& json = scene_.at("accessors").at(accessor);
+    if (json.contains("sparse") || !json.contains("bufferView")) {
+      fail(concat("accessor ", accessor, " is sparse, which is not read here"));
+    }
+    const Json& view = scene_.at("bufferViews").at(json.at("bufferView").get<std::size_t>());
+    const auto type = json.at("componentType").get<int>();
+    const std::size_t size = type == 5121 || type == 5120   ? 1
+                             : type == 5123 || type == 5122 ? 2
+                                                            : 4;
+    const std::size_t count = json.at("count").get<std::size_t>();
+    const std::size_t stride = view.value("byteStride", size * width);
+    const std::size_t begin =
+        view.value("byteOffset", std::size_t{0}) + json.value("byteOffset", std::size_t{0});
+    if (view.value("buffer", 0) != 0 || count == 0 || begin > binary_.size() ||
+        stride > binary_.size() || count > binary_.size() ||
+        begin + (count - 1) * stride + size * width > binary_.size()) {
+      fail(concat("accessor ", accessor, " lies outside the file's own buffer"));
+    }
+    const double unit = !json.value("normalized", false) ? 1 : size == 1 ? 1.0 / 255 : 1.0 / 65535;
+    std::vector<double> numbers;
+    numbers.reserve(count * width);
+    for (std::size_t row = 0; row < count; ++row) {
+      const char* at = binary_.data() + begin + row * stride;
+      for (std::size_t c = 0; c < width; ++c, at += size) {
+        numbers.push_back(unit * number(at, type, accessor));
+      }
+    }
+    return numbers;
+  }
+
+ private:
+  double number(const char* at, int type, std::size_t accessor) const {
+    switch (type) {
+      case 5121:
+        return number_at<std::uint8_t>(at);
+      case 5123:
+        return number_at<std::uint16_t>(at);
+      case 5125:
+        return number_at<std::uint32_t>(at);
+      case 5126:
+        return static_cast<double>(number_at<float>(at));
+      default:
+        fail(concat("accessor ", accessor, " has numbers of the unexpected type ", type));
+    }
+  }
+
+  std::string path_;
+  MappedFile file_;
+  Json scene_;
+  std::string_view binary_;
+};
+
+Eigen::Matrix4d matrix_from(const std::vector<double>& columns) {
+  Eigen::Matrix4d matrix;
+  for (Index c = 0; c < 4; ++c) {
+    for (Index r = 0; r < 4; ++r) matrix(r, c) = columns[static_cast<std::size_t>(4 * c + r)];
+  }
+  return matrix;
+}
+
+/// Written out: a library's product chooses its order by the machine.
+Eigen::Matrix4d times(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b) {
+  Eigen::Matrix4d product;
+  for (Index r = 0; r < 4; ++r) {
+    for (Index c = 0; c < 4; ++c) {
+      product(r, c) = a(r, 0) * b(0, c) + a(r, 1) * b(1, c) + a(r, 2) * b(2, c) + a(r, 3) * b(3, c);
+    }
+  }
+  return product;
+}
+
+Eigen::Matrix4d local_matrix(const Json& node) {
+  if (node.contains("matrix")) return matrix_from(node.at("matrix").get<std::vector<double>>());
+  const auto t = node.value("translation", std::vector<double>{0, 0, 0});
+  const auto q = node.value("rotation", std::vector<double>{0, 0, 0, 1});
+  const auto s = node.value("scale", std::vector<double>{1, 1, 1});
+  const double x = q.at(0), y = q.at(1), z = q.at(2), w = q.at(3);
+  Eigen::Matrix4d matrix;
+  matrix << s.at(0) * (1 - 2 * (y * y + z * z)), s.at(1) * 2 * (x * y - z * w),
+      s.at(2) * 2 * (x * z + y * w), t.at(0),  //
+      s.at(0) * 2 * (x * y + z * w), s.at(1) * (1 - 2 * (x * x + z * z)),
+      s.at(2) * 2 * (y * z - x * w), t.at(1),  //
+      s.at(0) * 2 * (x * z - y * w), s.at(1) * 2 * (y * z + x * w),
+      s.at(2) * (1 - 2 * (x * x + y * y)), t.at(2),  //
+      0, 0, 0, 1;
+  return matrix;
+}
+
+class RigReader {
+ public:
+  explicit RigReader(const std::filesystem::path& path) : file_(path) {
+    const Json& nodes = file_.scene().at("nodes");
+    parents_.assign(nodes.size(), kNoIndex);
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      for (const Json& child : nodes[n].value("children", Json::array())) {
+        parents_.at(child.get<std::size_t>()) = n;
+      }
+    }
+    joint_of_.assign(nodes.size(), kNoIndex);
+    for (const Json& skin : file_.scene().value("skins", Json::array())) {
+      for (const Json& joint : skin.at("joints")) joint_of_.at(joint.get<std::size_t>()) = 0;
+    }
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      if (joint_of_[n] == kNoIndex) continue;
+      joint_of_[n] = static_cast<std::uint32_t>(rig_.joints.size());
+      rig_.joints.push_back({nodes[n].value("name", concat("joint_", n)), 0, world(n)});
+    }
+    if (rig_.joints.empty()) file_.fail("expected a mesh that is bound to joints, found no skin");
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      if (joint_of_[n] != kNoIndex) rig_.joints[joint_of_[n]].parent = joint_above(parents_[n]);
+    }
+  }
+
+  GltfRig read() {
+    const Json& nodes = file_.scene().at("nodes");
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      if (!nodes[n].contains("mesh")) continue;
+      const Json& mesh = file_.scene().at("meshes").at(nodes[n].at("mesh").get<std::size_t>());
+      std::optional<std::size_t> skin;
+      if (nodes[n].contains("skin")) skin = nodes[n].at("skin").get<std::size_t>();
+      // Primitives may share their vertices.
+      std::map<std::size_t, bool> read;
+      for (const Json& primitive : mesh.at("primitives")) {
+        const auto positions = primitive.at("attributes").at("POSITION").get<std::size_t>();
+        if (read.emplace(positions, true).second) add(primitive.at("attributes"), n, skin);
+      }
+    }
+    rig_.points.resize(static_cast<Index>(points_.size()), 3);
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      rig_.points.row(static_cast<Index>(p)) = points_[p].transpose();
+    }
+    if (rig_.vertex_ids.size() != points_.size()) rig_.vertex_ids.clear();
+    return std::move(rig_);
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { file_.fail(what); }
+
+ private:
+  Eigen::Matrix4d world(std::uint32_t node) const {
+    Eigen::Matrix4d matrix = local_matrix(file_.scene().at("nodes")[node]);
+    std::size_t steps = 0;
+    for (std::uint32_t n = parents_[node]; n != kNoIndex; n = parents_[n]) {
+      if (++steps > parents_.size()) file_.fail("its nodes hang on each other in a circle");
+      matrix = times(local_matrix(file_.scene().at("nodes")[n]), matrix);
+    }
+    return matrix;
+  }
+  std::uint32_t joint_above(std::uint32_t node) const {
+    while (node != kNoIndex && joint_of_[node] == kNoIndex) node = parents_[node];
+    return node == kNoIndex ? kNoIndex : joint_of_[node];
+  }
+
+  void add(const Json& attributes, std::uint32_t node, std::optional<std::size_t> skin) {
+    const std::vector<double> places =
+        file_.numbers(attributes.at("POSITION").get<std::size_t>(), 3);
+    const std::size_t count = places.size() / 3;
+    if (attributes.contains("_VERTEX_ID")) {
+      for (const double id : file_.numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1)) {
+        rig_.vertex_ids.push_back(static_cast<std::uint32_t>(id));
+      }
+    }
+    if (skin) return add_skinned(attributes, places, file_.scene().at("skins").at(*skin));
+    const std::uint32_t joint = joint_above(node);
+    if (joint == kNoIndex) {
+      file_.fail(concat("the mesh of its node ", node, " is bound to no joint and hangs on none"));
+    }
+    const Eigen::Matrix4d place = world(node);
+    for (std::size_t p = 0; p < count; ++p) {
+      points_.push_back(moved(place, &places[3 * p]));
+      rig_.influences.add_group(std::array{Influence{joint, 1}});
+    }
+  }
+
+  static Eigen::Vector3d moved(const Eigen::Matrix4d& by, const double* p) {
+    Eigen::Vector3d to;
+    for (Index r = 0; r < 3; ++r) {
+      to[r] = by(r, 0) * p[0] + by(r, 1) * p[1] + by(r, 2) * p[2] + by(r, 3);
+    }
+    return to;
+  }
+
+  void add_skinned(const Json& attributes, const std::vector<double>& places, const Json& skin) {
+    std::vector<std::uint32_t> joints;
+    for (const Json& joint : skin.at("joints")) {
+      joints.push_back(joint_of_[joint.get<std::size_t>()]);
+    }
+    std::vector<Eigen::Matrix4d> at_rest;
+    std::vector<double> inverses;
+    if (skin.contains("inverseBindMatrices")) {
+      inverses = file_.numbers(skin.at("inverseBindMatrices").get<std::size_t>(), 16);
+      if (inverses.size() < 16 * joints.size()) file_.fail("a skin lacks inverse bind matrices");
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      at_rest.push_back(rig_.joints[joints[j]].rest);
+      if (inverses.empty()) continue;
+      const auto first = inverses.begin() + static_cast<std::ptrdiff_t>(16 * j);
+      at_rest.back() = times(at_rest.back(), matrix_from({first, first + 16}));
+    }
+    const std::size_t count = places.size() / 3;
+    std::vector<std::vector<double>> bound, weights;
+    for (std::size_t set = 0; attributes.contains(concat("JOINTS_", set)); ++set) {
+      const std::string of_weights = concat("WEIGHTS_", set);
+      if (!attributes.contains(of_weights)) file_.fail(concat("a mesh lacks ", of_weights));
+      bound.push_back(file_.numbers(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
+      weights.push_back(file_.numbers(attributes.at(of_weights).get<std::size_t>(), 4));
+      if (bound.back().size() != 4 * count || weights.back().size() != 4 * count) {
+        file_.fail("JOINTS_n, WEIGHTS_n and POSITION differ in length");
+      }
+    }
+    for (std::size_t p = 0; p < count; ++p) {
+      std::map<std::uint32_t, double> of_point;
+      double sum = 0;
+      Eigen::Vector3d place = Eigen::Vector3d::Zero();
+      for (std::size_t i = 0; i < 4 * bound.size(); ++i) {
+        const double weight = weights[i / 4][4 * p + i % 4];
+        if (!(weight > 0)) continue;
+        const auto joint = static_cast<std::size_t>(bound[i / 4][4 * p + i % 4]);
+        if (joint >= joints.size()) file_.fail(concat("a vertex is bound to the joint ", joint));
+        of_point[joints[joint]] += weight;
+        place += weight * moved(at_rest[joint], &places[3 * p]);
+        sum += weight;
+      }
+      if (!(sum > 0)) file_.fail(concat("its vertex ", p, " is bound to no joint"));
+      points_.emplace_back(place / sum);
+      std::vector<Influence> influences;
+      for (const auto& [joint, weight] : of_point) {
+        influences.push_back({joint, static_cast<float>(weight / sum)});
+      }
+      rig_.influences.add_group(influences);
+    }
+  }
+
+  GltfFile file_;
+  std::vector<std::uint32_t> parents_, joint_of_;  ///< #nodes
+  std::vector<Eigen::Vector3d> points_;
+  GltfRig rig_;
+};
+
+}  // namespace
+
+GltfRig read_gltf_rig(const std::filesystem::path& path) {
+  try {
+    return RigReader(path).read();
+  } catch (const Json::exception& error) {
+    throw InvalidInput(concat(path.string(), ": not a scene that glTF 2.0 allows: ", error.what()));
+  } catch (const std::out_of_range&) {
+    throw InvalidInput(concat(path.string(), ": it speaks of a node that it does not have"));
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/triangles.h"
+
+namespace crowdface {
+
+/// Looks for triangles that pass through others, in one mesh after the other of the same topology. Triangles
+/// stand in leaves of eight that lie together; which leaves may meet, and which of their triangles, is found once, on
+/// one mesh. Of each mesh then only boxes are made and compared.
+class CrossingSearch {
+ public:
+  using Pair = std::array<std::uint32_t, 2>;  ///< numbers of triangles, ascending
+  static constexpr std::size_t kLeaf = 8;     ///< triangles in a leaf
+
+  CrossingSearch() = default;
+  /// \param triangles  those that are looked at
+  /// \param mesh       #V by 3, on which others' leaves are looked for
+  /// \param reach      how near to each other they are there, if they may ever meet
+  /// Triangles of one sheet, a few edges apart and facing alike in `mesh`, are never asked about.
+  CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach);
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  struct Box {
+    std::array<float, 3> low, high;
+  };
+  /// Those of a leaf's triangles, side by side for the processor; where it has fewer, boxes that nothing meets.
+  struct LeafBoxes {
+    std::array<std::array<float, kLeaf>, 3> low, high;
+  };
+  /// Of one mesh: what is kept between two looks at it.
+  struct Boxes {
+    std::vector<LeafBoxes> triangles;  ///< #leaves
+    std::vector<Box> leaves;
+    std::vector<std::uint8_t> is_new;  ///< #leaves: since the last look
+  };
+  Boxes boxes_of(const Positions& mesh) const;
+  /// \param changed  #V: vertices that moved since then
+  void renew(const Positions& mesh, const std::vector<bool>& changed, Boxes& boxes) const;
+
+  /// Pairs that pass through each other, ascending, of which one is new.
+  /// \param excused  #triangles: pairs of two such are left out
+  std::vector<Pair> crossing(const Positions& mesh, const Boxes& boxes,
+                             const std::vector<bool>& excused) const;
+
+ private:
+  /// Of two leaves, maybe of one with itself: bit 8 i + j says whether triangle i of the first is asked about with
+  /// triangle j of the second.
+  struct Near {
+    std::uint32_t one, other;
+    std::uint64_t asked;
+  };
+  void add_leaves(std::span<std::uint32_t> numbers, const Positions& places);
+  std::span<const std::uint32_t> leaf(std::size_t l) const {
+    return {order_.data() + begins_[l], order_.data() + begins_[l + 1]};
+  }
+  void find_near(const Positions& mesh, double reach);
+  void measure(const Positions& mesh, std::size_t leaf, Boxes& boxes) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> order_;         ///< numbers of triangles, leaf after leaf
+  std::vector<std::uint32_t> begins_ = {0};  ///< #leaves + 1, in `order_`
+  std::vector<Near> near_;
+};
+
+}  // namespace crowdface

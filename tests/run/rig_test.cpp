@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// A template's rig on the faces of a crowd.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/glb_template.h"
+#include "crowdface/io/gltf_rig.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/run/generate.h"
+#include "crowdface/run/glb_form.h"
+#include "crowdface/run/pipeline.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/mesh_files.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// The head ann with a neck, and a jaw that hangs on it; what is lower hears more of the jaw.
+class RigOfACrowd : public ::testing::Test {
+ protected:
+  RigOfACrowd() : folder_(crowd("")) {
+    const Job job = load_job(folder_.config(), {}, folder_.cache());
+    const Positions& ann = job.inputs.faces.heads.front().positions;
+    GlbOptions options = glb_options(job.config, job.inputs);
+    Eigen::Matrix3d turned;
+    turned << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+    options.skin.joints = {{"neck", kNoIndex, turned}, {"jaw", 0, Eigen::Matrix3d::Identity()}};
+    const double low = ann.col(1).minCoeff(), high = ann.col(1).maxCoeff();
+    for (Index v = 0; v < ann.rows(); ++v) {
+      const auto jaw = static_cast<float>((high - ann(v, 1)) / (high - low));
+      std::vector<Influence> of;
+      if (jaw < 1) of.push_back({0, 1 - jaw});
+      if (jaw > 0) of.push_back({1, jaw});
+      options.skin.influences.add_group(of);
+    }
+    Positions joints(2, 3);
+    joints << 0, -2, -0.5, 0.25, -0.5, 0.5;
+    const Topology& topology = job.inputs.faces.topology;
+    const GlbTemplate form(topology, job.inputs.faces.uvs, options);
+    form.encode(ann, vertex_normals(NormalFans(topology), topology, ann), "rig", {}, {}, {}, {},
+                joints)
+        .write(folder_.folder() / "rig.glb");
+    write_file(folder_.config(), testing::read_text(folder_.config()) + "\nrig: rig.glb\n");
+  }
+  static SmallCrowd crowd(const std::string& more) {
+    SmallCrowd crowd;
+    crowd.count = 2;
+    crowd.levels = "basis";
+    crowd.more = more +
+                 "\nrecipes: [{id: herself, target: ann, regions: {all: {iterations: 0, "
+                 "extrapolation: 1}}}]";
+    return crowd;
+  }
+  void run(std::vector<std::string> set = {}) {
+    ConfigOverrides overrides;
+    overrides.set = std::move(set);
+    overrides.set.push_back("output.meshes=[glb]");
+    generate(folder_.config(), overrides, {folder_.cache(), Replace::kForce, false});
+  }
+  fs::path mesh(const std::string& id) const { return folder_.out() / "meshes" / (id + ".glb"); }
+  fs::path rig() const { return folder_.folder() / "rig.glb"; }
+  /// A file whose jaw is open by 30 degrees, about its x axis.
+  fs::path with_open_jaw(const fs::path& file) const {
+    std::string bytes = testing::read_text(file);
+    const std::size_t node = bytes.find("\"name\":\"jaw\"");
+    const std::size_t at = bytes.find("\"rotation\":[", node);
+    const std::size_t end = bytes.find(']', at);
+    // In the neck's axes, which are turned by a right angle about z.
+    std::string turn = "\"rotation\":[0.1830127,-0.1830127,-0.6830127,0.6830127";
+    EXPECT_LE(turn.size(), end - at);
+    turn.resize(end - at, ' ');
+    bytes.replace(at, end - at, turn);
+    const fs::path opened = folder_.folder() / "opened.glb";
+    write_file(opened, bytes);
+    return opened;
+  }
+
+  SmallCrowdFolder folder_;
+};
+
+TEST_F(RigOfACrowd, StandsOnTheTemplateAsItWas) {
+  run();
+  const GltfRig given = read_gltf_rig(rig()), own = read_gltf_rig(mesh("herself"));
+  ASSERT_EQ(own.joints.size(), 2U);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_EQ(own.joints[j].name, given.joints[j].name);
+    EXPECT_EQ(own.joints[j].parent, given.joints[j].parent);
+    EXPECT_LT((own.joints[j].rest - given.joints[j].rest).cwiseAbs().maxCoeff(), 1e-5) << j;
+  }
+  EXPECT_LT((own.points - given.points).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST_F(RigOfACrowd, BendsFacesAsTheTemplate) {
+  run();
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const fs::path file = mesh(line.at("id"));
+    const GltfRig rest = read_gltf_rig(file), given = read_gltf_rig(rig());
+    const GltfRig open = read_gltf_rig(with_open_jaw(file));
+    const Eigen::Vector3d pivot = rest.joints[1].rest.col(3).head<3>();
+    double moved = 0;
+    for (Index v = 0; v < rest.points.rows(); ++v) {
+      const auto of = rest.influences.of(v);
+      ASSERT_EQ(of.size(), given.influences.of(v).size());
+      double jaw = 0;
+      for (const Influence& one : of) {
+        if (one.joint == 1) jaw = static_cast<double>(one.weight);
+      }
+      const Eigen::Vector3d from = row3(rest.points, v) - pivot;
+      const Eigen::Vector3d turned(from.x(), std::cos(M_PI / 6) * from.y() - 0.5 * from.z(),
+                                   0.5 * from.y() + std::cos(M_PI / 6) * from.z());
+      const Eigen::Vector3d wanted = pivot + (1 - jaw) * from + jaw * turned;
+      EXPECT_LT(length3(row3(open.points, v) - wanted), 1e-5);
+      moved = std::max(moved, length3(row3(open.points, v) - row3(rest.points, v)));
+    }
+    EXPECT_GT(moved, 1e-3);
+  }
+}
+
+TEST_F(RigOfACrowd, IsFoundByPlaceWithoutVertexIds) {
+  std::string bytes = testing::read_text(rig());
+  replace_all(bytes, "_VERTEX_ID", "_SOMETHING");
+  write_file(rig(), bytes);
+  run();
+  const GltfRig own = read_gltf_rig(mesh("herself")), given = read_gltf_rig(rig());
+  EXPECT_LT((own.points - given.points).cwiseAbs().maxCoeff(), 1e-5);
+  for (Index v = 0; v < own.points.rows(); ++v) {
+    ASSERT_EQ(own.influences.of(v).size(), given.influences.of(v).size());
+    EXPECT_EQ(own.influences.of(v)[0].weight, given.influences.of(v)[0].weight);
+  }
+}
+
+TEST_F(RigOfACrowd, OfAnotherMeshIsRefused) {
+  std::string bytes = testing::read_text(rig());
+  replace_all(bytes, "_VERTEX_ID", "_SOMETHING");
+  write_file(rig(), bytes);
+  // Metres are then no longer what they were.
+  testing::expect_error(ExitCode::kBadData, {"rig.glb", "lie on no vertex"},
+                        [&] { run({"faces.units=mm"}); });
+  write_file(rig(), bytes.substr(0, bytes.size() / 2));
+  testing::expect_error(ExitCode::kBadData, {"rig.glb", "GLB"}, [&] { run(); });
+}
+
+}  // namespace
+}  // namespace crowdface
