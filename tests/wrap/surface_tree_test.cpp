@@ -40,6 +40,36 @@ TEST(SurfaceTree, FindsWhatASearchThroughAllTrianglesFinds) {
   }
 }
 
+TEST(SurfaceTree, FindsTheNearestThatFacesAWayWhateverIsGuessed) {
+  const SyntheticHeads heads(5000);
+  const Positions positions = heads.positions(1, 1);
+  const std::vector<Triangle> triangles = triangles_of(heads.topology());
+  const Positions normals = vertex_normals(triangles, positions);
+  const SurfaceTree tree(positions, triangles);
+  const Positions points = 15 * random_positions(60, 3), ways = random_positions(60, 4);
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3d point = points.row(i).transpose();
+    const Eigen::Vector3d way = ways.row(i).normalized().transpose();
+    SurfaceHit expected;
+    expected.distance = 1e300;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      const auto& [a, b, c] = triangles[t];
+      const Eigen::RowVector3d facing = normals.row(a) + normals.row(b) + normals.row(c);
+      if (facing.normalized() * way < 0.5) continue;
+      SurfaceHit hit = nearest_on_triangle(positions, triangles[t], point);
+      hit.triangle = t;
+      if (hit.distance < expected.distance) expected = hit;
+    }
+    const auto other = static_cast<std::uint32_t>((i * 97) % static_cast<Index>(triangles.size()));
+    for (const std::uint32_t guess : {kNoIndex, expected.triangle, other}) {
+      const SurfaceHit found = tree.nearest_facing(point, way, 0.5, 1e300, guess);
+      EXPECT_EQ(found.triangle, expected.triangle);
+      EXPECT_EQ(found.distance, expected.distance);
+      EXPECT_EQ(tree.nearest(point, 1e300, guess).triangle, tree.nearest(point, 1e300).triangle);
+    }
+  }
+}
+
 TEST(SurfaceTree, AHitIsTheWeightedMeanOfItsCorners) {
   Positions corners(3, 3);
   corners << 0, 0, 0, 2, 0, 0, 0, 2, 0;

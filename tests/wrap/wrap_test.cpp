@@ -2,6 +2,7 @@
 #include "crowdface/wrap/wrap.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -124,6 +125,42 @@ TEST(Wrap, ALargeSkinIsBentByWayOfAReducedOne) {
   const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
   EXPECT_LT(percentile(errors_of(head, truth, result), 0.5), 1.9);
   EXPECT_LT(distances_of(shape, result).percentile_95, 0.5);
+  EXPECT_EQ(result.flipped, 0);
+}
+
+/// The scan's surface, pores and all, from a template of as many vertices that has none.
+TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
+  const Index vertices = 40000;
+  const TemplateOptions options{.most_vertices = 8000, .reduced_vertices = 5000};
+  const WrapTemplate shape = synthetic(vertices, 1, options),
+                     head = synthetic(vertices, 2, options);
+  const Positions skin = head.skin.of(head.positions);
+  const Positions normals = vertex_normals(head.skin.triangles, skin);
+  std::vector<double> edges;
+  for (const Triangle& t : head.skin.triangles) {
+    if (head.skin.openness[t[0]] > 0.3) edges.push_back((skin.row(t[0]) - skin.row(t[1])).norm());
+  }
+  // Pits and bumps two edges across, and so four from pit to pit.
+  const double wave = 1.57 / percentile(edges, 0.5);
+  Scan scan{skin, head.skin.triangles};
+  double relief = 0;
+  for (Index v = 0; v < skin.rows(); ++v) {
+    const double height = 0.3 * std::sin(wave * skin(v, 0)) * std::sin(wave * skin(v, 1));
+    scan.positions.row(v) += height * normals.row(v);
+    relief += height * height / static_cast<double>(skin.rows());
+  }
+  std::vector<WrapLandmark> landmarks = spread_landmarks(head, 16);
+  for (WrapLandmark& landmark : landmarks) {
+    landmark.place = head.positions.row(landmark.vertex).transpose();
+  }
+  const WrapResult result = wrap(shape, nullptr, scan, landmarks, std::nullopt);
+  double missed = 0, count = 0;
+  for (std::size_t v = 0; v < shape.skin.vertices.size(); ++v) {
+    if (shape.skin.openness[v] < 0.3 || result.without_data[v]) continue;
+    missed += std::pow(result.distance_mm(static_cast<Index>(v)), 2);
+    ++count;
+  }
+  EXPECT_LT(std::sqrt(missed / count), 0.35 * std::sqrt(relief));
   EXPECT_EQ(result.flipped, 0);
 }
 

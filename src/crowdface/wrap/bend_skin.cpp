@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
@@ -19,10 +17,9 @@ namespace {
 constexpr double kLeastCosine = 0.5;      // normals within 60°
 constexpr double kLeastOpenness = 0.04;   // a vertex that sees less is inside
 constexpr double kOpennessOfSkin = 0.25;  // from here on the scan counts in full
-constexpr std::size_t kMostScanPoints = 30000;
+constexpr std::size_t kMostScanPoints = 8000;
 constexpr double kLeastSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
 constexpr double kEndMm = 200, kRimReachMm = 15;
-constexpr double kPrior = 1000;  ///< mm⁴: how the model's coefficients are held, against bending
 
 /// What one vertex, or one point of the scan, found.
 struct Pull {
@@ -50,17 +47,14 @@ double spread_of(const std::vector<Pull>& pulls, double least) {
 /// Everything that stays the same while one skin is bent onto one scan.
 class Bending {
  public:
-  Bending(const SkinMesh& skin, const Positions& base, const ShapeModel& model,
-          const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
-          const BendOptions& options)
+  Bending(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
+          const std::vector<WrapLandmark>& landmarks, const BendOptions& options)
       : skin_(skin),
-        model_(model),
         scan_(scan),
         landmarks_(landmarks),
         options_(options),
         base_(base),
         displacements_(Positions::Zero(base.rows(), 3)),
-        coefficients_(Eigen::VectorXd::Zero(static_cast<Index>(model.modes.size()))),
         areas_(vertex_areas(skin.triangles, base)),
         laplacian_(laplacian(skin.triangles, base)),
         scan_areas_(vertex_areas(scan.scan().triangles, scan.scan().positions)) {
@@ -71,6 +65,8 @@ class Bending {
     }
     choose_scan_points();
     choose_rims();
+    found_on_scan_.assign(visible_.size(), kNoIndex);
+    found_on_skin_.resize(scan_points_.size());
   }
 
   Positions run() {
@@ -147,19 +143,20 @@ class Bending {
                    landmark.place - base_.row(landmark.vertex).transpose());
       }
       solver.solve(wishes, {}, displacements_);
-      take_up_model(stiffness);
     }
   }
 
   /// What the scan nearest to each vertex asks of it.
-  void ask_scan(const Positions& current, double reach, double tangential, Wishes& wishes) const {
+  void ask_scan(const Positions& current, double reach, double tangential, Wishes& wishes) {
     const Positions normals = vertex_normals(skin_.triangles, current);
     std::vector<Pull> pulls(visible_.size());
     parallel_for_each(static_cast<std::uint32_t>(pulls.size()), 128, [&](std::uint32_t v) {
       const double seen = visible_[v];
       if (seen == 0) return;
       const Eigen::Vector3d point = row3(current, v);
-      const auto place = scan_.nearest(point, row3(normals, v), kLeastCosine, reach);
+      const auto place =
+          scan_.nearest(point, row3(normals, v), kLeastCosine, reach, found_on_scan_[v]);
+      found_on_scan_[v] = place.triangle;
       if (place.found) pulls[v] = {true, place.normal, place.point - point, areas_(v) * seen};
     });
     const double spread = spread_of(pulls, kLeastSpread * reach);
@@ -173,15 +170,16 @@ class Bending {
   }
 
   /// What points of the scan ask of the skin nearest to them.
-  void ask_skin(const Positions& current, double reach, double tangential, Wishes& wishes) const {
+  void ask_skin(const Positions& current, double reach, double tangential, Wishes& wishes) {
     const SurfaceTree tree(current, skin_.triangles);
     std::vector<Pull> pulls(scan_points_.size());
-    std::vector<SurfaceHit> hits(scan_points_.size());
+    std::vector<SurfaceHit>& hits = found_on_skin_;
     parallel_for_each(pulls.size(), 128, [&](std::size_t i) {
       const std::uint32_t s = scan_points_[i];
       const Eigen::Vector3d point = row3(scan_.scan().positions, s);
       const Eigen::Vector3d normal = row3(scan_.normals(), s);
-      const SurfaceHit hit = hits[i] = tree.nearest_facing(point, normal, kLeastCosine, reach);
+      const SurfaceHit hit = hits[i] =
+          tree.nearest_facing(point, normal, kLeastCosine, reach, hits[i].triangle);
       if (hit.triangle == kNoIndex || at_rim(hit)) return;
       pulls[i] = {true, normal, point - hit.point,
                   options_.backward * scan_weight_ * scan_areas_(s)};
@@ -209,45 +207,18 @@ class Bending {
     return true;
   }
 
-  /// Of the displacements, what another person of the model explains becomes part of the base, so
-  /// that only the rest is bending: c minimises (d − U c)ᵀ B (d − U c) and stays near 0.
-  void take_up_model(const SparseMatrix& stiffness) {
-    const auto modes = static_cast<Index>(model_.modes.size());
-    if (modes == 0) return;
-    std::vector<Positions> bent;
-    for (const Positions& mode : model_.modes) bent.emplace_back(stiffness * mode);
-    Eigen::MatrixXd matrix(modes, modes);
-    Eigen::VectorXd right(modes);
-    for (Index i = 0; i < modes; ++i) {
-      const Positions& image = bent[static_cast<std::size_t>(i)];
-      for (Index j = 0; j <= i; ++j) {
-        matrix(i, j) = matrix(j, i) =
-            image.cwiseProduct(model_.modes[static_cast<std::size_t>(j)]).sum();
-      }
-      matrix(i, i) += kPrior;
-      right(i) = image.cwiseProduct(displacements_).sum() - kPrior * coefficients_(i);
-    }
-    const Eigen::VectorXd step = matrix.ldlt().solve(right);
-    for (Index k = 0; k < modes; ++k) {
-      const Positions move = step(k) * model_.modes[static_cast<std::size_t>(k)];
-      base_ += move;
-      displacements_ -= move;
-    }
-    coefficients_ += step;
-  }
-
   const SkinMesh& skin_;
-  const ShapeModel& model_;
   const ScanSurface& scan_;
   const std::vector<WrapLandmark>& landmarks_;
   const BendOptions& options_;
   Positions base_, displacements_;
-  Eigen::VectorXd coefficients_;  ///< moved since the start
   Eigen::VectorXd areas_;
   SparseMatrix laplacian_;
   Eigen::VectorXd scan_areas_;
   std::vector<double> visible_;  ///< 0 … 1: how much the scan counts
   std::vector<std::uint32_t> scan_points_;
+  std::vector<std::uint32_t> found_on_scan_;  ///< #skin: triangles found last
+  std::vector<SurfaceHit> found_on_skin_;     ///< one for each of scan_points_
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;
   double scan_weight_ = 0;  ///< vertices of the scan for each of scan_points_
@@ -255,10 +226,9 @@ class Bending {
 
 }  // namespace
 
-Positions bend_skin(const SkinMesh& skin, const Positions& base, const ShapeModel& model,
-                    const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
-                    const BendOptions& options) {
-  return Bending(skin, base, model, scan, landmarks, options).run();
+Positions bend_skin(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
+                    const std::vector<WrapLandmark>& landmarks, const BendOptions& options) {
+  return Bending(skin, base, scan, landmarks, options).run();
 }
 
 }  // namespace crowdface

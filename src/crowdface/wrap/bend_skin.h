@@ -5,7 +5,6 @@
 
 #include "crowdface/wrap/scan_surface.h"
 #include "crowdface/wrap/shape_fit.h"
-#include "crowdface/wrap/shape_model.h"
 #include "crowdface/wrap/skin_mesh.h"
 
 namespace crowdface {
@@ -14,7 +13,7 @@ struct BendOptions {
   /// Stiffness of each round as a length: shorter waves than this are kept out of the displacements,
   /// whatever the resolution.
   std::vector<double> stiffness_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
-  int steps = 4;  ///< in each round
+  int steps = 3;  ///< in each round
   /// Weight along the surface, against 1 across it, in the first and in the last round.
   double tangential_first = 0.2, tangential_last = 0.8;
   double backward = 1;  ///< weight of what the scan asks of the skin
@@ -26,10 +25,8 @@ struct BendOptions {
 /// Bends a skin onto a scan: non-rigid iterated closest points (Amberg et al. 2007) with a bilaplacian
 /// of the displacements, whose stiffness is a length.
 /// \param base   #skin by 3, in millimetres, where the scan stands: the shape that is bent.
-/// \param model  what of the displacements is a change of person is no bending; may have no modes.
 /// \return       #skin by 3
-Positions bend_skin(const SkinMesh& skin, const Positions& base, const ShapeModel& model,
-                    const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
-                    const BendOptions& options = {});
+Positions bend_skin(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
+                    const std::vector<WrapLandmark>& landmarks, const BendOptions& options = {});
 
 }  // namespace crowdface

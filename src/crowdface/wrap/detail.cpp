@@ -73,38 +73,59 @@ class SmoothFit {
   double stiffness_;
 };
 
-Positions smoothed_normals(const SkinMesh& skin, const Positions& positions, int times) {
-  Positions normals = vertex_normals(skin.triangles, positions);
-  if (times == 0) return normals;
-  const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
-  normals = iterate(lazy, normals, static_cast<std::uint64_t>(times));
-  for (Index v = 0; v < normals.rows(); ++v) normals.row(v) = unit3(row3(normals, v)).transpose();
-  return normals;
+/// What the scan asks of each vertex, along its normal.
+struct Asked {
+  Eigen::VectorXd weights, values;  ///< #skin
+};
+
+Asked ask_scan(const SkinMesh& skin, const Positions& positions, const Positions& normals,
+               const ScanSurface& scan, double reach) {
+  Asked asked{Eigen::VectorXd::Constant(positions.rows(), kUnasked),
+              Eigen::VectorXd::Zero(positions.rows())};
+  parallel_blocks(positions.rows(), 256, [&](Index begin, Index end) {
+    std::uint32_t before = kNoIndex;
+    for (Index v = begin; v < end; ++v) {
+      if (skin.openness[static_cast<std::size_t>(v)] < kLeastOpenness) continue;
+      const Eigen::Vector3d point = row3(positions, v), normal = row3(normals, v);
+      const auto place = scan.nearest(point, normal, kLeastCosine, reach, before);
+      before = place.triangle;
+      if (!place.found) continue;
+      const double off = dot3(place.point - point, place.normal) / dot3(normal, place.normal);
+      const double share = off / reach;
+      asked.values(v) = off;
+      asked.weights(v) += 1 / ((1 + share * share) * (1 + share * share));
+    }
+  });
+  return asked;
+}
+
+void move_along(const Positions& normals, const Eigen::VectorXd& along, Positions& positions) {
+  for (Index v = 0; v < positions.rows(); ++v) positions.row(v) += along(v) * normals.row(v);
 }
 
 }  // namespace
 
 Positions follow_detail(const SkinMesh& skin, const Positions& positions, const ScanSurface& scan,
                         const DetailOptions& options) {
+  Positions result = positions;
+  Positions normals = vertex_normals(skin.triangles, result);
+  if (options.smoothings > 0) {
+    const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
+    const auto times = static_cast<std::uint64_t>(options.smoothings);
+    normals = iterate(lazy, normals, times);
+    for (Index v = 0; v < normals.rows(); ++v) normals.row(v) = unit3(row3(normals, v)).transpose();
+    const Asked asked = ask_scan(skin, result, normals, scan, options.reach_mm);
+    Columns sums(result.rows(), 2);
+    sums << asked.weights.cwiseProduct(asked.values), asked.weights;
+    sums = iterate(lazy, sums, times);
+    move_along(normals, sums.col(0).cwiseQuotient(sums.col(1)), result);
+  }
   // On a regular mesh of edges h the mean of the neighbours is h²/4 times the Laplacian away.
   const SmoothFit fit(skin.adjacency, 16 * std::pow(options.stiffness_edges, 4));
-  Positions result = positions;
   for (int round = 0; round < options.rounds; ++round) {
-    const Positions normals = smoothed_normals(skin, result, options.normal_smoothings);
-    Eigen::VectorXd weights = Eigen::VectorXd::Constant(result.rows(), kUnasked);
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(result.rows());
-    parallel_for_each(result.rows(), 256, [&](Index v) {
-      if (skin.openness[static_cast<std::size_t>(v)] < kLeastOpenness) return;
-      const Eigen::Vector3d point = row3(result, v), normal = row3(normals, v);
-      const auto place = scan.nearest(point, normal, kLeastCosine, options.reach_mm);
-      if (!place.found) return;
-      const double off = dot3(place.point - point, place.normal) / dot3(normal, place.normal);
-      const double share = off / options.reach_mm;
-      values(v) = off;
-      weights(v) += 1 / ((1 + share * share) * (1 + share * share));
-    });
-    const Eigen::VectorXd along = fit.solve(weights, values);
-    for (Index v = 0; v < result.rows(); ++v) result.row(v) += along(v) * normals.row(v);
+    if (options.smoothings == 0) normals = vertex_normals(skin.triangles, result);
+    const Asked asked = ask_scan(skin, result, normals, scan, options.reach_mm);
+    move_along(normals, fit.solve(asked.weights, asked.values), result);
   }
   return result;
 }

@@ -10,9 +10,10 @@ struct DetailOptions {
   double reach_mm = 3;
   double stiffness_edges = 0.5;  ///< in edges of the skin: what is finer is taken for noise
   int rounds = 2;
-  /// How often normals are evened out between neighbours first: where a skin is much finer than what it
-  /// was bent by, its own normals would cross in creases.
-  int normal_smoothings = 0;
+  /// Where a skin is much finer than what it was bent by: how often normals and offsets are evened out
+  /// between neighbours in a round before the others, so that what is coarse is mended as a whole and no
+  /// normals cross in creases.
+  int smoothings = 0;
 };
 
 /// Brings a skin that lies near the scan onto it, each vertex along its own normal only, so that

@@ -23,6 +23,52 @@ void add_scaled(Positions& a, double factor, const Positions& b) {
   for (Index i = 0; i < a.size(); ++i) a.data()[i] += factor * b.data()[i];
 }
 
+SparseMatrix with_diagonal(SparseMatrix matrix, const Eigen::VectorXd& diagonal) {
+  for (Index i = 0; i < matrix.rows(); ++i) matrix.coeffRef(i, i) += diagonal(i);
+  return matrix;
+}
+
+/// L D Lᵀ of a symmetric matrix; solves for three columns at once, since reading L is what takes time.
+class Factors {
+ public:
+  explicit Factors(const SparseMatrix& matrix) {
+    const Eigen::SimplicialLDLT<SparseMatrix> factors(matrix);
+    if (factors.info() != Eigen::Success) {
+      throw Error(ExitCode::kBug, "the stiffness of a skin cannot be factorised");
+    }
+    lower_ = factors.matrixL().nestedExpression();
+    inverse_ = factors.vectorD().cwiseInverse();
+    place_ = factors.permutationP().indices();
+  }
+
+  Positions solve(const Positions& right) const {
+    const Index count = right.rows();
+    Rows x(count, 4);
+    x.col(3).setZero();
+    for (Index i = 0; i < count; ++i) x.row(place_(i)).head<3>() = right.row(i);
+    for (Index j = 0; j < count; ++j) {
+      const Eigen::RowVector4d row = x.row(j);
+      for (Column entry(lower_, j); entry; ++entry) x.row(entry.row()) -= entry.value() * row;
+    }
+    for (Index j = count; j-- > 0;) {
+      Eigen::RowVector4d row = inverse_(j) * x.row(j);
+      for (Column entry(lower_, j); entry; ++entry) row -= entry.value() * x.row(entry.row());
+      x.row(j) = row;
+    }
+    Positions result(count, 3);
+    for (Index i = 0; i < count; ++i) result.row(i) = x.row(place_(i)).head<3>();
+    return result;
+  }
+
+ private:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  using Column = SparseMatrix::InnerIterator;
+
+  SparseMatrix lower_;  ///< below the diagonal, of which all are 1
+  Eigen::VectorXd inverse_;
+  Eigen::VectorXi place_;  ///< of each row in the factors' order
+};
+
 }  // namespace
 
 void Wishes::add(std::uint32_t vertex, const Eigen::Vector3d& normal, double along, double all,
@@ -35,7 +81,7 @@ void Wishes::add(std::uint32_t vertex, const Eigen::Vector3d& normal, double alo
 
 struct ElasticSolver::State {
   SparseMatrix stiffness;
-  Eigen::SimplicialLDLT<SparseMatrix> factors;
+  Factors factors;
 
   /// (W + B) x; B is symmetric, so that a column is a row.
   Positions times(const Wishes& wishes, const Positions& x) const {
@@ -50,38 +96,21 @@ struct ElasticSolver::State {
     });
     return y;
   }
-
-  Positions precondition(const Positions& residual) const {
-    Positions result(residual.rows(), 3);
-    parallel_for_each(3, [&](auto c) {
-      const Eigen::VectorXd column = residual.col(c);
-      result.col(c) = factors.solve(column);
-    });
-    return result;
-  }
 };
 
 ElasticSolver::ElasticSolver(const SparseMatrix& stiffness, const Eigen::VectorXd& typical)
-    : state_(std::make_unique<State>()) {
-  SparseMatrix matrix = stiffness;
-  for (Index i = 0; i < matrix.rows(); ++i) matrix.coeffRef(i, i) += typical(i);
-  state_->stiffness = stiffness;
-  state_->factors.compute(matrix);
-  if (state_->factors.info() != Eigen::Success) {
-    throw Error(ExitCode::kBug, "the stiffness of a skin cannot be factorised");
-  }
-}
+    : state_(new State{stiffness, Factors(with_diagonal(stiffness, typical))}) {}
 ElasticSolver::~ElasticSolver() = default;
 
 void ElasticSolver::solve(const Wishes& wishes, const Limits& limits,
                           Positions& displacements) const {
   Positions residual = wishes.right;
   add_scaled(residual, -1, state_->times(wishes, displacements));
-  Positions preconditioned = state_->precondition(residual);
+  Positions preconditioned = state_->factors.solve(residual);
   Positions direction = preconditioned;
   double rho = product(residual, preconditioned);
   const double enough = limits.tolerance * limits.tolerance *
-                        product(wishes.right, state_->precondition(wishes.right));
+                        product(wishes.right, state_->factors.solve(wishes.right));
   for (int k = 0; k < limits.steps && rho > enough; ++k) {
     throw_if_interrupted();
     const Positions image = state_->times(wishes, direction);
@@ -90,7 +119,7 @@ void ElasticSolver::solve(const Wishes& wishes, const Limits& limits,
     const double length = rho / curvature;
     add_scaled(displacements, length, direction);
     add_scaled(residual, -length, image);
-    preconditioned = state_->precondition(residual);
+    preconditioned = state_->factors.solve(residual);
     const double next = product(residual, preconditioned);
     const double ratio = next / rho;
     rho = next;

@@ -33,7 +33,7 @@ class ElasticSolver {
 
   struct Limits {
     int steps = 60;
-    double tolerance = 1e-4;  ///< of the residual, against the right side's
+    double tolerance = 1e-3;  ///< of the residual, against the right side's
   };
   /// Improves `displacements`, #V by 3. The same bits for any number of threads.
   void solve(const Wishes& wishes, const Limits& limits, Positions& displacements) const;

@@ -2,6 +2,10 @@
 #include "crowdface/wrap/reduced_skin.h"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
@@ -11,6 +15,70 @@
 #include "crowdface/wrap/surface_tree.h"
 
 namespace crowdface {
+
+namespace {
+
+/// The vertex of some that is nearest along the edges (Dijkstra), #V; kNoIndex where none is joined.
+std::vector<std::uint32_t> nearest_along_edges(const SkinMesh& skin, const Positions& positions,
+                                               const std::vector<std::uint32_t>& sources) {
+  using Reached = std::pair<double, std::uint32_t>;
+  std::vector<double> distance(skin.vertices.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::uint32_t> source(skin.vertices.size(), kNoIndex);
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> waiting;
+  for (std::uint32_t i = 0; i < sources.size(); ++i) {
+    distance[sources[i]] = 0;
+    source[sources[i]] = i;
+    waiting.emplace(0.0, sources[i]);
+  }
+  while (!waiting.empty()) {
+    const auto [so_far, v] = waiting.top();
+    waiting.pop();
+    if (so_far > distance[v]) continue;
+    for (const std::uint32_t n : skin.adjacency.of(v)) {
+      const double longer = so_far + length3(row3(positions, n) - row3(positions, v));
+      if (longer >= distance[n]) continue;
+      distance[n] = longer;
+      source[n] = source[v];
+      waiting.emplace(longer, n);
+    }
+  }
+  return source;
+}
+
+/// Where each vertex of the large skin lies on the small one: on a triangle around the small one's vertex
+/// that is nearest along the surface or around one beside that. Lips touch, nostrils have thin walls: the
+/// nearest place in space may be of the other side.
+std::vector<ReducedSkin::Place> find_places(const SkinMesh& skin, const Positions& positions,
+                                            const SkinMesh& small) {
+  const Positions corners = small.of(positions);
+  const FacesAround around(topology_of(small.triangles, small.vertex_count()));
+  const std::vector<std::uint32_t> source = nearest_along_edges(skin, positions, small.vertices);
+  const SurfaceTree tree(corners, small.triangles);
+  std::vector<ReducedSkin::Place> places(skin.vertices.size());
+  parallel_for_each(positions.rows(), 1024, [&](Index v) {
+    const Eigen::Vector3d point = row3(positions, v);
+    SurfaceHit best;
+    best.distance = 1e300;
+    const auto look_around = [&](std::uint32_t vertex) {
+      for (const std::uint32_t t : around.of(vertex)) {
+        SurfaceHit hit = nearest_on_triangle(corners, small.triangles[t], point);
+        hit.triangle = t;
+        if (hit.distance < best.distance) best = hit;
+      }
+    };
+    if (const std::uint32_t from = source[static_cast<std::size_t>(v)]; from != kNoIndex) {
+      look_around(from);
+      for (const std::uint32_t n : small.adjacency.of(from)) look_around(n);
+    }
+    if (best.triangle == kNoIndex) best = tree.nearest(point, 1e300);
+    auto& place = places[static_cast<std::size_t>(v)];
+    place.triangle = best.triangle;
+    for (std::size_t k = 0; k < 3; ++k) place.shares[k] = static_cast<float>(best.shares[k]);
+  });
+  return places;
+}
+
+}  // namespace
 
 Positions ReducedSkin::carry(const Positions& values, const SkinMesh& large) const {
   Columns carried(static_cast<Index>(places.size()), 3);
@@ -44,19 +112,7 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::s
   }
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
-  // Lips touch: a vertex of one must not hang on the other, so that the sides must agree.
-  const Positions normals = vertex_normals(skin.triangles, positions),
-                  places = reduced.mesh.of(positions);
-  const SurfaceTree tree(places, reduced.mesh.triangles);
-  reduced.places.resize(skin.vertices.size());
-  parallel_for_each(positions.rows(), 1024, [&](Index v) {
-    const Eigen::Vector3d point = row3(positions, v);
-    SurfaceHit hit = tree.nearest_facing(point, row3(normals, v), 0.3, 1e300);
-    if (hit.triangle == kNoIndex) hit = tree.nearest(point, 1e300);
-    auto& place = reduced.places[static_cast<std::size_t>(v)];
-    place.triangle = hit.triangle;
-    for (std::size_t k = 0; k < 3; ++k) place.shares[k] = static_cast<float>(hit.shares[k]);
-  });
+  reduced.places = find_places(skin, positions, reduced.mesh);
   // One smoothing reaches half an edge; the creases of what is carried are an edge of the small skin
   // apart.
   const auto ratio = static_cast<double>(skin.vertices.size()) /

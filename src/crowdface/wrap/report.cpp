@@ -95,12 +95,14 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
                               " mm from where it was picked, far more than the others: look at it "
                               "on template and scan"));
   }
+  const std::vector<std::string> faults = scan_faults(shape, result, regions);
+  warnings.insert(warnings.end(), faults.begin(), faults.end());
   const double share = share_far(seen_distances(shape, result));
-  if (share > kMostFar) {
-    warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarMm,
-                              " mm off the scan", farthest_region(shape, result, regions),
-                              ": hair, closed eyes or an open mouth? Leave such "
-                              "places out with --ignore, or pick landmarks there"));
+  if (share > kMostFar && faults.empty()) {
+    warnings.push_back(
+        concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarMm,
+               " mm off the scan", farthest_region(shape, result, regions),
+               ": leave out with --ignore what is no skin, or pick landmarks there"));
   }
   if (const double lacking = share_without_data(shape, result); lacking > kMostWithoutData) {
     warnings.push_back(concat("the scan shows nothing of ", format_fixed(100 * lacking, 0),

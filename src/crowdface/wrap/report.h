@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/render/camera.h"
+#include "crowdface/wrap/scan_faults.h"
 #include "crowdface/wrap/wrap.h"
 
 namespace crowdface {
@@ -17,12 +18,6 @@ struct WrapDistances {
 WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result);
 /// The share of the visible skin for which the scan has nothing.
 double share_without_data(const WrapTemplate& shape, const WrapResult& result);
-
-/// Parts of the skin that a report speaks of one by one.
-struct SkinRegions {
-  std::vector<std::string> names;
-  std::vector<std::size_t> of_vertex;  ///< #skin, < #names; or empty: there are none
-};
 
 /// What the user should look at, a sentence each that says what to do.
 /// \param regions      that are named where much of one is far from the scan.

@@ -22,6 +22,7 @@ ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
   Place place;
   if (hit.triangle == kNoIndex) return place;
   const Triangle& corners = scan_.triangles[hit.triangle];
+  place.triangle = hit.triangle;
   place.point = hit.point;
   place.distance = hit.distance;
   bool rim = true;  // all corners that have a share lie on it
@@ -36,12 +37,14 @@ ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
 }
 
 ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                                        double least_cosine, double reach) const {
-  return place_of(tree_.nearest_facing(point, facing, least_cosine, reach));
+                                        double least_cosine, double reach,
+                                        std::uint32_t guess) const {
+  return place_of(tree_.nearest_facing(point, facing, least_cosine, reach, guess));
 }
 
-ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, double reach) const {
-  return place_of(tree_.nearest(point, reach));
+ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, double reach,
+                                        std::uint32_t guess) const {
+  return place_of(tree_.nearest(point, reach, guess));
 }
 
 Similarity inverse(const Similarity& motion) {

@@ -23,12 +23,14 @@ class ScanSurface {
     double distance = 0;
     bool found = false;  ///< something within reach, and not on a rim
     bool on_rim = false;
+    std::uint32_t triangle = kNoIndex;
   };
   /// The nearest place whose surface faces within `least_cosine` of a unit vector.
+  /// \param guess  the triangle of a place that may be it, or kNoIndex.
   Place nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing, double least_cosine,
-                double reach) const;
+                double reach, std::uint32_t guess = kNoIndex) const;
   /// The nearest place whatever way it faces.
-  Place nearest(const Eigen::Vector3d& point, double reach) const;
+  Place nearest(const Eigen::Vector3d& point, double reach, std::uint32_t guess = kNoIndex) const;
 
   const Scan& scan() const { return scan_; }
   const Positions& normals() const { return normals_; }

@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostProbes = 4000;  ///< vertices asked in each step
+constexpr std::size_t kMostProbes = 3000;  ///< vertices asked in each step
 constexpr double kOpenEnough = 0.3;
 constexpr double kLeastCosine = 0.5;
 constexpr double kKept = 0.8;  ///< of the probes that found something
@@ -40,12 +40,13 @@ std::vector<std::uint32_t> choose_probes(const SkinMesh& skin) {
 
 std::vector<Match> find_matches(const Positions& placed, const Positions& normals,
                                 const ScanSurface& scan, const std::vector<std::uint32_t>& probes,
-                                double reach) {
+                                double reach, std::vector<std::uint32_t>& found) {
   std::vector<Match> matches(probes.size());
   parallel_for_each(probes.size(), 128, [&](std::size_t i) {
     const std::uint32_t v = probes[i];
     const Eigen::Vector3d point = row3(placed, v);
-    const auto place = scan.nearest(point, row3(normals, v), kLeastCosine, reach);
+    const auto place = scan.nearest(point, row3(normals, v), kLeastCosine, reach, found[i]);
+    found[i] = place.triangle;
     if (place.found) matches[i] = {v, place.point - point, place.normal, place.distance};
   });
   std::erase_if(matches, [](const Match& match) { return match.vertex == kNoIndex; });
@@ -60,47 +61,65 @@ void leave_out_farthest(std::vector<Match>& matches) {
   std::erase_if(matches, [&](const Match& match) { return match.distance > most; });
 }
 
-/// The normal equations of one step: turn, shift, growth, then coefficients.
+/// The normal equations of one step: turn, shift, growth, then coefficients. Rows are gathered first,
+/// since products of matrices are fast.
 class Equations {
  public:
   explicit Equations(Index modes)
       : matrix_(Eigen::MatrixXd::Zero(kPoseUnknowns + modes, kPoseUnknowns + modes)),
-        right_(Eigen::VectorXd::Zero(kPoseUnknowns + modes)) {}
+        right_(Eigen::VectorXd::Zero(kPoseUnknowns + modes)),
+        rows_(kPoseUnknowns + modes, kMostRows),
+        values_(kMostRows) {}
 
-  /// weight · (row · unknowns − value)²
-  void add(const Eigen::VectorXd& row, double value, double weight) {
-    for (Index i = 0; i < row.size(); ++i) {
-      const double factor = weight * row(i);
-      right_(i) += factor * value;
-      for (Index j = 0; j <= i; ++j) matrix_(i, j) += factor * row(j);
-    }
+  /// |W (J · unknowns − value)|² with J 3 by #unknowns.
+  void add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& jacobian, const Eigen::Vector3d& value,
+           const Eigen::Matrix3d& weight) {
+    rows_.middleCols<3>(count_) = (weight * jacobian).transpose();
+    values_.segment<3>(count_) = weight * value;
+    count_ += 3;
+    if (count_ == kMostRows) take_up();
   }
   void hold(Index unknown, double value, double weight) {
     matrix_(unknown, unknown) += weight;
     right_(unknown) += weight * value;
   }
-  Eigen::VectorXd solve() const {
+  Eigen::VectorXd solve() {
+    take_up();
     return Eigen::LDLT<Eigen::MatrixXd, Eigen::Lower>(matrix_).solve(right_);
   }
 
  private:
+  static constexpr Index kMostRows = 384;
+
+  void take_up() {
+    if (count_ == 0) return;  // Eigen divides by it
+    matrix_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.leftCols(count_));
+    right_ += rows_.leftCols(count_) * values_.head(count_);
+    count_ = 0;
+  }
+
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_;
+  Eigen::MatrixXd rows_;  ///< #unknowns by kMostRows
+  Eigen::VectorXd values_;
+  Index count_ = 0;
 };
 
-/// How a point moves along a direction with the unknowns; lengths in the scan's unit.
-Eigen::VectorXd row_of(const ShapeModel& model, const ShapeFit& fit, std::uint32_t vertex,
-                       const Eigen::Vector3d& arm, const Eigen::Vector3d& direction) {
-  Eigen::VectorXd row(kPoseUnknowns + static_cast<Index>(model.modes.size()));
-  row.head<3>() = cross3(arm, direction);
-  row.segment<3>(3) = direction;
-  row(6) = dot3(arm, direction);
-  const Eigen::Vector3d turned = fit.pose.scale * (fit.pose.rotation.transpose() * direction);
+/// How a point moves with the unknowns, 3 by #unknowns; lengths in the scan's unit.
+Eigen::Matrix<double, 3, Eigen::Dynamic> jacobian_of(const ShapeModel& model, const ShapeFit& fit,
+                                                     std::uint32_t vertex,
+                                                     const Eigen::Vector3d& arm) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> jacobian(
+      3, kPoseUnknowns + static_cast<Index>(model.modes.size()));
+  jacobian.leftCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  jacobian.middleCols<3>(3).setIdentity();
+  jacobian.col(6) = arm;
+  const Eigen::Matrix3d motion = fit.pose.scale * fit.pose.rotation;
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
-    row(kPoseUnknowns + static_cast<Index>(k)) =
-        dot3(model.modes[k].row(vertex).transpose(), turned);
+    jacobian.col(kPoseUnknowns + static_cast<Index>(k)) =
+        motion * model.modes[k].row(vertex).transpose();
   }
-  return row;
+  return jacobian;
 }
 
 void apply(const Eigen::VectorXd& step, const Eigen::Vector3d& middle, ShapeFit& fit) {
@@ -121,10 +140,11 @@ void apply(const Eigen::VectorXd& step, const Eigen::Vector3d& middle, ShapeFit&
 std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,
                  const std::vector<WrapLandmark>& landmarks,
                  const std::vector<std::uint32_t>& probes, double reach_mm,
-                 const ShapeFitOptions& options, double first_scale, ShapeFit& fit) {
+                 const ShapeFitOptions& options, double first_scale,
+                 std::vector<std::uint32_t>& found, ShapeFit& fit) {
   const Positions placed = fit.pose.apply(model.shape(fit.coefficients));
   std::vector<Match> matches = find_matches(placed, vertex_normals(skin.triangles, placed), scan,
-                                            probes, reach_mm * fit.pose.scale);
+                                            probes, reach_mm * fit.pose.scale, found);
   if (matches.size() < probes.size() / 50 + 3) return 0;
   leave_out_farthest(matches);
   const double mm = fit.pose.scale;  // in the scan's unit
@@ -136,13 +156,11 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   const double weight = options.measurements / (static_cast<double>(matches.size()) * mm * mm);
   for (const Match& match : matches) {
     const Eigen::Vector3d arm = placed.row(match.vertex).transpose() - middle;
-    equations.add(row_of(model, fit, match.vertex, arm, match.normal),
-                  dot3(match.normal, match.offset), weight * (1 - options.tangential));
-    if (options.tangential == 0) continue;
-    for (Index axis = 0; axis < 3; ++axis) {
-      equations.add(row_of(model, fit, match.vertex, arm, Eigen::Vector3d::Unit(axis)),
-                    match.offset(axis), weight * options.tangential);
-    }
+    const double along = std::sqrt(options.tangential);
+    const Eigen::Matrix3d root =
+        std::sqrt(weight) * (along * Eigen::Matrix3d::Identity() +
+                             (1 - along) * match.normal * match.normal.transpose());
+    equations.add(jacobian_of(model, fit, match.vertex, arm), match.offset, root);
   }
   const double for_landmarks = landmarks.empty()
                                    ? 0
@@ -150,11 +168,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                                          (static_cast<double>(landmarks.size()) * mm * mm);
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = placed.row(landmark.vertex).transpose();
-    for (Index axis = 0; axis < 3; ++axis) {
-      equations.add(
-          row_of(model, fit, landmark.vertex, point - middle, Eigen::Vector3d::Unit(axis)),
-          landmark.place(axis) - point(axis), for_landmarks);
-    }
+    equations.add(jacobian_of(model, fit, landmark.vertex, point - middle), landmark.place - point,
+                  std::sqrt(for_landmarks) * Eigen::Matrix3d::Identity());
   }
   for (Index k = 0; k < modes; ++k) equations.hold(kPoseUnknowns + k, -fit.coefficients(k), 1);
   if (modes > 0) {  // people differ in size: that is the model's business
@@ -172,13 +187,15 @@ ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurf
                    const std::vector<WrapLandmark>& landmarks, const ShapeFit& start,
                    const ShapeFitOptions& options) {
   const std::vector<std::uint32_t> probes = choose_probes(skin);
+  std::vector<std::uint32_t> found(probes.size(), kNoIndex);
   ShapeFit fit = start;
   fit.coefficients.conservativeResizeLike(
       Eigen::VectorXd::Zero(static_cast<Index>(model.modes.size())));
   for (const double reach : options.reach_mm) {
     for (int i = 0; i < options.steps; ++i) {
       throw_if_interrupted();
-      if (step(skin, model, scan, landmarks, probes, reach, options, start.pose.scale, fit) == 0)
+      if (step(skin, model, scan, landmarks, probes, reach, options, start.pose.scale, found,
+               fit) == 0)
         break;
     }
   }

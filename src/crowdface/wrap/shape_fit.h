@@ -27,7 +27,7 @@ struct ShapeFit {
 
 struct ShapeFitOptions {
   std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< one round each
-  int steps = 6;                                        ///< in each round
+  int steps = 4;                                        ///< in each round
   /// How many independent measurements of 1 mm error a whole scan amounts to: the more, the less the
   /// coefficients are held near 0.
   double measurements = 7;

@@ -42,12 +42,13 @@ SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>
 
 void SurfaceTree::build(std::uint32_t begin, std::uint32_t end, const Positions& centres) {
   const std::size_t n = nodes_.size();
-  nodes_.push_back({{}, begin, end});
+  nodes_.push_back({{}, Eigen::Vector3d::Zero(), 1, 0, begin, end});
   Eigen::AlignedBox3d middles;
   for (std::uint32_t i = begin; i < end; ++i) {
     middles.extend(row3(centres, order_[i]));
     for (const std::uint32_t v : triangles_[order_[i]]) nodes_[n].box.extend(row3(positions_, v));
   }
+  find_cone(nodes_[n]);
   if (end - begin <= kMostInLeaf) return;
   Index axis = 0;
   middles.sizes().maxCoeff(&axis);
@@ -62,15 +63,26 @@ void SurfaceTree::build(std::uint32_t begin, std::uint32_t end, const Positions&
   build(middle, end, centres);
 }
 
-template <class Accept>
-SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, double reach,
-                               const Accept& accept) const {
+void SurfaceTree::find_cone(Node& node) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::uint32_t i = node.begin; i < node.end; ++i) sum += facing_[order_[i]];
+  node.axis = unit3(sum);
+  node.cosine = 1;
+  for (std::uint32_t i = node.begin; i < node.end; ++i) {
+    node.cosine = std::min(node.cosine, dot3(node.axis, facing_[order_[i]]));
+  }
+  node.cosine = std::max(-1.0, node.cosine - 1e-9);
+  node.sine = std::sqrt(1 - node.cosine * node.cosine);
+}
+
+template <class AcceptNode, class Accept>
+SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, const SurfaceHit& start,
+                               const AcceptNode& accept_node, const Accept& accept) const {
   struct Waiting {
     std::uint32_t node;
     double squared;
   };
-  SurfaceHit best;
-  best.distance = reach;
+  SurfaceHit best = start;
   if (nodes_.empty()) return best;
   std::array<Waiting, kDeepest> stack;
   std::size_t waiting = 0;
@@ -79,6 +91,7 @@ SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, double reach,
     const Waiting next = stack[--waiting];
     if (next.squared > best.distance * best.distance) continue;
     const Node& node = nodes_[next.node];
+    if (!accept_node(node)) continue;
     if (node.second != 0) {
       Waiting near = {next.node + 1, nodes_[next.node + 1].box.squaredExteriorDistance(point)};
       Waiting far = {node.second, nodes_[node.second].box.squaredExteriorDistance(point)};
@@ -100,14 +113,38 @@ SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, double reach,
   return best;
 }
 
-SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach) const {
-  return search(point, reach, [](std::uint32_t) { return true; });
+SurfaceHit SurfaceTree::on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point,
+                                    double reach) const {
+  SurfaceHit hit;
+  if (triangle != kNoIndex) {
+    hit = nearest_on_triangle(positions_, triangles_[triangle], point);
+    hit.triangle = triangle;
+  }
+  if (hit.triangle != kNoIndex && hit.distance <= reach) return hit;
+  SurfaceHit none;
+  none.distance = reach;
+  return none;
+}
+
+SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach,
+                                std::uint32_t guess) const {
+  return search(
+      point, on_triangle(guess, point, reach), [](const Node&) { return true; },
+      [](std::uint32_t) { return true; });
 }
 
 SurfaceHit SurfaceTree::nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                                       double least_cosine, double reach) const {
-  return search(point, reach,
-                [&](std::uint32_t t) { return dot3(facing_[t], facing) >= least_cosine; });
+                                       double least_cosine, double reach,
+                                       std::uint32_t guess) const {
+  const auto accept = [&](std::uint32_t t) { return dot3(facing_[t], facing) >= least_cosine; };
+  // The angle to the axis is at most the cone's plus that of least_cosine.
+  const double least_sine = std::sqrt(1 - least_cosine * least_cosine);
+  const auto accept_node = [&](const Node& node) {
+    if (node.cosine <= -least_cosine) return true;  // together 180° or more
+    return dot3(node.axis, facing) >= node.cosine * least_cosine - node.sine * least_sine;
+  };
+  if (guess != kNoIndex && !accept(guess)) guess = kNoIndex;
+  return search(point, on_triangle(guess, point, reach), accept_node, accept);
 }
 
 }  // namespace crowdface

@@ -31,22 +31,31 @@ class SurfaceTree {
   SurfaceTree(const Positions& positions, const std::vector<Triangle>& triangles);
 
   /// The nearest place within `reach`; of equally near ones that of the smallest triangle number.
-  SurfaceHit nearest(const Eigen::Vector3d& point, double reach) const;
+  /// \param guess  a triangle that may be the one, or kNoIndex: a good guess saves most of the search.
+  SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
+                     std::uint32_t guess = kNoIndex) const;
   /// The same among triangles that face the way `facing` (unit) does: the angle to the mean of the
   /// normals of their corners, in which noise and the edges of creases are evened out, is at most the
   /// one with this cosine.
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                            double least_cosine, double reach) const;
+                            double least_cosine, double reach,
+                            std::uint32_t guess = kNoIndex) const;
 
  private:
   struct Node {
     Eigen::AlignedBox3d box;
+    Eigen::Vector3d axis;      ///< its triangles face within an angle of this one
+    double cosine, sine;       ///< of the angle; 180° where they face everywhere
     std::uint32_t begin, end;  ///< of order_
     std::uint32_t second = 0;  ///< the first child is the next node; 0: a leaf
   };
   void build(std::uint32_t begin, std::uint32_t end, const Positions& centres);
-  template <class Accept>
-  SurfaceHit search(const Eigen::Vector3d& point, double reach, const Accept& accept) const;
+  void find_cone(Node& node) const;
+  /// That of one triangle; none beyond the reach.
+  SurfaceHit on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point, double reach) const;
+  template <class AcceptNode, class Accept>
+  SurfaceHit search(const Eigen::Vector3d& point, const SurfaceHit& start,
+                    const AcceptNode& accept_node, const Accept& accept) const;
 
   const Positions& positions_;
   const std::vector<Triangle>& triangles_;

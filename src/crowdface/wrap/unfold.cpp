@@ -66,24 +66,24 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
   std::vector<std::uint32_t> folded = folded_triangles(skin, rest, positions);
   if (folded.empty()) return 0;
   const auto inside = [&](std::uint32_t v) { return skin.openness[v] < kInside; };
+  const FacesAround around(topology_of(skin.triangles, skin.vertex_count()));
   std::vector<int> rounds(skin.triangles.size(), 0);
+  std::vector<int> reach(skin.vertices.size(), 0);
   std::vector<std::uint32_t> number(skin.vertices.size(), kNoIndex);
   Positions best = positions;
   std::size_t fewest = folded.size();
   for (int round = 0, since = 0; !folded.empty() && round < kMostRounds && since < kPatience;
        ++round, ++since) {
     throw_if_interrupted();
-    std::vector<int> reach(skin.vertices.size(), 0);
+    std::vector<std::uint32_t> patch;
     for (const std::uint32_t i : folded) {
       ++rounds[i];
       for (const std::uint32_t v : skin.triangles[i]) {
+        if (reach[v] == 0) patch.push_back(v);
         reach[v] = std::max(reach[v], std::min(1 + rounds[i] / kRoundsPerRing, kMostRings));
       }
     }
-    std::vector<std::uint32_t> patch;
-    for (std::uint32_t v = 0; v < reach.size(); ++v) {
-      if (reach[v] > 0) patch.push_back(v);
-    }
+    std::sort(patch.begin(), patch.end());
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const std::uint32_t v = patch[i];
       for (const std::uint32_t other : skin.adjacency.of(v)) {
@@ -98,13 +98,15 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
     for (std::uint32_t i = 0; i < patch.size(); ++i) number[patch[i]] = i;
     for (int s = 0; s < kSweeps; ++s) relax(skin, rest, patch, number, positions);
     folded.clear();
-    for (std::uint32_t i = 0; i < skin.triangles.size(); ++i) {
-      const Triangle& t = skin.triangles[i];
-      const bool moved =
-          number[t[0]] != kNoIndex || number[t[1]] != kNoIndex || number[t[2]] != kNoIndex;
-      if (moved && is_folded(rest, positions, t)) folded.push_back(i);
+    for (const std::uint32_t v : patch) {
+      for (const std::uint32_t i : around.of(v)) {
+        if (is_folded(rest, positions, skin.triangles[i])) folded.push_back(i);
+      }
+      number[v] = kNoIndex;
+      reach[v] = 0;
     }
-    for (const std::uint32_t v : patch) number[v] = kNoIndex;
+    std::sort(folded.begin(), folded.end());
+    folded.erase(std::unique(folded.begin(), folded.end()), folded.end());
     if (folded.size() >= fewest) continue;
     fewest = folded.size();
     best = positions;

@@ -16,6 +16,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kFewestLandmarks = 4;
+constexpr std::size_t kPlaces = 8;  ///< about which heads vary on their own
+constexpr double kSeen = 0.12;      ///< openness from which a vertex counts as visible
 constexpr double kLeastOutlierMm = 4, kOutlier = 3.5;  ///< the latter in medians
 
 /// Landmarks by rows of the skin.
@@ -82,12 +84,35 @@ Scan moved(const Scan& scan, const Similarity& motion) {
 void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& result) {
   result.distance_mm = Eigen::VectorXd::Zero(wrapped.rows());
   std::vector<char> on_rim(static_cast<std::size_t>(wrapped.rows()), 0);
-  parallel_for_each(wrapped.rows(), 1024, [&](Index v) {
-    const auto place = scan.nearest(row3(wrapped, v), 1e300);
-    result.distance_mm(v) = place.distance;
-    on_rim[static_cast<std::size_t>(v)] = place.on_rim ? 1 : 0;
+  parallel_blocks(wrapped.rows(), 1024, [&](Index begin, Index end) {
+    std::uint32_t before = kNoIndex;
+    for (Index v = begin; v < end; ++v) {
+      const auto place = scan.nearest(row3(wrapped, v), 1e300, before);
+      before = place.triangle;
+      result.distance_mm(v) = place.distance;
+      on_rim[static_cast<std::size_t>(v)] = place.on_rim ? 1 : 0;
+    }
   });
   result.without_data.assign(on_rim.begin(), on_rim.end());
+}
+
+/// Vertices of the visible skin that are far from each other.
+std::vector<std::uint32_t> spread_places(const SkinMesh& skin, const Positions& positions) {
+  std::vector<std::uint32_t> visible, places;
+  for (std::uint32_t v = 0; v < skin.openness.size(); ++v) {
+    if (skin.openness[v] > kSeen) visible.push_back(v);
+  }
+  std::vector<double> distance(visible.size(), 1e300);
+  for (std::size_t next = 0; places.size() < std::min(kPlaces, visible.size());) {
+    places.push_back(visible[next]);
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+      distance[i] = std::min(distance[i],
+                             length3(row3(positions, visible[i]) - row3(positions, places.back())));
+    }
+    const auto farthest = std::max_element(distance.begin(), distance.end());
+    next = static_cast<std::size_t>(farthest - distance.begin());
+  }
+  return places;
 }
 
 /// A large skin, its model and its landmarks, as its reduced skin has them.
@@ -152,19 +177,22 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
     result.pose_residual_mm = fit.residual;
     result.landmarks = residuals_of(rest, fit.pose, landmarks);
     used = model == nullptr ? alone : small ? *small->model : *model;
-    if (model != nullptr) fit = fit_shape(bent, *used, surface, marks, fit, options.person);
+    if (model != nullptr) {
+      used = localised(*used, spread_places(bent, used->mean), options.local);
+      fit = fit_shape(bent, *used, surface, marks, fit, options.person);
+    }
   }
   result.pose = fit.pose;
   const Similarity back = inverse(fit.pose);
   const ScanSurface surface(moved(scan, back));
   move(landmarks, back);
   if (small) move(small->landmarks, back);
-  Positions wrapped = bend_skin(bent, used->shape(fit.coefficients), *used, surface,
-                                small ? small->landmarks : landmarks,
-                                used->modes.empty() ? options.bend : options.bend_with_model);
+  Positions wrapped =
+      bend_skin(bent, used->shape(fit.coefficients), surface, small ? small->landmarks : landmarks,
+                model == nullptr ? options.bend : options.bend_with_model);
   if (small) wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
   DetailOptions detail = options.detail;
-  if (small) detail.normal_smoothings = shape.reduced->smoothings;
+  if (small) detail.smoothings = shape.reduced->smoothings;
   wrapped = follow_detail(skin, wrapped, surface, detail);
   result.flipped = unfold(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);

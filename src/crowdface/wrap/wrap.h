@@ -9,13 +9,16 @@
 #include "crowdface/wrap/detail.h"
 #include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/shape_fit.h"
+#include "crowdface/wrap/shape_model.h"
 #include "crowdface/wrap/wrap_template.h"
 
 namespace crowdface {
 
 struct WrapOptions {
   ShapeFitOptions pose;
-  ShapeFitOptions person = {.reach_mm = {20, 16, 12, 8, 6, 4}, .landmark_weight = 0.1};
+  ShapeFitOptions person = {
+      .reach_mm = {20, 16, 12, 8, 6, 4}, .measurements = 6, .landmark_weight = 0.1};
+  LocalOptions local;
   BendOptions bend;
   /// Once a model has found the person: what is left is smaller, and places lie so near to theirs that
   /// what holds them along the surface would rather keep them off.

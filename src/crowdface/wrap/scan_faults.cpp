@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/scan_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "crowdface/core/selection.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/eye_socket.h"
+#include "crowdface/parts/point_grid.h"
+#include "crowdface/parts/skin_contacts.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kSeen = 0.12;      // openness from which a vertex counts as visible
+constexpr double kClosed = 0.4;     // of the template's opening between the lids
+constexpr double kMiddle = 0.4;     // of an eyeball's radius: where lids are widest apart
+constexpr double kOpenMouthMm = 3;  // farther apart than the template's lips
+constexpr double kHairMm = 10;      // heads of people without hair differ by less
+constexpr double kFarMm = 3, kMostFar = 0.05;
+constexpr std::size_t kFewest = 20;  // vertices of a region
+
+std::optional<double> median(std::vector<double> values, std::size_t fewest) {
+  if (values.size() < fewest) return std::nullopt;
+  const std::size_t rank = values.size() / 2;
+  return value_of_rank(std::move(values), rank);
+}
+
+/// How far the upper lid is above the lower one in the middle of an eye.
+std::optional<double> lid_opening(const Lids& lids, const ComponentShape& ball,
+                                  const HeadAxes& axes, const Positions& rest,
+                                  const Positions& positions) {
+  std::vector<double> upper, lower;
+  for (std::size_t i = 0; i < lids.rim.size(); ++i) {
+    const std::uint32_t v = lids.vertices[lids.rim[i]];
+    if (std::abs(dot3(row3(rest, v) - ball.centre, axes.side())) > kMiddle * ball.radius) continue;
+    (lids.upper[i] ? upper : lower).push_back(dot3(row3(positions, v), axes.up));
+  }
+  const auto above = median(upper, 1), below = median(lower, 1);
+  if (!above || !below) return std::nullopt;
+  return *above - *below;
+}
+
+void look_at_eyes(const WrapTemplate& shape, const WrapResult& result,
+                  std::vector<std::string>& faults) {
+  for (const Part& part : shape.parts.parts) {
+    if (!part.eyeball) continue;
+    const ComponentShape& ball = shape.parts.shapes[part.ball];
+    const Lids lids = find_lids(shape.positions, PointGrid(shape.positions, part.vertices),
+                                ball.centre, ball.radius, shape.axes, shape.skin.vertices);
+    const auto before = lid_opening(lids, ball, shape.axes, shape.positions, shape.positions);
+    const auto after = lid_opening(lids, ball, shape.axes, shape.positions, result.positions);
+    if (!before || !after || *after > kClosed * *before) continue;
+    faults.push_back(concat("an eye seems to be closed: its lids are ", format_fixed(*after, 1),
+                            " mm apart, the template's ", format_fixed(*before, 1),
+                            "; scans need open eyes"));
+  }
+}
+
+void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const SkinRegions& regions,
+                   std::vector<std::string>& faults) {
+  const FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
+  const SkinContacts contacts(faces, shape.adjacency, shape.skin.vertices);
+  const std::vector<double> before = contacts.gaps(shape.positions),
+                            after = contacts.gaps(result.positions);
+  std::vector<double> wider;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactPlace& place = contacts.place(i);
+    if (place.low.empty() || place.high.empty()) continue;
+    const auto at = std::lower_bound(shape.skin.vertices.begin(), shape.skin.vertices.end(),
+                                     place.low.front().a);
+    const auto vertex = static_cast<std::uint32_t>(at - shape.skin.vertices.begin());
+    if (regions.is(vertex, "mouth")) wider.push_back(after[i] - before[i]);
+  }
+  if (const auto by = median(wider, 1); by && *by > kOpenMouthMm) {
+    faults.push_back(concat("the mouth seems to be open: lips are ", format_fixed(*by, 1),
+                            " mm farther apart than the template's; scans need a closed mouth"));
+  }
+}
+
+void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const SkinRegions& regions,
+                  std::vector<std::string>& faults) {
+  const Positions rest = shape.skin.of(shape.positions), wrapped = shape.skin.of(result.positions);
+  std::vector<std::uint32_t> face, skull;
+  for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
+    if (shape.skin.openness[v] <= kSeen || result.without_data[v]) continue;
+    if (regions.is(v, "nose") || regions.is(v, "mouth")) face.push_back(v);
+    if (regions.is(v, "brow")) skull.push_back(v);
+  }
+  if (face.size() < kFewest || skull.size() < kFewest) return;
+  const Similarity faces_meet =
+      fit_similarity(rest(face, Eigen::all), wrapped(face, Eigen::all), ScaleFit::kUniform);
+  const Positions placed = faces_meet.apply(rest);
+  const Positions normals = vertex_normals(shape.skin.triangles, placed);
+  std::vector<double> out;
+  std::size_t far = 0;
+  for (const std::uint32_t v : skull) {
+    out.push_back(dot3(row3(wrapped, v) - row3(placed, v), row3(normals, v)));
+    if (result.distance_mm(v) > kFarMm) ++far;
+  }
+  const double share = static_cast<double>(far) / static_cast<double>(skull.size());
+  const double above = median(std::move(out), 1).value_or(0);
+  if (above <= kHairMm && share <= kMostFar) return;
+  faults.push_back(concat("the scan seems to show hair: above the brows it stands ",
+                          format_fixed(above, 0), " mm out beyond the template's head, and ",
+                          format_fixed(100 * share, 1), " % of the skin there is more than ",
+                          kFarMm, " mm off it; leave hair out with --ignore"));
+}
+
+}  // namespace
+
+bool SkinRegions::is(std::uint32_t vertex, const std::string& name) const {
+  return vertex < of_vertex.size() && names[of_vertex[vertex]] == name;
+}
+
+std::vector<std::string> scan_faults(const WrapTemplate& shape, const WrapResult& result,
+                                     const SkinRegions& regions) {
+  std::vector<std::string> faults;
+  look_at_eyes(shape, result, faults);
+  if (!regions.of_vertex.empty()) {
+    look_at_mouth(shape, result, regions, faults);
+    look_at_hair(shape, result, regions, faults);
+  }
+  return faults;
+}
+
+}  // namespace crowdface
