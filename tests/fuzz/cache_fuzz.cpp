@@ -22,9 +22,9 @@ using namespace crowdface;
 /// Every number that is promised can be read.
 void read_all(const PreparedHead& head, const HeadCacheShape& shape) {
   double all = 0;
-  for (const float value : head.levels.fields) all += value;
+  for (const std::int16_t number : head.levels.fields.numbers) all += number;
   all += head.levels.mixing.sum() + head.trajectory.sum();
-  if (head.levels.rank > shape.nodes) std::abort();
+  if (head.levels.fields.rank() > 2 * shape.nodes) std::abort();
   if (all == 1e300) std::abort();  // keeps the sum from being left out
 }
 

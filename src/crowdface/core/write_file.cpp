@@ -176,7 +176,7 @@ FileDigest write_file(const fs::path& path, const TextPieces& text) {
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
-  write_whole(path, [&](TemporaryFile& file) { file.write(bytes); });
+  write_file(path, std::vector<std::string_view>{bytes});
 }
 
 std::size_t remove_leftovers(const fs::path& folder) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "crowdface/core/hash.h"
@@ -18,9 +19,7 @@ class EncodedFile {
  public:
   EncodedFile() = default;
   /// A file that holds just this.
-  EncodedFile(std::string_view text) { add(text); }  // NOLINT(*-explicit-*)
-  EncodedFile(const std::string& text)
-      : EncodedFile(std::string_view(text)) {}  // NOLINT(*-explicit-*)
+  EncodedFile(std::string text) { add(std::move(text)); }  // NOLINT(*-explicit-*)
   /// Adds bytes that lie elsewhere and must stay there until this object is done with.
   void refer_to(std::string_view bytes);
   /// Adds these bytes.

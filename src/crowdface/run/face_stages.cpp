@@ -106,12 +106,6 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
       std::min<std::uint64_t>((memory - standing) / (2 * one_face), kMostAtOnce));
 }
 
-EncodedFile as_file(std::string bytes) {
-  EncodedFile file;
-  file.add(std::move(bytes));
-  return file;
-}
-
 /// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
 class FaceOutput {
  public:
@@ -158,10 +152,10 @@ class FaceOutput {
           renders_->draw(face.id, face.recipe.target, positions, moves,
                          textures_.colours() != nullptr ? &pictures : nullptr, worn);
       made.files.picture =
-          add(directory_.render(face.id), as_file(std::move(drawn.picture)), ready);
+          add(directory_.render(face.id), EncodedFile(std::move(drawn.picture)), ready);
       if (drawn.preview) {
         made.files.preview =
-            add(directory_.gallery_face(face.id), as_file(std::move(*drawn.preview)), ready);
+            add(directory_.gallery_face(face.id), EncodedFile(std::move(*drawn.preview)), ready);
       }
     }
     if (check_ != nullptr) {
@@ -213,7 +207,7 @@ class FaceOutput {
     if (own_ == nullptr) return ready;
     for (OwnFile& file : own_->files(face, formats_, *textures)) {
       files.own.push_back(
-          add(directory_.meshes_of(face.id) / file.name, as_file(std::move(file.bytes)), ready));
+          add(directory_.meshes_of(face.id) / file.name, EncodedFile(std::move(file.bytes)), ready));
     }
     return ready;
   }

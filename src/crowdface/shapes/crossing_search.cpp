@@ -18,7 +18,7 @@ namespace {
 using Box = CrossingSearch::Box;
 
 /// Triangles so many edges apart are of one sheet if they face alike: the least cosine.
-constexpr int kSheetRings = 6;
+constexpr int kSheetRings = 3;
 constexpr double kAlike = 0.9;
 
 constexpr float kEnd = std::numeric_limits<float>::infinity();
