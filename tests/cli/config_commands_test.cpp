@@ -298,7 +298,8 @@ TEST(Generate, InterruptedRunIs75AndItsRerunIsComplete) {
   EXPECT_THAT(stopped.err, ::testing::HasSubstr("run the same command again"));
   auto part = crowd_files(folder.out());
   EXPECT_FALSE(part.contains("report.json"));
-  EXPECT_EQ(part.erase("planned.json"), 1U);  // the rerun takes the plan; a finished crowd needs it no more
+  EXPECT_EQ(part.erase("planned.json"),
+            1U);  // the rerun takes the plan; a finished crowd needs it no more
   for (const auto& [name, bytes] : part) {
     ASSERT_TRUE(whole.contains(name)) << name << ": a temporary file was left";
     EXPECT_TRUE(name == "ledger.jsonl" || bytes == whole.at(name))

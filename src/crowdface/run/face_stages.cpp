@@ -206,8 +206,8 @@ class FaceOutput {
     }
     if (own_ == nullptr) return ready;
     for (OwnFile& file : own_->files(face, formats_, *textures)) {
-      files.own.push_back(
-          add(directory_.meshes_of(face.id) / file.name, EncodedFile(std::move(file.bytes)), ready));
+      files.own.push_back(add(directory_.meshes_of(face.id) / file.name,
+                              EncodedFile(std::move(file.bytes)), ready));
     }
     return ready;
   }

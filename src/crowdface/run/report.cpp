@@ -183,7 +183,8 @@ std::string indented(const Json& json, std::size_t levels) {
 
 /// All but the faces.
 Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const Json& casting,
-             const std::vector<FaceFiles>& files, std::size_t sheets, const std::vector<std::string>& warnings) {
+             const std::vector<FaceFiles>& files, std::size_t sheets,
+             const std::vector<std::string>& warnings) {
   Json report;
   report["crowdface"] = kVersion;
   report["crowd"] = job.config.crowd.name;
