@@ -81,6 +81,10 @@ class DisturbedCrowd : public ::testing::Test {
           name == "ledger.jsonl") {
         continue;
       }
+      if (name == "planned.json") {  // a finished crowd needs it no more
+        EXPECT_TRUE(read_json(folder_.out() / name).is_object()) << after;
+        continue;
+      }
       EXPECT_TRUE(whole_.contains(name) && whole_.at(name) == bytes) << name << " after " << after;
     }
     const std::size_t proven = proven_faces();

@@ -272,9 +272,10 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     standing += attachments_->memory_bytes() + worn_bytes(config, inputs, crowd);
     of_thread += attachments_->worn_bytes();
   }
-  // Files wait for the writer and are with it, beside those that threads are at.
-  standing += static_cast<std::uint64_t>(thread_count() + 2) * of_thread +
-              2 * FaceWriter::kMostWaitingBytes;
+  const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
+  waiting_bytes_ = std::min(of_threads, FaceWriter::kMostWaitingBytes);
+  // Files wait for the writer, and others are with it, beside those that threads are at.
+  standing += of_threads + 2 * waiting_bytes_;
   at_once_ = faces_at_once(standing, builder.bytes(1), memory);
 }
 
@@ -288,7 +289,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (renders != nullptr) renders->make_folders(directory, faces);
 
   Progress progress("faces", faces.size());
-  FaceWriter writer(ledger, [&] { progress.step(); });
+  FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
                     renders, check_ ? &*check_ : nullptr, writer, attachments_, shapes_,
                     attachment_writers_);

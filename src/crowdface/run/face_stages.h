@@ -64,6 +64,7 @@ class FaceStages {
   std::span<const MeshFormat> meshes_;
   std::optional<SkinCheck> check_;  ///< none: no mesh is judged
   std::size_t at_once_;
+  std::uint64_t waiting_bytes_;  ///< of files that are ready, at most
 };
 
 }  // namespace crowdface

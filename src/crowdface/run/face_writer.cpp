@@ -15,8 +15,12 @@ constexpr std::size_t kMostFiles = 200;
 
 }  // namespace
 
-FaceWriter::FaceWriter(const FaceLedger& ledger, std::function<void()> recorded)
-    : ledger_(ledger), recorded_(std::move(recorded)), thread_([this] { run(); }) {}
+FaceWriter::FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes,
+                       std::function<void()> recorded)
+    : ledger_(ledger),
+      waiting_bytes_(waiting_bytes),
+      recorded_(std::move(recorded)),
+      thread_([this] { run(); }) {}
 
 FaceWriter::~FaceWriter() {
   {
@@ -29,12 +33,12 @@ FaceWriter::~FaceWriter() {
 }
 
 void FaceWriter::add(MadeFace face, std::vector<ReadyFile> files) {
-  std::size_t bytes = 0;
+  std::uint64_t bytes = 0;
   for (const ReadyFile& file : files) bytes += file.bytes.memory_bytes();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] {
     return error_ != nullptr || waiting_.faces.empty() ||
-           (waiting_.bytes + bytes <= kMostWaitingBytes && waiting_.files.size() < kMostFiles);
+           (waiting_.bytes + bytes <= waiting_bytes_ && waiting_.files.size() < kMostFiles);
   });
   if (error_) std::rethrow_exception(error_);
   waiting_.faces.push_back(std::move(face));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -26,8 +26,9 @@ struct ReadyFile {
 class FaceWriter {
  public:
   /// \param ledger    must outlive this object.
+  /// \param waiting_bytes  what waits to be written takes at most, if it is more than one face.
   /// \param recorded  called after each face that is.
-  FaceWriter(const FaceLedger& ledger, std::function<void()> recorded);
+  FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes, std::function<void()> recorded);
   ~FaceWriter();  ///< what was not begun is dropped
   FaceWriter(const FaceWriter&) = delete;
   FaceWriter& operator=(const FaceWriter&) = delete;
@@ -40,20 +41,21 @@ class FaceWriter {
 
   /// How long the thread was at work.
   double busy_seconds() const { return busy_seconds_; }
-  /// What waits to be written takes at most, beside one face.
-  static constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20U;
+  /// More of it saves no waiting for the disk.
+  static constexpr std::uint64_t kMostWaitingBytes = std::uint64_t{64} << 20U;
 
  private:
   struct Waiting {
     std::vector<MadeFace> faces;
     std::vector<ReadyFile> files;
-    std::size_t bytes = 0;
+    std::uint64_t bytes = 0;
   };
 
   void run();
   void write(const Waiting& some);
 
   const FaceLedger& ledger_;
+  std::uint64_t waiting_bytes_;
   std::function<void()> recorded_;
   std::mutex mutex_;
   std::condition_variable changed_;

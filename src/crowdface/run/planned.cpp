@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "crowdface/cast/quotas.h"
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -96,6 +97,20 @@ void write_plan(
   write_whole(directory.casting(), casting.dump(2) + "\n");
 }
 
+namespace {
+
+/// Of a file that this run has just written. \throws IoError if it is gone.
+FileDigest hash_own_file(const std::filesystem::path& file) {
+  try {
+    return hash_file(file);
+  } catch (const MissingInput&) {
+    throw IoError(concat(file.string(),
+                         ": was removed while the run was at work; run the same command again"));
+  }
+}
+
+}  // namespace
+
 void mark_planned(const Job& job, const CrowdDirectory& directory) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const std::filesystem::path& file :
@@ -103,7 +118,7 @@ void mark_planned(const Job& job, const CrowdDirectory& directory) {
         directory.casting()}) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) continue;
-    const FileDigest content = hash_file(file);
+    const FileDigest content = hash_own_file(file);
     files.push_back({{"file", directory.relative(file)},
                      {"bytes", content.bytes},
                      {"hash", content.digest.hex()}});
