@@ -6,14 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/io/glb_options.h"
+#include "crowdface/io/gltf_codes.h"
 
 namespace crowdface {
-
-/// Codes of the glTF 2.0 specification.
-namespace gltf {
-inline constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123;
-inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-}  // namespace gltf
 
 /// \param overlay  which of the file's images that is.
 nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay);
