@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A line's checksum would stop the fuzzer at once, so each line of the input gets the right one.
+#include <algorithm>
+
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/ledger.h"
 

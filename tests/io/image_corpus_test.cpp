@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test 8 of docs/reliability.md: damaged and absurd images are refused by name, whatever is wrong.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 

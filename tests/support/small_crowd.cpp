@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/small_crowd.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/core/log.h"

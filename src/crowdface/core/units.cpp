@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/units.h"
 
+#include <algorithm>
 #include <array>
 
 #include "crowdface/core/text.h"

@@ -33,29 +33,29 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
     std::string method, path;
     HttpAnswer (EditApi::*answer)(const HttpRequest& request, const std::string& rest);
   };
-  static const std::vector<Route> kRoutes = {{"GET", "api/job", &EditApi::job},
-                                             {"GET", "api/mesh", &EditApi::mesh},
-                                             {"GET", "api/heads/", &EditApi::head},
-                                             {"GET", "api/attachments/", &EditApi::attachment},
-                                             {"POST", "api/face", &EditApi::face},
-                                             {"POST", "api/measures", &EditApi::measures},
-                                             {"POST", "api/draw", &EditApi::draw},
-                                             {"GET", "api/state", &EditApi::state},
-                                             {"PUT", "api/state", &EditApi::keep_state},
-                                             {"POST", "api/save", &EditApi::save},
-                                             {"POST", "api/picture", &EditApi::picture},
-                                             {"POST", "api/recipes", &EditApi::put_recipe},
-                                             {"GET", "api/generate", &EditApi::generate_progress},
-                                             {"POST", "api/generate", &EditApi::generate},
-                                             {"POST", "api/generate/stop", &EditApi::stop_generate},
-                                             {"POST", "api/review", &EditApi::review},
-                                             {"POST", "api/masks/stroke", &EditApi::paint_masks},
-                                             {"POST", "api/masks/undo", &EditApi::undo_masks},
-                                             {"POST", "api/masks/save", &EditApi::save_masks},
-                                             {"POST", "api/regions", &EditApi::use_regions},
-                                             {"POST", "api/open", &EditApi::open_again}};
+  static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
+                                            {"GET", "api/mesh", &EditApi::mesh},
+                                            {"GET", "api/heads/", &EditApi::head},
+                                            {"GET", "api/attachments/", &EditApi::attachment},
+                                            {"POST", "api/face", &EditApi::face},
+                                            {"POST", "api/measures", &EditApi::measures},
+                                            {"POST", "api/draw", &EditApi::draw},
+                                            {"GET", "api/state", &EditApi::state},
+                                            {"PUT", "api/state", &EditApi::keep_state},
+                                            {"POST", "api/save", &EditApi::save},
+                                            {"POST", "api/picture", &EditApi::picture},
+                                            {"POST", "api/recipes", &EditApi::put_recipe},
+                                            {"GET", "api/generate", &EditApi::generate_progress},
+                                            {"POST", "api/generate", &EditApi::generate},
+                                            {"POST", "api/generate/stop", &EditApi::stop_generate},
+                                            {"POST", "api/review", &EditApi::review},
+                                            {"POST", "api/masks/stroke", &EditApi::paint_masks},
+                                            {"POST", "api/masks/undo", &EditApi::undo_masks},
+                                            {"POST", "api/masks/save", &EditApi::save_masks},
+                                            {"POST", "api/regions", &EditApi::use_regions},
+                                            {"POST", "api/open", &EditApi::open_again}};
   return answer_or_refuse(request, [this](const HttpRequest& asked) {
-    for (const Route& route : kRoutes) {
+    for (const Route& route : routes) {
       const bool is_prefix = route.path.ends_with('/');
       if (is_prefix ? !asked.path.starts_with(route.path) : asked.path != route.path) continue;
       if (route.method != asked.method) continue;

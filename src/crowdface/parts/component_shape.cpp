@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/parts/point_grid.h"

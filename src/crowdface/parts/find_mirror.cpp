@@ -5,6 +5,8 @@
 #include <cmath>
 #include <compare>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"

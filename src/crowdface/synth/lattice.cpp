@@ -2,6 +2,7 @@
 #include "crowdface/synth/lattice.h"
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 namespace crowdface::synth {
