@@ -30,7 +30,7 @@ std::string sentence(Reason reason, const Config& config) {
     Reason reason;
     std::string_view sentence;
     double value;
-    std::string_view unit = "";
+    std::string_view unit = {};
   };
   const BelievabilityOptions& limits = config.believability;
   const std::array all = {

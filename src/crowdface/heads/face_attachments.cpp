@@ -36,7 +36,8 @@ std::vector<WornAttachment> FaceAttachments::worn_by(const CastFace& face,
   for (const std::string& name : face.attachments) {
     const Attachment& item = inputs_.attachments.at(name);
     const auto i = static_cast<std::size_t>(&item - inputs_.attachments.items.data());
-    WornAttachment& one = worn.emplace_back(&item, carriers_[i]->carry(positions, normals));
+    worn.push_back({&item, carriers_[i]->carry(positions, normals)});
+    WornAttachment& one = worn.back();
     for (const Displacements& shape : moves) {
       one.moves.push_back(bends_[i] ? bends_[i]->in_shape(positions, one.positions, shape)
                                     : Displacements{{}, Positions(0, 3)});
