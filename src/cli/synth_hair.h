@@ -30,7 +30,7 @@ class SynthHair {
   struct Wish {
     bool female, curly;
     std::string colour;
-    auto operator<=>(const Wish&) const = default;
+    auto operator<=>(const Wish&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::set<Wish> wishes_;
 };

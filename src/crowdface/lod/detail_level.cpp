@@ -51,7 +51,7 @@ std::array<double, 2> tile_of(std::span<const std::uint32_t> corners,
 struct SplitMesh {
   struct Corner {
     std::uint32_t vertex, uv, look;
-    auto operator<=>(const Corner&) const = default;
+    auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Corner> corners;  ///< each once
   std::vector<Triangle> triangles;

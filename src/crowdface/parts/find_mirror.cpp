@@ -64,7 +64,7 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
     bool unlike;
     double difference;
     std::uint32_t one, other;
-    auto operator<=>(const Pair&) const = default;
+    auto operator<=>(const Pair&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Pair> pairs;
   for (std::uint32_t one = 0; one < components.size(); ++one) {

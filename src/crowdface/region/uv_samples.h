@@ -14,7 +14,7 @@ struct UvSample {
   int tile = 0;  ///< UDIM number
   double u = 0;  ///< as in the file, not relative to the tile
   double v = 0;
-  auto operator<=>(const UvSample&) const = default;
+  auto operator<=>(const UvSample&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The distinct places of every vertex: those of its corners, each value once (a value on the
