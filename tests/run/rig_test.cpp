@@ -7,8 +7,10 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/glb_container.h"
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/gltf_rig.h"
+#include "crowdface/io/little_endian.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/vector3.h"
@@ -20,6 +22,7 @@
 #include "support/expect_error.h"
 #include "support/mesh_files.h"
 #include "support/small_crowd.h"
+#include "support/temporary_folder.h"
 
 namespace crowdface {
 namespace {
@@ -157,6 +160,47 @@ TEST_F(RigOfACrowd, OfAnotherMeshIsRefused) {
                         [&] { run({"faces.units=mm"}); });
   write_file(rig(), bytes.substr(0, bytes.size() / 2));
   testing::expect_error(ExitCode::kBadData, {"rig.glb", "GLB"}, [&] { run(); });
+}
+
+/// Each was read from beyond its memory, or for ever.
+TEST(GltfRig, BrokenScenesAreRefused) {
+  const testing::TemporaryFolder folder;
+  const auto refuse = [&](std::string json, std::initializer_list<std::string> words) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::array<float, 12> floats = {0, 0, 0, -1, 0, 0, 0, 1, NAN, 0, 0, 1};
+    const std::uint32_t binary = sizeof floats;
+    std::string bytes;
+    append_number(bytes, glb::kMagic);
+    append_number(bytes, glb::kVersion);
+    append_number(bytes,
+                  static_cast<std::uint32_t>(glb::kBinaryHeader + json.size() + sizeof floats));
+    append_number(bytes, static_cast<std::uint32_t>(json.size()));
+    append_number(bytes, glb::kJsonChunk);
+    bytes += json;
+    append_number(bytes, binary);
+    append_number(bytes, glb::kBinaryChunk);
+    for (const float number : floats) append_number(bytes, number);
+    write_file(folder / "rig.glb", bytes);
+    testing::expect_error(ExitCode::kBadData, words, [&] { read_gltf_rig(folder / "rig.glb"); });
+  };
+  const auto scene = [](const std::string& nodes, const std::string& more) {
+    return R"({"nodes":[)" + nodes + R"(],"skins":[{"joints":[0]}],"meshes":[{"primitives":[)" +
+           R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],"bufferViews":[{},)" +
+           R"({"byteOffset":12},{"byteOffset":16},{"byteStride":0}],"accessors":[)" + more + "]}";
+  };
+  const std::string position = R"({"bufferView":0,"componentType":5126,"count":1})";
+  const std::string weights = R"(,{"bufferView":2,"componentType":5126,"count":1})";
+  refuse(scene(R"({},{"children":[2]},{"children":[1],"mesh":0})", position), {"in a circle"});
+  refuse(scene(R"({"matrix":[1,0,0]})", position), {"numbers that it does not have"});
+  refuse(scene(R"({},{"mesh":0,"skin":0})", R"({"bufferView":3,"componentType":5126,"count":40})"),
+         {"accessor 0", "outside"});
+  refuse(scene(R"({},{"mesh":0,"skin":0})",
+               position + R"(,{"bufferView":1,"componentType":5126,"count":1})" + weights),
+         {"accessor 1", "expected whole numbers"});
+  refuse(scene(R"({},{"mesh":0,"skin":0})",
+               R"({"bufferView":2,"byteOffset":12,"componentType":5126,"count":1})"),
+         {"accessor 0", "not finite"});
+  refuse(scene(R"({},{"mesh":0,"skin":7})", position), {"not"});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -14,11 +15,12 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/glb_container.h"
 #include "crowdface/io/little_endian.h"
+#include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// A glTF scene and its buffer, with messages that name the file.
 class GltfFile {
@@ -26,7 +28,7 @@ class GltfFile {
   explicit GltfFile(const std::filesystem::path& path) : path_(path.string()), file_(path) {
     const auto chunks = glb_chunks(file_.bytes());
     if (!chunks) fail("expected a binary glTF 2.0 file (GLB), found another");
-    scene_ = Json::parse(chunks->json, nullptr, false);
+    scene_ = parse_shallow_json(chunks->json);
     binary_ = chunks->binary;
     if (!scene_.is_object()) fail("its JSON cannot be read");
   }
@@ -52,7 +54,7 @@ class GltfFile {
     const std::size_t begin =
         view.value("byteOffset", std::size_t{0}) + json.value("byteOffset", std::size_t{0});
     if (view.value("buffer", 0) != 0 || count == 0 || begin > binary_.size() ||
-        stride > binary_.size() || count > binary_.size() ||
+        stride > binary_.size() || stride < size * width || count > binary_.size() / stride + 1 ||
         begin + (count - 1) * stride + size * width > binary_.size()) {
       fail(concat("accessor ", accessor, " lies outside the file's own buffer"));
     }
@@ -65,7 +67,21 @@ class GltfFile {
         numbers.push_back(unit * number(at, type, accessor));
       }
     }
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) {
+      fail(concat("accessor ", accessor, " has numbers that are not finite"));
+    }
     return numbers;
+  }
+  /// The same where they count something.
+  std::vector<std::uint32_t> whole_numbers(std::size_t accessor, std::size_t width) const {
+    std::vector<std::uint32_t> whole;
+    for (const double number : numbers(accessor, width)) {
+      if (number < 0 || number >= kNoIndex) {
+        fail(concat("accessor ", accessor, ": expected whole numbers, found ", number));
+      }
+      whole.push_back(static_cast<std::uint32_t>(number));
+    }
+    return whole;
   }
 
  private:
@@ -93,7 +109,7 @@ class GltfFile {
 Eigen::Matrix4d matrix_from(const std::vector<double>& columns) {
   Eigen::Matrix4d matrix;
   for (Index c = 0; c < 4; ++c) {
-    for (Index r = 0; r < 4; ++r) matrix(r, c) = columns[static_cast<std::size_t>(4 * c + r)];
+    for (Index r = 0; r < 4; ++r) matrix(r, c) = columns.at(static_cast<std::size_t>(4 * c + r));
   }
   return matrix;
 }
@@ -136,6 +152,7 @@ class RigReader {
         parents_.at(child.get<std::size_t>()) = n;
       }
     }
+    refuse_circles();
     joint_of_.assign(nodes.size(), kNoIndex);
     for (const Json& skin : file_.scene().value("skins", Json::array())) {
       for (const Json& joint : skin.at("joints")) joint_of_.at(joint.get<std::size_t>()) = 0;
@@ -173,14 +190,23 @@ class RigReader {
     return std::move(rig_);
   }
 
-  [[noreturn]] void fail(const std::string& what) const { file_.fail(what); }
-
  private:
+  void refuse_circles() const {
+    std::vector<bool> hangs_on_root(parents_.size(), false);
+    for (std::uint32_t node = 0; node < parents_.size(); ++node) {
+      std::vector<std::uint32_t> above;
+      for (std::uint32_t n = node; n != kNoIndex && !hangs_on_root[n]; n = parents_[n]) {
+        if (above.size() == parents_.size()) {
+          file_.fail("its nodes hang on each other in a circle");
+        }
+        above.push_back(n);
+      }
+      for (const std::uint32_t n : above) hangs_on_root[n] = true;
+    }
+  }
   Eigen::Matrix4d world(std::uint32_t node) const {
     Eigen::Matrix4d matrix = local_matrix(file_.scene().at("nodes")[node]);
-    std::size_t steps = 0;
     for (std::uint32_t n = parents_[node]; n != kNoIndex; n = parents_[n]) {
-      if (++steps > parents_.size()) file_.fail("its nodes hang on each other in a circle");
       matrix = times(local_matrix(file_.scene().at("nodes")[n]), matrix);
     }
     return matrix;
@@ -195,9 +221,8 @@ class RigReader {
         file_.numbers(attributes.at("POSITION").get<std::size_t>(), 3);
     const std::size_t count = places.size() / 3;
     if (attributes.contains("_VERTEX_ID")) {
-      for (const double id : file_.numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1)) {
-        rig_.vertex_ids.push_back(static_cast<std::uint32_t>(id));
-      }
+      const auto ids = file_.whole_numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
+      rig_.vertex_ids.insert(rig_.vertex_ids.end(), ids.begin(), ids.end());
     }
     if (skin) return add_skinned(attributes, places, file_.scene().at("skins").at(*skin));
     const std::uint32_t joint = joint_above(node);
@@ -237,11 +262,13 @@ class RigReader {
       at_rest.back() = times(at_rest.back(), matrix_from({first, first + 16}));
     }
     const std::size_t count = places.size() / 3;
-    std::vector<std::vector<double>> bound, weights;
+    std::vector<std::vector<std::uint32_t>> bound;
+    std::vector<std::vector<double>> weights;
     for (std::size_t set = 0; attributes.contains(concat("JOINTS_", set)); ++set) {
       const std::string of_weights = concat("WEIGHTS_", set);
       if (!attributes.contains(of_weights)) file_.fail(concat("a mesh lacks ", of_weights));
-      bound.push_back(file_.numbers(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
+      bound.push_back(
+          file_.whole_numbers(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
       weights.push_back(file_.numbers(attributes.at(of_weights).get<std::size_t>(), 4));
       if (bound.back().size() != 4 * count || weights.back().size() != 4 * count) {
         file_.fail("JOINTS_n, WEIGHTS_n and POSITION differ in length");
@@ -254,7 +281,7 @@ class RigReader {
       for (std::size_t i = 0; i < 4 * bound.size(); ++i) {
         const double weight = weights[i / 4][4 * p + i % 4];
         if (!(weight > 0)) continue;
-        const auto joint = static_cast<std::size_t>(bound[i / 4][4 * p + i % 4]);
+        const std::size_t joint = bound[i / 4][4 * p + i % 4];
         if (joint >= joints.size()) file_.fail(concat("a vertex is bound to the joint ", joint));
         of_point[joints[joint]] += weight;
         place += weight * moved(at_rest[joint], &places[3 * p]);
@@ -284,7 +311,8 @@ GltfRig read_gltf_rig(const std::filesystem::path& path) {
   } catch (const Json::exception& error) {
     throw InvalidInput(concat(path.string(), ": not a scene that glTF 2.0 allows: ", error.what()));
   } catch (const std::out_of_range&) {
-    throw InvalidInput(concat(path.string(), ": it speaks of a node that it does not have"));
+    throw InvalidInput(
+        concat(path.string(), ": it speaks of nodes, joints or numbers that it does not have"));
   }
 }
 
