@@ -14,6 +14,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kTileValues = 3 * kFieldTile;
+constexpr Index kBlocksATask = 8;
 
 bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
   return a.weights == b.weights && a.iterations == b.iterations &&
@@ -229,20 +230,42 @@ void CrowdBlender::write(const Block& block, const Recipe& recipe, const BlockVa
   }
 }
 
+void CrowdBlender::prepare(const Recipe& recipe, Positions& result) const {
+  require_fit(faces_, regions_, recipe);
+  result.resize(faces_.topology.vertex_count, 3);
+}
+
 template <class Wanted>
-void CrowdBlender::blend(std::span<const Recipe* const> recipes, std::span<Positions> results,
-                         const Wanted& wanted) const {
-  for (std::size_t f = 0; f < recipes.size(); ++f) {
-    require_fit(faces_, regions_, *recipes[f]);
-    results[f].resize(faces_.topology.vertex_count, 3);
+void CrowdBlender::blend_one(const Recipe& recipe, const Wanted& wanted, Positions& result) const {
+  prepare(recipe, result);
+  std::vector<std::vector<float>> of_region;
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    of_region.push_back(coefficients(recipe, k));
   }
+  parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
+    std::vector<BlockValues> alpha;
+    BlockValues added;
+    for (Index b = begin; b < end; ++b) {
+      const Block& block = blocks_[static_cast<std::size_t>(b)];
+      if (!wanted(block)) continue;
+      spread_alpha(block, alpha);
+      displacement(block, alpha, of_region, added);
+      write(block, recipe, added, result);
+    }
+    finish_writing();
+  });
+}
+
+void CrowdBlender::blend(std::span<const Recipe* const> recipes,
+                         std::span<Positions> results) const {
+  if (recipes.size() == 1) {
+    return blend_one(
+        *recipes[0], [](const Block&) { return true; }, results[0]);
+  }
+  for (std::size_t f = 0; f < recipes.size(); ++f) prepare(*recipes[f], results[f]);
   const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
-  std::vector<std::vector<float>> alone;  // #regions by #fields, of a single face
-  std::vector<Factors> all_factors;       // #groups by #regions, of several
-  for (std::size_t k = 0; k < regions && recipes.size() == 1; ++k) {
-    alone.push_back(coefficients(*recipes[0], k));
-  }
-  for (std::size_t first = 0; first < recipes.size() && alone.empty(); first += kChunkFaces) {
+  std::vector<Factors> all_factors;  // #groups by #regions
+  for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
     const auto group = recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first));
     for (std::size_t k = 0; k < regions; ++k) all_factors.push_back(factors(group, k));
   }
@@ -250,25 +273,18 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes, std::span<Posit
   for (std::size_t i = 0; i < all_factors.size(); ++i) {
     for (const std::uint32_t field : all_factors[i].fields) used[i % regions][field] = true;
   }
-  constexpr std::ptrdiff_t kBlocksATask = 8;
   parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
     std::vector<Chunk> packed;
     std::vector<BlockValues> alpha;
     std::array<BlockValues, kChunkFaces> added;
     for (Index b = begin; b < end; ++b) {
       const Block& block = blocks_[static_cast<std::size_t>(b)];
-      if (!wanted(block)) continue;
-      spread_alpha(block, alpha);
-      if (!alone.empty()) {
-        displacement(block, alpha, alone, added[0]);
-        write(block, *recipes[0], added[0], results[0]);
-        continue;
-      }
       std::vector<bool> in_block(fields_.size(), false);
       for (const std::uint32_t k : block.regions) {
         for (std::size_t f = 0; f < in_block.size(); ++f) in_block[f] = in_block[f] || used[k][f];
       }
       pack(block, in_block, packed);
+      spread_alpha(block, alpha);
       for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
         displacements(block, packed, alpha,
                       std::span(all_factors).subspan(first / kChunkFaces * regions, regions),
@@ -282,26 +298,21 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes, std::span<Posit
   });
 }
 
-void CrowdBlender::blend(std::span<const Recipe* const> recipes,
-                         std::span<Positions> results) const {
-  blend(recipes, results, [](const Block&) { return true; });
-}
-
 void CrowdBlender::change(const Recipe& before, const Recipe& after, Positions& face) const {
-  const Recipe* one = &after;
   const bool same_target = before.target == after.target && before.mixture == after.mixture;
-  blend(std::span(&one, 1), std::span(&face, 1), [&](const Block& block) {
+  const auto differs = [&](const Block& block) {
     return !same_target ||
            std::any_of(block.regions.begin(), block.regions.end(), [&](std::uint32_t k) {
              return !blends_alike(before.regions[k], after.regions[k]);
            });
-  });
+  };
+  blend_one(after, differs, face);
 }
 
 Positions CrowdBlender::blend(const Recipe& recipe) const {
-  const Recipe* one = &recipe;
   Positions result;
-  blend(std::span(&one, 1), std::span(&result, 1));
+  blend_one(
+      recipe, [](const Block&) { return true; }, result);
   return result;
 }
 

@@ -88,10 +88,10 @@ class CrowdBlender {
   void cut_into_blocks();
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
   Factors factors(std::span<const Recipe* const> recipes, std::size_t region) const;
+  void prepare(const Recipe& recipe, Positions& result) const;
   /// Blends at those of the blocks that are wanted.
   template <class Wanted>
-  void blend(std::span<const Recipe* const> recipes, std::span<Positions> results,
-             const Wanted& wanted) const;
+  void blend_one(const Recipe& recipe, const Wanted& wanted, Positions& result) const;
   std::size_t packed_rows() const { return fields_.size() + 1; }
   void pack(const Block& block, const std::vector<bool>& used, std::vector<Chunk>& packed) const;
   void spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const;

@@ -77,6 +77,16 @@ std::vector<CastFace> read_faces(const Job& job, const std::filesystem::path& pl
   return faces;
 }
 
+/// Of a file that this run has just written. \throws IoError if it is gone.
+FileDigest hash_own_file(const std::filesystem::path& file) {
+  try {
+    return hash_file(file);
+  } catch (const MissingInput&) {
+    throw IoError(concat(file.string(),
+                         ": was removed while the run was at work; run the same command again"));
+  }
+}
+
 }  // namespace
 
 void write_plan(
@@ -96,20 +106,6 @@ void write_plan(
   if (!cast.rejected.empty()) write(directory.rejected(), plan_text(job, cast.rejected));
   write_whole(directory.casting(), casting.dump(2) + "\n");
 }
-
-namespace {
-
-/// Of a file that this run has just written. \throws IoError if it is gone.
-FileDigest hash_own_file(const std::filesystem::path& file) {
-  try {
-    return hash_file(file);
-  } catch (const MissingInput&) {
-    throw IoError(concat(file.string(),
-                         ": was removed while the run was at work; run the same command again"));
-  }
-}
-
-}  // namespace
 
 void mark_planned(const Job& job, const CrowdDirectory& directory) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
