@@ -57,7 +57,8 @@ TEST(WriteFile, NamesTheFileThatCannotBeCreated) {
 TEST(WriteFiles, LeaveEachWholeInItsFolder) {
   const TemporaryFolder folder;
   make_directories(folder / "sub");
-  const std::string large(20'000'000, 'x');  // written in several pieces
+  std::string large;
+  large.resize(20'000'000, 'x');  // written in several pieces
   write_files(std::vector<FileToWrite>{{folder / "a", {"one ", "two"}},
                                        {folder / "sub" / "b", {large, "y"}},
                                        {folder / "sub" / "c", {}}});
