@@ -201,6 +201,13 @@ TEST(GltfRig, BrokenScenesAreRefused) {
                R"({"bufferView":2,"byteOffset":12,"componentType":5126,"count":1})"),
          {"accessor 0", "not finite"});
   refuse(scene(R"({},{"mesh":0,"skin":7})", position), {"not"});
+  refuse(scene(R"({"translation":[1e300,0,0]})", position), {"node 0", "beyond all measure"});
+  refuse(scene(concat(R"({"name":")", std::string(1001, 'n'), R"("})"), position),
+         {"at most 1000 bytes, found 1001"});
+  std::string many = R"({"children":[1)", nodes;
+  for (int n = 1; n <= 49; ++n) nodes += R"(,{"mesh":0})";
+  for (int n = 2; n <= 49; ++n) many += concat(",", n);
+  refuse(scene(many + "]}" + nodes, position), {"more vertices than it has bytes"});
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kLongestName = 1000;  ///< of a joint, bytes
+constexpr double kFarthest = 1e6;           ///< of what a matrix holds: a thousand kilometres
+
 /// A glTF scene and its buffer, with messages that name the file.
 class GltfFile {
  public:
@@ -34,6 +37,7 @@ class GltfFile {
   }
 
   const Json& scene() const { return scene_; }
+  std::size_t buffer_size() const { return binary_.size(); }
   [[noreturn]] void fail(const std::string& what) const {
     throw InvalidInput(concat(path_, ": ", what));
   }
@@ -152,7 +156,7 @@ class RigReader {
         parents_.at(child.get<std::size_t>()) = n;
       }
     }
-    refuse_circles();
+    find_worlds();
     joint_of_.assign(nodes.size(), kNoIndex);
     for (const Json& skin : file_.scene().value("skins", Json::array())) {
       for (const Json& joint : skin.at("joints")) joint_of_.at(joint.get<std::size_t>()) = 0;
@@ -160,7 +164,7 @@ class RigReader {
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       if (joint_of_[n] == kNoIndex) continue;
       joint_of_[n] = static_cast<std::uint32_t>(rig_.joints.size());
-      rig_.joints.push_back({nodes[n].value("name", concat("joint_", n)), 0, world(n)});
+      rig_.joints.push_back({joint_name(nodes[n], n), 0, worlds_[n]});
     }
     if (rig_.joints.empty()) file_.fail("expected a mesh that is bound to joints, found no skin");
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
@@ -191,25 +195,37 @@ class RigReader {
   }
 
  private:
-  void refuse_circles() const {
-    std::vector<bool> hangs_on_root(parents_.size(), false);
+  std::string joint_name(const Json& node, std::uint32_t number) const {
+    std::string name = node.value("name", concat("joint_", number));
+    if (name.size() > kLongestName) {
+      file_.fail(concat("expected names of at most ", kLongestName, " bytes, found ", name.size()));
+    }
+    return name;
+  }
+
+  /// From the roots down, each node once.
+  void find_worlds() {
+    const Json& nodes = file_.scene().at("nodes");
+    worlds_.resize(parents_.size());
+    std::vector<bool> known(parents_.size(), false);
+    std::vector<std::uint32_t> above;
     for (std::uint32_t node = 0; node < parents_.size(); ++node) {
-      std::vector<std::uint32_t> above;
-      for (std::uint32_t n = node; n != kNoIndex && !hangs_on_root[n]; n = parents_[n]) {
+      for (std::uint32_t n = node; n != kNoIndex && !known[n]; n = parents_[n]) {
         if (above.size() == parents_.size()) {
           file_.fail("its nodes hang on each other in a circle");
         }
         above.push_back(n);
       }
-      for (const std::uint32_t n : above) hangs_on_root[n] = true;
+      for (; !above.empty(); above.pop_back()) {
+        const std::uint32_t n = above.back(), parent = parents_[n];
+        const Eigen::Matrix4d local = local_matrix(nodes[n]);
+        worlds_[n] = parent == kNoIndex ? local : times(worlds_[parent], local);
+        if (!(worlds_[n].array().abs() < kFarthest).all()) {
+          file_.fail(concat("expected its node ", n, " at a place, found it beyond all measure"));
+        }
+        known[n] = true;
+      }
     }
-  }
-  Eigen::Matrix4d world(std::uint32_t node) const {
-    Eigen::Matrix4d matrix = local_matrix(file_.scene().at("nodes")[node]);
-    for (std::uint32_t n = parents_[node]; n != kNoIndex; n = parents_[n]) {
-      matrix = times(local_matrix(file_.scene().at("nodes")[n]), matrix);
-    }
-    return matrix;
   }
   std::uint32_t joint_above(std::uint32_t node) const {
     while (node != kNoIndex && joint_of_[node] == kNoIndex) node = parents_[node];
@@ -220,16 +236,19 @@ class RigReader {
     const std::vector<double> places =
         file_.numbers(attributes.at("POSITION").get<std::size_t>(), 3);
     const std::size_t count = places.size() / 3;
+    if (count > file_.buffer_size() - points_.size()) {
+      file_.fail("one mesh stands at so many nodes that they have more vertices than it has bytes");
+    }
     if (attributes.contains("_VERTEX_ID")) {
       const auto ids = file_.whole_numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
       rig_.vertex_ids.insert(rig_.vertex_ids.end(), ids.begin(), ids.end());
     }
-    if (skin) return add_skinned(attributes, places, file_.scene().at("skins").at(*skin));
+    if (skin) return add_skinned(attributes, places, skin_of(*skin));
     const std::uint32_t joint = joint_above(node);
     if (joint == kNoIndex) {
       file_.fail(concat("the mesh of its node ", node, " is bound to no joint and hangs on none"));
     }
-    const Eigen::Matrix4d place = world(node);
+    const Eigen::Matrix4d& place = worlds_[node];
     for (std::size_t p = 0; p < count; ++p) {
       points_.push_back(moved(place, &places[3 * p]));
       rig_.influences.add_group(std::array{Influence{joint, 1}});
@@ -244,23 +263,35 @@ class RigReader {
     return to;
   }
 
-  void add_skinned(const Json& attributes, const std::vector<double>& places, const Json& skin) {
+  /// What the numbers in JOINTS_n mean.
+  struct Skin {
     std::vector<std::uint32_t> joints;
-    for (const Json& joint : skin.at("joints")) {
-      joints.push_back(joint_of_[joint.get<std::size_t>()]);
+    std::vector<Eigen::Matrix4d> at_rest;  ///< #joints, from a mesh's own axes
+  };
+  const Skin& skin_of(std::size_t number) {
+    const auto [known, is_new] = skins_.try_emplace(number);
+    Skin& skin = known->second;
+    if (!is_new) return skin;
+    const Json& json = file_.scene().at("skins").at(number);
+    for (const Json& joint : json.at("joints")) {
+      skin.joints.push_back(joint_of_[joint.get<std::size_t>()]);
     }
-    std::vector<Eigen::Matrix4d> at_rest;
     std::vector<double> inverses;
-    if (skin.contains("inverseBindMatrices")) {
-      inverses = file_.numbers(skin.at("inverseBindMatrices").get<std::size_t>(), 16);
-      if (inverses.size() < 16 * joints.size()) file_.fail("a skin lacks inverse bind matrices");
+    if (json.contains("inverseBindMatrices")) {
+      inverses = file_.numbers(json.at("inverseBindMatrices").get<std::size_t>(), 16);
+      if (inverses.size() < 16 * skin.joints.size())
+        file_.fail("a skin lacks inverse bind matrices");
     }
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      at_rest.push_back(rig_.joints[joints[j]].rest);
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      skin.at_rest.push_back(rig_.joints[skin.joints[j]].rest);
       if (inverses.empty()) continue;
       const auto first = inverses.begin() + static_cast<std::ptrdiff_t>(16 * j);
-      at_rest.back() = times(at_rest.back(), matrix_from({first, first + 16}));
+      skin.at_rest.back() = times(skin.at_rest.back(), matrix_from({first, first + 16}));
     }
+    return skin;
+  }
+
+  void add_skinned(const Json& attributes, const std::vector<double>& places, const Skin& skin) {
     const std::size_t count = places.size() / 3;
     std::vector<std::vector<std::uint32_t>> bound;
     std::vector<std::vector<double>> weights;
@@ -282,9 +313,11 @@ class RigReader {
         const double weight = weights[i / 4][4 * p + i % 4];
         if (!(weight > 0)) continue;
         const std::size_t joint = bound[i / 4][4 * p + i % 4];
-        if (joint >= joints.size()) file_.fail(concat("a vertex is bound to the joint ", joint));
-        of_point[joints[joint]] += weight;
-        place += weight * moved(at_rest[joint], &places[3 * p]);
+        if (joint >= skin.joints.size()) {
+          file_.fail(concat("a vertex is bound to the joint ", joint));
+        }
+        of_point[skin.joints[joint]] += weight;
+        place += weight * moved(skin.at_rest[joint], &places[3 * p]);
         sum += weight;
       }
       if (!(sum > 0)) file_.fail(concat("its vertex ", p, " is bound to no joint"));
@@ -299,6 +332,8 @@ class RigReader {
 
   GltfFile file_;
   std::vector<std::uint32_t> parents_, joint_of_;  ///< #nodes
+  std::vector<Eigen::Matrix4d> worlds_;            ///< #nodes, each at rest
+  std::map<std::size_t, Skin> skins_;
   std::vector<Eigen::Vector3d> points_;
   GltfRig rig_;
 };
