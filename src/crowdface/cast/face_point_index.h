@@ -21,8 +21,9 @@ class FacePointIndex {
     double mm = HUGE_VAL;
   };
   /// The nearest of the first `end` faces (of all, if less than 0), if it is nearer than `limit_mm`.
+  /// \param enough_mm  the search ends with any face that is nearer.
   Nearest nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
-                  Index end = -1) const;
+                  Index end = -1, double enough_mm = 0) const;
 
  private:
   PointTrees as_built_, unit_;

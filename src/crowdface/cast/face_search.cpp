@@ -2,6 +2,7 @@
 #include "crowdface/cast/face_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace crowdface {
 
@@ -14,6 +15,24 @@ FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions
       next_attempt_(first_attempt),
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)) {}
 
+/// Whether it is far enough from all faces. How far it is from the nearest is found out only as far as
+/// that decides whether it is the farthest of the candidates.
+bool FaceSearch::meet_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
+  const double least = diversity_.min_distance_mm;
+  if (least > 0 && crowd.index().nearest(candidate.point, least).face >= 0) return false;
+  if (wanted_ == 1) return true;
+  double farthest = 0;
+  for (const Candidate& other : candidates_) {
+    if (other.known) farthest = std::max(farthest, other.nearest_mm);
+  }
+  candidate.nearest_mm =
+      crowd.index()
+          .nearest(candidate.point, HUGE_VAL, crowd.first_sampled(), crowd.size(), farthest)
+          .mm;
+  candidate.known = candidate.nearest_mm >= farthest;
+  return true;
+}
+
 /// Draws until there are as many candidates as asked for, or no attempts left.
 void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   while (candidates_.size() < wanted_ && next_attempt_ < last_attempt_) {
@@ -22,19 +41,11 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
     candidate.point = judge_.space().point(candidate.face.recipe);
     if (const auto reason = judge_.at_a_glance(candidate.face.recipe, candidate.point)) {
       rejections_.add(*reason);
-      continue;
-    }
-    // Only one candidate: how far it is does not matter once it is far enough.
-    const double limit = wanted_ == 1 ? diversity_.min_distance_mm : HUGE_VAL;
-    const double least = diversity_.min_distance_mm;
-    candidate.nearest_mm =
-        crowd.index().nearest(candidate.point, limit, crowd.first_sampled(), crowd.size()).mm;
-    if (candidate.nearest_mm < least ||
-        crowd.index().nearest(candidate.point, least, 0, crowd.first_sampled()).face >= 0) {
+    } else if (!meet_crowd(candidate, crowd)) {
       rejections_.add(Reason::kMinDistance);
-      continue;
+    } else {
+      candidates_.push_back(std::move(candidate));
     }
-    candidates_.push_back(std::move(candidate));
   }
   compared_ = crowd.size();
 }
@@ -55,11 +66,21 @@ void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
 }
 
 /// Of equally far ones the one drawn first.
-void FaceSearch::farthest_first() {
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    return a.nearest_mm != b.nearest_mm ? a.nearest_mm > b.nearest_mm
-                                        : a.face.notes.attempt < b.face.notes.attempt;
-  });
+FaceSearch::Candidate& FaceSearch::farthest(const CrowdSoFar& crowd) {
+  for (;;) {
+    Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),
+                                         [](const Candidate& a, const Candidate& b) {
+                                           if (a.nearest_mm != b.nearest_mm)
+                                             return a.nearest_mm > b.nearest_mm;
+                                           if (a.known != b.known) return b.known;
+                                           return a.face.notes.attempt < b.face.notes.attempt;
+                                         });
+    if (first.known) return first;
+    const auto nearest =
+        crowd.index().nearest(first.point, first.nearest_mm, crowd.first_sampled(), crowd.size());
+    first.nearest_mm = std::min(first.nearest_mm, nearest.mm);
+    first.known = true;
+  }
 }
 
 void FaceSearch::judge_closely(Candidate& candidate) const {
@@ -70,8 +91,7 @@ void FaceSearch::judge_closely(Candidate& candidate) const {
 
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
   draw_candidates(crowd);
-  farthest_first();
-  if (!candidates_.empty()) judge_closely(candidates_.front());  // most likely the one
+  if (!candidates_.empty()) judge_closely(farthest(crowd));  // most likely the one
 }
 
 std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
@@ -80,20 +100,17 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
     compare_with_newer(crowd);
     draw_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
-    farthest_first();
-    for (Candidate& candidate : candidates_) {
-      if (const auto why = refuses ? refuses(candidate.point) : std::nullopt) {
-        rejections_.add(*why);
-        continue;
+    while (!candidates_.empty()) {
+      Candidate& candidate = farthest(crowd);
+      auto why = refuses ? refuses(candidate.point) : std::nullopt;
+      if (!why) {
+        judge_closely(candidate);
+        why = candidate.broken;
       }
-      judge_closely(candidate);
-      if (candidate.broken) {
-        rejections_.add(*candidate.broken);
-        continue;
-      }
-      return Found{std::move(candidate.face), std::move(candidate.point)};
+      if (!why) return Found{std::move(candidate.face), std::move(candidate.point)};
+      rejections_.add(*why);
+      candidates_.erase(candidates_.begin() + (&candidate - candidates_.data()));
     }
-    candidates_.clear();
   }
 }
 

@@ -41,14 +41,16 @@ class FaceSearch {
   struct Candidate {
     CastFace face;
     FaceSpace::Point point;
-    double nearest_mm = 0;
+    double nearest_mm = HUGE_VAL;  ///< from the nearest face; if not known, at most
+    bool known = true;
     bool judged = false;  ///< closely
     std::optional<Reason> broken = std::nullopt;
   };
 
   void draw_candidates(const CrowdSoFar& crowd);
+  bool meet_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
   void compare_with_newer(const CrowdSoFar& crowd);
-  void farthest_first();
+  Candidate& farthest(const CrowdSoFar& crowd);
   void judge_closely(Candidate& candidate) const;
 
   Draw draw_;

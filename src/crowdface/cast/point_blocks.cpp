@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "crowdface/cast/distance_kernels.h"
+
 namespace crowdface {
 
 PointBlocks::PointBlocks(Index dimensions)
@@ -10,15 +12,18 @@ PointBlocks::PointBlocks(Index dimensions)
 
 void PointBlocks::add(Index number, const float* values) {
   const Index lane = size() % kLanes;
-  if (lane == 0) values_.resize(values_.size() + static_cast<std::size_t>(dimensions_ * kLanes));
-  float* block = values_.data() + size() / kLanes * dimensions_ * kLanes;
-  for (Index d = 0; d < dimensions_; ++d) block[d * kLanes + lane] = values[d];
+  if (lane == 0) {
+    leading_.resize(leading_.size() + static_cast<std::size_t>(kChunk * kLanes));
+    others_.resize(others_.size() + static_cast<std::size_t>((dimensions_ - kChunk) * kLanes));
+  }
+  for (Index d = 0; d < dimensions_; ++d) row(size() / kLanes, d)[lane] = values[d];
   numbers_.push_back(number);
 }
 
 void PointBlocks::clear() {
   numbers_.clear();
-  values_.clear();
+  leading_.clear();
+  others_.clear();
 }
 
 std::vector<float> PointBlocks::padded(const Eigen::VectorXf& query) const {
@@ -29,20 +34,10 @@ std::vector<float> PointBlocks::padded(const Eigen::VectorXf& query) const {
 
 PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& query, Index block,
                                                   float bound) const {
-  const float* values = values_.data() + block * dimensions_ * kLanes;
   Lanes sums = {};
   for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
-    for (Index d = chunk; d < chunk + kChunk; ++d) {
-      const float q = query[static_cast<std::size_t>(d)];
-      const float* row = values + d * kLanes;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const float difference = q - row[lane];
-        sums[lane] += difference * difference;
-      }
-    }
-    int within = 0;  // sums only grow
-    for (const float sum : sums) within += sum <= bound ? 1 : 0;
-    if (within == 0) {
+    // Sums only grow.
+    if (!add_squares(query.data() + chunk, row(block, chunk), kChunk, bound, sums.data())) {
       sums.fill(HUGE_VALF);
       return sums;
     }

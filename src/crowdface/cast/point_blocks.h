@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,10 +39,7 @@ class PointBlocks {
   Index padded_dimensions() const { return dimensions_; }
   /// Those of the points, in the order in which they were added.
   Index number(Index at) const { return numbers_[static_cast<std::size_t>(at)]; }
-  float value(Index at, Index dimension) const {
-    return values_[static_cast<std::size_t>(at / kLanes * dimensions_ * kLanes +
-                                            dimension * kLanes + at % kLanes)];
-  }
+  float value(Index at, Index dimension) const { return row(at / kLanes, dimension)[at % kLanes]; }
 
   /// Blocks are searched for a query that is as long as theirs.
   std::vector<float> padded(const Eigen::VectorXf& query) const;
@@ -57,9 +55,21 @@ class PointBlocks {
  private:
   static constexpr Index kChunk = 16;  ///< coordinates between two looks at the sums
 
+  /// One coordinate of a block's points.
+  const float* row(Index block, Index dimension) const {
+    return dimension < kChunk
+               ? leading_.data() + (block * kChunk + dimension) * kLanes
+               : others_.data() + (block * (dimensions_ - kChunk) + dimension - kChunk) * kLanes;
+  }
+  float* row(Index block, Index dimension) {
+    return const_cast<float*>(std::as_const(*this).row(block, dimension));
+  }
+
   Index dimensions_;  ///< a multiple of kChunk
   std::vector<Index> numbers_;
-  std::vector<float> values_;  ///< block, coordinate, lane
+  /// Block, coordinate, lane: the leading coordinates, at which nearly all searches of a block end, are
+  /// apart from the others, so that they lie close to each other.
+  std::vector<float> leading_, others_;
 };
 
 }  // namespace crowdface

@@ -102,7 +102,7 @@ float PointTree::squared_distance(const Node& node, const std::vector<float>& qu
 }
 
 void PointTree::search(std::int32_t at, const std::vector<float>& query, Index begin, Index end,
-                       NearestPoint& best) const {
+                       double enough, NearestPoint& best) const {
   const Node& node = nodes_[static_cast<std::size_t>(at)];
   if (node.least >= end || node.greatest < begin) return;
   if (node.left < 0) {
@@ -119,7 +119,8 @@ void PointTree::search(std::int32_t at, const std::vector<float>& query, Index b
   if (children[1].first < children[0].first) std::swap(children[0], children[1]);
   for (const auto& [squared, child] : children) {
     if (static_cast<double>(squared * (1 - kRounding)) > best.squared) return;
-    search(child, query, begin, end, best);
+    search(child, query, begin, end, enough, best);
+    if (best.squared < enough) return;
   }
 }
 
@@ -139,11 +140,14 @@ void PointTrees::add(const Eigen::VectorXf& point) {
   newest_.clear();
 }
 
-NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit, Index begin,
-                                 Index end) const {
+NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
+                                 double enough) const {
   NearestPoint best{-1, limit};
   const std::vector<float> padded = newest_.padded(query);
-  for (const PointTree& tree : trees_) tree.search(padded, begin, end, best);
+  for (const PointTree& tree : trees_) {
+    tree.search(padded, begin, end, enough, best);
+    if (best.point >= 0 && best.squared < enough) return best;
+  }
   const Index first_newest = size_ - newest_.size();
   const Index last = std::min(end - first_newest, newest_.size());
   for (Index block = std::max(begin - first_newest, Index{0}) / PointBlocks::kLanes;

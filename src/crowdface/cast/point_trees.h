@@ -17,8 +17,9 @@ class PointTree {
   PointTree(Index dimensions, const std::vector<const PointBlocks*>& points);
 
   const PointBlocks& points() const { return points_; }
-  void search(const std::vector<float>& query, Index begin, Index end, NearestPoint& best) const {
-    search(0, query, begin, end, best);
+  void search(const std::vector<float>& query, Index begin, Index end, double enough,
+              NearestPoint& best) const {
+    search(0, query, begin, end, enough, best);
   }
 
  private:
@@ -35,7 +36,7 @@ class PointTree {
   std::int32_t build(Building& building, std::size_t begin, std::size_t end);
   float squared_distance(const Node& node, const std::vector<float>& query) const;
   void search(std::int32_t node, const std::vector<float>& query, Index begin, Index end,
-              NearestPoint& best) const;
+              double enough, NearestPoint& best) const;
 
   Index box_dimensions_;
   PointBlocks points_;
@@ -56,7 +57,9 @@ class PointTrees {
   Index size() const { return size_; }
   /// The nearest of points [begin, end) whose squared distance is below `limit`; of equally near
   /// ones the first. The bits do not depend on what else is stored.
-  NearestPoint nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end) const;
+  /// \param enough  a squared distance: the search ends with any point that is nearer.
+  NearestPoint nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
+                       double enough = 0) const;
 
  private:
   Index dimensions_;
