@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/float_kernels.h"
 #include "crowdface/cast/training_recipe.h"
 #include "crowdface/core/fixed_order.h"
 #include "crowdface/core/parallel.h"
@@ -186,15 +187,13 @@ FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Variant variant,
   auto shape = target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
     return shapes_[static_cast<std::size_t>(first + head)];
   });
-  const Index size = shape.size();
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     for (const LevelShares& at : level_shares(recipe, k, extrapolation_of(variant))) {
       for (const LevelTerm& term : level_terms(heads_.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
           const auto f = static_cast<float>(part.weight * term.factor);
-          const float* from = field(k, first + part.head, term.row);
-          float* out = shape.data();
-          for (Index i = 0; i < size; ++i) out[i] += f * from[i];
+          add_scaled(f, field(k, first + part.head, term.row),
+                     static_cast<std::size_t>(shape.size()), shape.data());
         }
       }
     }
@@ -247,11 +246,8 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const std::vector<float> at = aligned(shape);
   const Index rank = directions_.rows(), size = static_cast<Index>(at.size());
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
-  for (Index i = 0; i < size; ++i) {
-    const float value = at[static_cast<std::size_t>(i)];
-    const float* column = directions_transposed_.row(i).data();
-    for (Index d = 0; d < rank; ++d) result[d] += value * column[d];
-  }
+  add_scaled_rows(at.data(), at.size(), directions_transposed_.data(),
+                  static_cast<std::size_t>(rank), result.data());
   // How far the face is from the directions' span: |a| − |b| of it is at most |a − b|.
   const double rest =
       fixed_dot(at.data(), at.data(), size) - fixed_dot(result.data(), result.data(), rank);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "crowdface/cast/distance_kernels.h"
+#include "crowdface/cast/float_kernels.h"
 
 namespace crowdface {
 

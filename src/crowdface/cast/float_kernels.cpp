@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/float_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crowdface/cast/float_kernels.cpp"
+#include "hwy/foreach_target.h"
+// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace crowdface::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, 16>;
+
+void add_scaled(float factor, const float* from, std::size_t count, float* to) {
+  const Lanes lanes;
+  const std::size_t width = hn::Lanes(lanes);
+  const auto factors = hn::Set(lanes, factor);
+  std::size_t i = 0;
+  for (; i + width <= count; i += width) {
+    const auto product = hn::Mul(factors, hn::LoadU(lanes, from + i));
+    hn::StoreU(hn::Add(hn::LoadU(lanes, to + i), product), lanes, to + i);
+  }
+  for (; i < count; ++i) to[i] += factor * from[i];
+}
+
+void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
+                     float* to) {
+  const Lanes lanes;
+  const std::size_t one = hn::Lanes(lanes);
+  std::size_t d = 0;
+  for (; d + 4 * one <= width; d += 4 * one) {
+    auto a = hn::LoadU(lanes, to + d), b = hn::LoadU(lanes, to + d + one),
+         c = hn::LoadU(lanes, to + d + 2 * one), e = hn::LoadU(lanes, to + d + 3 * one);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto factor = hn::Set(lanes, factors[i]);
+      const float* row = rows + i * width + d;
+      a = hn::Add(a, hn::Mul(factor, hn::LoadU(lanes, row)));
+      b = hn::Add(b, hn::Mul(factor, hn::LoadU(lanes, row + one)));
+      c = hn::Add(c, hn::Mul(factor, hn::LoadU(lanes, row + 2 * one)));
+      e = hn::Add(e, hn::Mul(factor, hn::LoadU(lanes, row + 3 * one)));
+    }
+    hn::StoreU(a, lanes, to + d);
+    hn::StoreU(b, lanes, to + d + one);
+    hn::StoreU(c, lanes, to + d + 2 * one);
+    hn::StoreU(e, lanes, to + d + 3 * one);
+  }
+  for (; d + one <= width; d += one) {
+    auto sum = hn::LoadU(lanes, to + d);
+    for (std::size_t i = 0; i < count; ++i) {
+      sum =
+          hn::Add(sum, hn::Mul(hn::Set(lanes, factors[i]), hn::LoadU(lanes, rows + i * width + d)));
+    }
+    hn::StoreU(sum, lanes, to + d);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t rest = d; rest < width; ++rest)
+      to[rest] += factors[i] * rows[i * width + rest];
+  }
+}
+
+bool add_squares(const float* query, const float* rows, std::size_t dimensions, float bound,
+                 float* sums) {
+  constexpr std::size_t kLanes = 16;
+  const Lanes lanes;
+  bool within = false;
+  for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(lanes)) {
+    auto sum = hn::LoadU(lanes, sums + lane);
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      const auto difference =
+          hn::Sub(hn::Set(lanes, query[d]), hn::LoadU(lanes, rows + d * kLanes + lane));
+      sum = hn::Add(sum, hn::Mul(difference, difference));
+    }
+    hn::StoreU(sum, lanes, sums + lane);
+    within = within || !hn::AllFalse(lanes, hn::Le(sum, hn::Set(lanes, bound)));
+  }
+  return within;
+}
+
+}  // namespace crowdface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace crowdface {
+
+HWY_EXPORT(add_scaled);
+HWY_EXPORT(add_scaled_rows);
+HWY_EXPORT(add_squares);
+
+void add_scaled(float factor, const float* from, std::size_t count, float* to) {
+  HWY_DYNAMIC_DISPATCH(add_scaled)(factor, from, count, to);
+}
+
+void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
+                     float* to) {
+  HWY_DYNAMIC_DISPATCH(add_scaled_rows)(factors, count, rows, width, to);
+}
+
+bool add_squares(const float* query, const float* rows, std::size_t dimensions, float bound,
+                 float* sums) {
+  return HWY_DYNAMIC_DISPATCH(add_squares)(query, rows, dimensions, bound, sums);
+}
+
+}  // namespace crowdface
+#endif

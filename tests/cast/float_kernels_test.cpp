@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/float_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace crowdface {
+namespace {
+
+std::vector<float> random_floats(std::size_t count) {
+  static std::mt19937 generator(7);
+  std::uniform_real_distribution<float> value(-3, 3);
+  std::vector<float> floats(count);
+  for (float& number : floats) number = value(generator);
+  return floats;
+}
+
+/// Widths with and without whole registers of each instruction set.
+class FloatKernels : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(FloatKernels, HaveTheBitsOfPlainLoops) {
+  const std::size_t width = GetParam(), count = 13;
+  const std::vector<float> factors = random_floats(count), rows = random_floats(count * width),
+                           start = random_floats(width);
+  std::vector<float> sums = start, plain = start;
+  add_scaled_rows(factors.data(), count, rows.data(), width, sums.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t d = 0; d < width; ++d) plain[d] += factors[i] * rows[i * width + d];
+  }
+  EXPECT_EQ(sums, plain);
+
+  add_scaled(factors[0], rows.data(), width, sums.data());
+  for (std::size_t d = 0; d < width; ++d) plain[d] += factors[0] * rows[d];
+  EXPECT_EQ(sums, plain);
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, FloatKernels, ::testing::Values(1, 3, 16, 37, 64, 85, 150));
+
+TEST(FloatKernelsSquares, OfSixteenLanesEndOnlyWhereAllAreBeyond) {
+  constexpr std::size_t kLanes = 16, kDimensions = 16;
+  const std::vector<float> query = random_floats(kDimensions),
+                           rows = random_floats(kDimensions * kLanes);
+  std::vector<float> plain(kLanes, 1), sums(kLanes, 1);
+  for (std::size_t d = 0; d < kDimensions; ++d) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const float difference = query[d] - rows[d * kLanes + lane];
+      plain[lane] += difference * difference;
+    }
+  }
+  const float least = *std::min_element(plain.begin(), plain.end());
+  EXPECT_TRUE(add_squares(query.data(), rows.data(), kDimensions, least, sums.data()));
+  EXPECT_EQ(sums, plain);
+  sums.assign(kLanes, 1);
+  EXPECT_FALSE(add_squares(query.data(), rows.data(), kDimensions, std::nextafter(least, 0.F),
+                           sums.data()));
+}
+
+}  // namespace
+}  // namespace crowdface
