@@ -18,6 +18,17 @@ namespace {
 constexpr int kSheetRings = 3;
 constexpr double kAlike = 0.9;
 
+/// Of a leaf with itself: each pair once.
+constexpr std::uint64_t kOnce = [] {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < LeafBoxes::kCount; ++i) {
+    for (std::size_t j = i + 1; j < LeafBoxes::kCount; ++j) {
+      bits |= std::uint64_t{1} << (LeafBoxes::kCount * i + j);
+    }
+  }
+  return bits;
+}();
+
 /// Which triangles are how many edges from one.
 class Rings {
  public:
@@ -31,30 +42,31 @@ class Rings {
                                        })),
         seen_(triangles.size(), kNoIndex) {}
 
-  void search(std::uint32_t from) {
-    from_ = from;
-    std::vector<std::uint32_t> edge = {from}, next;
+  /// Those within kSheetRings, the one itself included.
+  std::span<const std::uint32_t> around(std::uint32_t from) {
+    reached_ = {from};
     seen_[from] = from;
-    for (int ring = 0; ring < kSheetRings; ++ring, std::swap(edge, next)) {
-      next.clear();
-      for (const std::uint32_t t : edge) {
-        for (const std::uint32_t v : triangles_[t]) {
+    std::size_t begin = 0;
+    for (int ring = 0; ring < kSheetRings; ++ring) {
+      const std::size_t end = reached_.size();
+      for (; begin < end; ++begin) {
+        for (const std::uint32_t v : triangles_[reached_[begin]]) {
           for (const std::uint32_t other : around_.of(v)) {
             if (seen_[other] == from) continue;
             seen_[other] = from;
-            next.push_back(other);
+            reached_.push_back(other);
           }
         }
       }
     }
+    return reached_;
   }
-  bool have(std::uint32_t triangle) const { return seen_[triangle] == from_; }
 
  private:
   std::span<const Triangle> triangles_;
   Grouped<std::uint32_t> around_;    ///< #V
   std::vector<std::uint32_t> seen_;  ///< #triangles: from which
-  std::uint32_t from_ = kNoIndex;
+  std::vector<std::uint32_t> reached_;
 };
 
 }  // namespace
@@ -69,25 +81,29 @@ void CrossingSearch::find_near(const Positions& mesh, double reach) {
   for (const Triangle& triangle : triangles_) normals.push_back(unit3(area_vector(mesh, triangle)));
   auto leaves = TriangleScene(triangles_, tree_, mesh, reach / 2).near_leaves();
   std::ranges::sort(leaves, {}, [](const auto& pair) { return std::pair(pair.one, pair.other); });
-  for (const auto& [one, other] : leaves) near_.push_back({one, other, 0});
+  std::vector<std::uint32_t> place(triangles_.size(), kNoIndex);  // in the leaves' order
+  for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(triangles_, mesh.rows());
-  for (std::size_t begin = 0, end = 0; begin < near_.size(); begin = end) {
-    while (end < near_.size() && near_[end].one == near_[begin].one) ++end;
-    const auto ones = tree_.leaf(near_[begin].one);
+  std::vector<std::uint32_t> near_of(tree_.leaf_count(), kNoIndex);  // of the leaf at hand
+  for (auto begin = leaves.begin(), end = begin; begin != leaves.end(); begin = end) {
+    for (; end != leaves.end() && end->one == begin->one; ++end) {
+      near_of[end->other] = static_cast<std::uint32_t>(near_.size());
+      near_.push_back({end->one, end->other, end->one == end->other ? kOnce : ~std::uint64_t{0}});
+    }
+    const auto ones = tree_.leaf(begin->one);
     for (std::size_t k = 0; k < ones.size(); ++k) {
-      rings.search(ones[k]);
-      for (Near& near : std::span(near_).subspan(begin, end - begin)) {
-        const auto others = tree_.leaf(near.other);
-        for (std::size_t m = near.other == near.one ? k + 1 : 0; m < others.size(); ++m) {
-          const std::uint32_t t = ones[k], other = others[m];
-          if (rings.have(other) && (share_vertex(triangles_[t], triangles_[other]) ||
-                                    dot3(normals[t], normals[other]) > kAlike)) {
-            continue;
-          }
-          near.asked |= std::uint64_t{1} << (LeafBoxes::kCount * k + m);
+      for (const std::uint32_t other : rings.around(ones[k])) {
+        if (place[other] == kNoIndex) continue;
+        const std::uint32_t near = near_of[place[other] / LeafBoxes::kCount];
+        if (near == kNoIndex || (!share_vertex(triangles_[ones[k]], triangles_[other]) &&
+                                 dot3(normals[ones[k]], normals[other]) <= kAlike)) {
+          continue;
         }
+        const std::size_t bit = LeafBoxes::kCount * k + place[other] % LeafBoxes::kCount;
+        near_[near].asked &= ~(std::uint64_t{1} << bit);
       }
     }
+    for (auto pair = begin; pair != end; ++pair) near_of[pair->other] = kNoIndex;
   }
   std::erase_if(near_, [](const Near& near) { return near.asked == 0; });
 }
@@ -130,8 +146,9 @@ std::vector<CrossingSearch::Pair> CrossingSearch::crossing(
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
       const std::uint32_t t = tree_.leaf(near.one)[bit / LeafBoxes::kCount];
       const std::uint32_t u = tree_.leaf(near.other)[bit % LeafBoxes::kCount];
+      if (excused(t) && excused(u)) continue;
       if (!triangles_intersect(mesh, triangles_[t], triangles_[u])) continue;
-      if (!excused(t) || !excused(u)) pairs.push_back({std::min(t, u), std::max(t, u)});
+      pairs.push_back({std::min(t, u), std::max(t, u)});
     }
   }
   std::sort(pairs.begin(), pairs.end());

@@ -183,9 +183,10 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
       }
     }
     for (const std::uint32_t w : grid.about(at, reach)) {
+      if ((near[v] && near[w]) || dot3(row3(normals, w), normal) > 0) continue;
       const Eigen::Vector3d other = row3(mesh, w), other_move = other - row3(neutral, w);
       const double distance = length3(other - at);
-      if (distance > reach || w == v || dot3(row3(normals, w), normal) > 0) continue;
+      if (distance > reach || w == v) continue;
       const double may_differ = kOfMove * std::max(length3(move), length3(other_move)) +
                                 kOfDifference * length3(move - other_move);
       if (may_differ >= distance) near[v] = near[w] = true;
