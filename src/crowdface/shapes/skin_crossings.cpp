@@ -50,7 +50,7 @@ std::vector<std::uint32_t> vertices_of(const std::vector<CrossingSearch::Pair>& 
 /// Some places, and the box around them.
 struct Surroundings {
   std::vector<Eigen::Vector3d> places;
-  Eigen::Vector3d low, high;
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;
 
   void add(const Eigen::Vector3d& place) {
     low = places.empty() ? place : Eigen::Vector3d(low.cwiseMin(place));
@@ -234,7 +234,8 @@ int SkinCrossings::side_of(const Watched& watched, std::uint32_t triangle) const
   return 0;
 }
 
-/// Lids: away from each other as they are at rest, the upper one over the lower one.
+/// Lids: the upper one forward over the lower one. Pushed up it would open, and the lower one pushed back would go
+/// into the eyeball.
 void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& watched,
                                const Positions& rest, double by, Displacements& shape,
                                std::vector<bool>& changed) const {
@@ -245,12 +246,11 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
       const auto& [a, b, c] = watched.search.triangles()[pair[k]];
       middle[k] = row3(rest, a) + row3(rest, b) + row3(rest, c);
     }
-    const Eigen::Vector3d between =
-        unit3(unit3(middle[0] - middle[1]) + side_of(watched, pair[0]) * axes_.front);
-    for (std::size_t k = 0; k < 2; ++k) {
-      for (const std::uint32_t v : watched.search.triangles()[pair[k]]) {
-        wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? between : -between;
-      }
+    const double side = side_of(watched, pair[0]);
+    Eigen::Vector3d over = unit3(unit3(middle[0] - middle[1]) + side * axes_.front);
+    over = side * unit3(over - dot3(over, axes_.up) * axes_.up);
+    for (const std::uint32_t v : watched.search.triangles()[pair[side > 0 ? 0 : 1]]) {
+      if (watched.side[v] > 0) wanted.try_emplace(v, 0, 0, 0).first->second += over;
     }
   }
   const double reach = kPushed * extent_;

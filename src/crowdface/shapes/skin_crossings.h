@@ -35,7 +35,7 @@ class SkinCrossings {
     CrossingSearch search;
     std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
     std::vector<signed char>
-        side;               ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+        side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
     std::vector<Row> rows;
     bool is_meant = false;  ///< its crossings are counted and left
   };

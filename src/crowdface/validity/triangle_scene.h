@@ -57,7 +57,7 @@ class TriangleScene {
   const TriangleTree& tree_;
   const Positions& positions_;
   std::vector<LeafBoxes> leaves_;
-  std::vector<Box> boxes_;         ///< of the nodes
+  std::vector<Box> boxes_;  ///< of the nodes
 };
 
 }  // namespace crowdface
