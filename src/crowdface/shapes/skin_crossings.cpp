@@ -26,7 +26,7 @@ constexpr double kGrowth = 0.08;                       // of those, a round
 /// Of what evens out how lids move up and down, so that they close still.
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
-constexpr int kRounds = 30;
+constexpr int kRounds = 30, kForwardRounds = 12;
 constexpr double kMeets = 0.008;  // how near on the template is what may meet on a face
 
 double square(double x) {
@@ -234,10 +234,10 @@ int SkinCrossings::side_of(const Watched& watched, std::uint32_t triangle) const
   return 0;
 }
 
-/// Lids: the upper one forward over the lower one. Pushed up it would open, and the lower one pushed back would go
-/// into the eyeball.
+/// Lids: the upper one forward over the lower one, as pushed up it would open, and the lower one pushed back would go
+/// into the eyeball. Where that does not help, both, as they lie at rest.
 void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& watched,
-                               const Positions& rest, double by, Displacements& shape,
+                               const Positions& rest, double by, Push how, Displacements& shape,
                                std::vector<bool>& changed) const {
   std::map<std::uint32_t, Eigen::Vector3d> wanted;
   for (const Pair& pair : pairs) {
@@ -248,9 +248,13 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
     }
     const double side = side_of(watched, pair[0]);
     Eigen::Vector3d over = unit3(unit3(middle[0] - middle[1]) + side * axes_.front);
-    over = side * unit3(over - dot3(over, axes_.up) * axes_.up);
-    for (const std::uint32_t v : watched.search.triangles()[pair[side > 0 ? 0 : 1]]) {
-      if (watched.side[v] > 0) wanted.try_emplace(v, 0, 0, 0).first->second += over;
+    if (how == Push::kForward) over -= dot3(over, axes_.up) * axes_.up;
+    over = unit3(over);
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const std::uint32_t v : watched.search.triangles()[pair[k]]) {
+        if (how == Push::kForward && watched.side[v] < 0) continue;
+        wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? over : -over;
+      }
     }
   }
   const double reach = kPushed * extent_;
@@ -365,7 +369,8 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
     std::erase_if(pairs, are_lids);
     std::vector<bool> changed(is_skin_.size(), false);
     if (!lids.empty()) {
-      push_apart(lids, watched, rest, grown * kPush * extent_, shape, changed);
+      push_apart(lids, watched, rest, grown * kPush * extent_,
+                 round < kForwardRounds ? Push::kForward : Push::kApart, shape, changed);
     }
     if (!pairs.empty()) even_out(pairs, watched, rest, grown, shape, changed);
     for (const Row& row : watched.rows) {

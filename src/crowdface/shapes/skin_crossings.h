@@ -71,8 +71,9 @@ class SkinCrossings {
                   CrossingSearch::Boxes& boxes, std::vector<Pair>& pairs, Positions& mesh,
                   Displacements& shape) const;
   int side_of(const Watched& watched, std::uint32_t triangle) const;
+  enum class Push { kForward, kApart };
   void push_apart(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
-                  double by, Displacements& shape, std::vector<bool>& changed) const;
+                  double by, Push how, Displacements& shape, std::vector<bool>& changed) const;
   void even_out(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
                 double grown, Displacements& shape, std::vector<bool>& changed) const;
 
