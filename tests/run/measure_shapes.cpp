@@ -62,14 +62,13 @@ constexpr double kTenthOfMm = 0.01;  // of centimetres
 
 /// Of blinks of a crowd in centimetres.
 struct LidFigures {
-  std::size_t closing = 0, closed = 0, deep = 0, deeper = 0, blinks = 0;
-  double widest = 0, deepest = 0, of_template = 0;
+  std::size_t closing = 0, closed = 0, deep = 0, deep_at_rest = 0, deeper = 0, blinks = 0;
+  double widest = 0, most_deeper = 0, deepest = 0, of_template = 0;
 
   /// \param moves  of the face
   void add(MeasuredLids& eye, const Positions& neutral, const Positions& face,
            const Displacements& of_template_moves, const Displacements& moves) {
     const BallMap ball = eye.map_in(face), there = eye.map_in(neutral);
-    const double scale = ball.radius() / there.radius();
     const Positions closed_there = in_shape(neutral, of_template_moves),
                     here = in_shape(face, moves);
     eye.find_points(neutral, closed_there);
@@ -84,8 +83,11 @@ struct LidFigures {
     const auto in_template = eye.depths(there, closed_there), at_rest = eye.depths(ball, face),
                in_face = eye.depths(ball, here);
     for (std::size_t i = 0; i < in_face.size(); ++i) {
+      const double may_be = std::max(2 * kTenthOfMm, at_rest[i]);
       if (in_face[i] > 2 * kTenthOfMm) ++deep;
-      if (in_face[i] - std::max(scale * in_template[i], at_rest[i]) > 2 * kTenthOfMm) ++deeper;
+      if (at_rest[i] > 2 * kTenthOfMm) ++deep_at_rest;
+      if (in_face[i] > may_be + kTenthOfMm / 2) ++deeper;
+      most_deeper = std::max(most_deeper, in_face[i] - may_be);
       deepest = std::max(deepest, in_face[i]);
       of_template = std::max(of_template, in_template[i]);
     }
@@ -95,6 +97,16 @@ struct LidFigures {
 /// In millimetres.
 std::string mm(double centimetres) {
   return format_fixed(10 * centimetres, 2);
+}
+
+void print(const char* how, const LidFigures& lids) {
+  std::cout << how << ": " << lids.blinks << " blinks, closed at " << lids.closed << " of "
+            << lids.closing << " points of the rim where the template's is, widest "
+            << mm(lids.widest) << " mm; vertices of the lids' outer skin more than 0.2 mm in an "
+            << "eyeball " << lids.deep << ", at rest " << lids.deep_at_rest
+            << "; by more than 0.05 mm deeper than that and than at rest " << lids.deeper
+            << ", at most by " << mm(lids.most_deeper) << " mm; deepest " << mm(lids.deepest)
+            << " mm, on the template " << mm(lids.of_template) << " mm\n";
 }
 
 }  // namespace
@@ -127,7 +139,7 @@ int main(int argc, char** argv) try {
     eyes.emplace_back(job.inputs.faces, skin, job.inputs.parts, part, set.neutral,
                       head_axes(job.config));
   }
-  LidFigures lids;
+  LidFigures lids, unchanged_lids;
   Index at_rest_in_all = 0;
   for (std::size_t f = 0; f < count; ++f) {
     const Recipe* recipe = &cast.crowd[f].recipe;
@@ -140,7 +152,9 @@ int main(int argc, char** argv) try {
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       const Displacements& shape = set.shapes[s].moves;
       for (MeasuredLids& eye : eyes) {
-        if (eye.moved(shape) > 50 * kTenthOfMm) lids.add(eye, set.neutral, face, shape, moves[s]);
+        if (eye.moved(shape) < 50 * kTenthOfMm) continue;
+        lids.add(eye, set.neutral, face, shape, moves[s]);
+        unchanged_lids.add(eye, set.neutral, face, shape, shape);
       }
       const Index carried = crossings.beyond(of_template[s], at_rest, in_shape(face, moves[s]));
       counted[s].unchanged += crossings.beyond(of_template[s], at_rest, in_shape(face, shape));
@@ -152,17 +166,10 @@ int main(int argc, char** argv) try {
   const auto mean = [&](Index sum) {
     return format_fixed(static_cast<double>(sum) / static_cast<double>(count), 2);
   };
-  std::cout << count << " faces, at rest " << mean(at_rest_in_all) << " crossing triangles\n"
-            << lids.blinks << " blinks: closed at " << lids.closed << " of " << lids.closing
-            << " points of the rim where the template's is ("
-            << format_fixed(
-                   100.0 * static_cast<double>(lids.closed) / static_cast<double>(lids.closing), 2)
-            << " %), widest " << mm(lids.widest) << " mm; vertices of the lids' outer skin more "
-            << "than 0.2 mm in an eyeball " << lids.deep
-            << ", of those by 0.2 mm more than at rest "
-            << "and on the template " << lids.deeper << ", deepest " << mm(lids.deepest)
-            << " mm, on the template " << mm(lids.of_template) << " mm\n"
-            << "shape: crossing triangles of the template; new in a face, unchanged and carried; "
+  std::cout << count << " faces, at rest " << mean(at_rest_in_all) << " crossing triangles\n";
+  print("carried", lids);
+  print("unchanged", unchanged_lids);
+  std::cout << "shape: crossing triangles of the template; new in a face, unchanged and carried; "
                "at most; faces with any\n";
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
     const Counted& of = counted[s];

@@ -46,6 +46,9 @@ void give_back_large_blocks() {
   // glibc raises this by itself whenever such a block is freed, up to 32 MiB; once set it stays.
   constexpr int kLarge = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);  // NOLINT(concurrency-mt-unsafe): before any thread
+  // What one face took in smaller blocks the next one takes again: cleared pages cost more than the work.
+  constexpr int kKept = 64 << 20;
+  ::mallopt(M_TRIM_THRESHOLD, kKept);  // NOLINT(concurrency-mt-unsafe)
 }
 
 void watch_for_lack_of_memory() {

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <vector>
 
-#include "crowdface/mesh/triangles.h"
+#include "crowdface/validity/triangle_tree.h"
 
 namespace crowdface {
 
@@ -16,7 +16,6 @@ namespace crowdface {
 class CrossingSearch {
  public:
   using Pair = std::array<std::uint32_t, 2>;  ///< numbers of triangles, ascending
-  static constexpr std::size_t kLeaf = 8;     ///< triangles in a leaf
 
   CrossingSearch() = default;
   /// \param triangles  those that are looked at
@@ -27,13 +26,6 @@ class CrossingSearch {
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  struct Box {
-    std::array<float, 3> low, high;
-  };
-  /// Those of a leaf's triangles, side by side for the processor; where it has fewer, boxes that nothing meets.
-  struct LeafBoxes {
-    std::array<std::array<float, kLeaf>, 3> low, high;
-  };
   /// Of one mesh: what is kept between two looks at it.
   struct Boxes {
     std::vector<LeafBoxes> triangles;  ///< #leaves
@@ -45,9 +37,9 @@ class CrossingSearch {
   void renew(const Positions& mesh, const std::vector<bool>& changed, Boxes& boxes) const;
 
   /// Pairs that pass through each other, ascending, of which one is new.
-  /// \param excused  #triangles: pairs of two such are left out
+  /// \param excused  of a triangle; pairs of two such are left out
   std::vector<Pair> crossing(const Positions& mesh, const Boxes& boxes,
-                             const std::vector<bool>& excused) const;
+                             const std::function<bool(std::uint32_t)>& excused) const;
 
  private:
   /// Of two leaves, maybe of one with itself: bit 8 i + j says whether triangle i of the first is asked about with
@@ -56,17 +48,12 @@ class CrossingSearch {
     std::uint32_t one, other;
     std::uint64_t asked;
   };
-  void add_leaves(std::span<std::uint32_t> numbers, const Positions& places);
-  std::span<const std::uint32_t> leaf(std::size_t l) const {
-    return {order_.data() + begins_[l], order_.data() + begins_[l + 1]};
-  }
   void find_near(const Positions& mesh, double reach);
   void measure(const Positions& mesh, std::size_t leaf, Boxes& boxes) const;
 
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> order_;         ///< numbers of triangles, leaf after leaf
-  std::vector<std::uint32_t> begins_ = {0};  ///< #leaves + 1, in `order_`
-  std::vector<Near> near_;
+  TriangleTree tree_;
+  std::vector<Near> near_;  ///< ascending
 };
 
 }  // namespace crowdface

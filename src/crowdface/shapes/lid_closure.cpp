@@ -25,6 +25,9 @@ constexpr double kLeastClosed = 0.05;
 /// What is left of an opening that counts as closed.
 constexpr double kLeft = 0.4;
 constexpr double kMargin = 0.004;  // kept free where template and face are
+/// As deep as skin may go into the eyeball where it is not at rest.
+constexpr double kDeepest = 0.0125;
+constexpr double kSomeDeeper = 0.002;  // what nobody minds
 /// By so much lids close further than the template's, where its shape does not fit by itself: what lies between the
 /// places closes too.
 constexpr double kSure = 0.02;
@@ -260,6 +263,11 @@ void LidClosure::close(std::size_t count, const Eigen::Vector3d& up, const Posit
   }
 }
 
+double LidClosure::least_gap(std::size_t lid, double rest, double scale, const Goals& goals) const {
+  const double of_shape = std::max(scale * goals.least[lid], -kDeepest * scale * radius_);
+  return std::min({rest, of_shape, kMargin * scale * radius_});
+}
+
 void LidClosure::hold_off(std::size_t count, const Positions& face, const FaceEye& eye,
                           std::span<const double> rest_gaps, double scale, const Goals& goals,
                           Positions& moves) const {
@@ -268,10 +276,27 @@ void LidClosure::hold_off(std::size_t count, const Positions& face, const FaceEy
     if (lid.hold == 0) continue;
     const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     const double rest = rest_gaps[lid.number];
-    const double least = std::min({rest, scale * goals.least[i], kMargin * scale * radius_});
-    const double wanted = std::max(rest + scale * goals.gap_change[i], least);
+    const double wanted =
+        std::max(rest + scale * goals.gap_change[i], least_gap(i, rest, scale, goals));
     moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
   }
+}
+
+bool LidClosure::keep_out(const Positions& face, const FaceEye& eye,
+                          std::span<const double> rest_gaps, const RigidMotion& whole,
+                          const Goals& goals, Positions& moves) const {
+  const double some = kSomeDeeper * whole.scale * radius_;
+  bool is_out = true;
+  for (std::size_t i = 0; i < lids_.size(); ++i) {
+    const Lid& lid = lids_[i];
+    if (lid.hold == 0) continue;
+    const double least = least_gap(i, rest_gaps[lid.number], whole.scale, goals);
+    const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
+    if (now.gap >= least) continue;
+    is_out = is_out && now.gap > least - some;
+    moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
+  }
+  return is_out;
 }
 
 std::vector<double> LidClosure::missing_gaps(const std::vector<Gap>& now, const Goals& goals,

@@ -84,6 +84,9 @@ class LidClosure {
   /// \param moves  as the shape's, carried to the face; made to fit
   void fit(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
            const RigidMotion& whole, const Goals& goals, Positions& moves) const;
+  /// Brings out what something else took into the eyeball. \return  whether there was nothing
+  bool keep_out(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
+                const RigidMotion& whole, const Goals& goals, Positions& moves) const;
 
  private:
   /// A point of a lid's profile; rows are of the shape, or kNoIndex for what does not move.
@@ -120,6 +123,8 @@ class LidClosure {
   /// Of the first `count` lids.
   void close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
              std::span<const double> gains, Positions& moves) const;
+  /// How near to the eyeball a lid may come, or how deep into it: as it is at rest, or as the shape has it.
+  double least_gap(std::size_t lid, double rest, double scale, const Goals& goals) const;
   void hold_off(std::size_t count, const Positions& face, const FaceEye& eye,
                 std::span<const double> rest_gaps, double scale, const Goals& goals,
                 Positions& moves) const;

@@ -14,6 +14,8 @@
 
 namespace crowdface {
 
+struct PreparedShapes;
+
 /// Carries expressions to faces of their topology (docs/shapes.md): those of a template, or between
 /// those of the heads, each first measured on the mean head:
 ///
@@ -49,8 +51,7 @@ class ShapeTransfer {
   std::size_t memory_bytes() const;
 
  private:
-  struct State;
-  std::unique_ptr<const State> state_;
+  std::unique_ptr<const PreparedShapes> prepared_;
 };
 
 }  // namespace crowdface

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -25,7 +26,7 @@ constexpr double kGrowth = 0.08;                       // of those, a round
 /// Of what evens out how lids move up and down, so that they close still.
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
-constexpr int kRounds = 30;
+constexpr int kRounds = 30, kForwardRounds = 12;
 constexpr double kMeets = 0.008;  // how near on the template is what may meet on a face
 
 double square(double x) {
@@ -46,6 +47,32 @@ std::vector<std::uint32_t> vertices_of(const std::vector<CrossingSearch::Pair>& 
   return vertices;
 }
 
+/// Some places, and the box around them.
+struct Surroundings {
+  std::vector<Eigen::Vector3d> places;
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;
+
+  void add(const Eigen::Vector3d& place) {
+    low = places.empty() ? place : Eigen::Vector3d(low.cwiseMin(place));
+    high = places.empty() ? place : Eigen::Vector3d(high.cwiseMax(place));
+    places.push_back(place);
+  }
+  /// Whether a point lies in the box grown by `reach`.
+  bool have(const Eigen::Vector3d& point, double reach) const {
+    return (point.array() > low.array() - reach).all() &&
+           (point.array() < high.array() + reach).all();
+  }
+  /// To the nearest of them.
+  double distance(const Eigen::Vector3d& point) const {
+    double least = std::numeric_limits<double>::max();
+    for (const Eigen::Vector3d& place : places) {
+      const Eigen::Vector3d from = place - point;
+      least = std::min(least, dot3(from, from));
+    }
+    return std::sqrt(least);
+  }
+};
+
 /// Means of a field over the cells of a grid.
 class CellMeans {
  public:
@@ -55,18 +82,24 @@ class CellMeans {
       nodes_a_side_[static_cast<std::size_t>(c)] =
           static_cast<std::size_t>((high[c] - low[c]) / cell) + 2;
     }
-    nodes_.resize(nodes_a_side_[0] * nodes_a_side_[1] * nodes_a_side_[2]);
+    number_.resize(nodes_a_side_[0] * nodes_a_side_[1] * nodes_a_side_[2], kNoIndex);
   }
   void add(const Eigen::Vector3d& place, const Eigen::Vector3d& value) {
-    visit(place, [&](Node& node, double weight) {
+    visit(place, [&](std::size_t at, double weight) {
+      if (number_[at] == kNoIndex) {
+        number_[at] = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.emplace_back();
+      }
+      Node& node = nodes_[number_[at]];
       node.sum += weight * value;
       node.weight += weight;
     });
   }
   /// At a place to which something was added.
-  Eigen::Vector3d at(const Eigen::Vector3d& place) {
+  Eigen::Vector3d at(const Eigen::Vector3d& place) const {
     Node mean;
-    visit(place, [&](const Node& node, double weight) {
+    visit(place, [&](std::size_t at, double weight) {
+      const Node& node = nodes_[number_[at]];
       mean.sum += weight * node.sum;
       mean.weight += weight * node.weight;
     });
@@ -80,7 +113,7 @@ class CellMeans {
   };
 
   template <class Use>
-  void visit(const Eigen::Vector3d& place, const Use& use) {
+  void visit(const Eigen::Vector3d& place, const Use& use) const {
     std::array<std::size_t, 3> first;
     std::array<double, 3> t;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -96,13 +129,14 @@ class CellMeans {
         node = node * nodes_a_side_[c] + first[c] + step;
         weight *= step == 1 ? t[c] : 1 - t[c];
       }
-      use(nodes_[node], weight);
+      use(node, weight);
     }
   }
 
   Eigen::Vector3d low_;
   double cell_;
   std::array<std::size_t, 3> nodes_a_side_;
+  std::vector<std::uint32_t> number_;  ///< of a node; most hear of nothing and have none
   std::vector<Node> nodes_;
 };
 
@@ -129,7 +163,10 @@ SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint
 
 SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,
                                             std::vector<signed char> side) const {
-  Watched watched{{}, {}, std::move(side)};
+  Watched watched{{}, {}, std::move(side), {}};
+  for (std::uint32_t row = 0; row < shape.vertices.size(); ++row) {
+    if (is_skin_[shape.vertices[row]]) watched.rows.push_back({row, shape.vertices[row]});
+  }
   Positions mesh = neutral;
   shape.add_to(mesh);
   const Positions normals = vertex_normals(triangles_, mesh);
@@ -146,9 +183,10 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
       }
     }
     for (const std::uint32_t w : grid.about(at, reach)) {
+      if ((near[v] && near[w]) || dot3(row3(normals, w), normal) > 0) continue;
       const Eigen::Vector3d other = row3(mesh, w), other_move = other - row3(neutral, w);
       const double distance = length3(other - at);
-      if (distance > reach || w == v || dot3(row3(normals, w), normal) > 0) continue;
+      if (distance > reach || w == v) continue;
       const double may_differ = kOfMove * std::max(length3(move), length3(other_move)) +
                                 kOfDifference * length3(move - other_move);
       if (may_differ >= distance) near[v] = near[w] = true;
@@ -177,8 +215,9 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
 void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
   const CrossingSearch& search = watched.search;
   std::vector<bool> there(is_skin_.size(), false);
+  const auto known = [&](std::uint32_t t) { return watched.excused[t]; };
   for (const std::uint32_t v :
-       vertices_of(search.crossing(mesh, search.boxes_of(mesh), watched.excused), search)) {
+       vertices_of(search.crossing(mesh, search.boxes_of(mesh), known), search)) {
     there[v] = true;
   }
   for (std::size_t i = 0; i < watched.excused.size(); ++i) {
@@ -187,28 +226,19 @@ void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
   }
 }
 
-int SkinCrossings::side_of(const Watched& watched, std::uint32_t place) const {
+int SkinCrossings::side_of(const Watched& watched, std::uint32_t triangle) const {
   if (watched.side.empty()) return 0;
-  for (const std::uint32_t v : watched.search.triangles()[place]) {
+  for (const std::uint32_t v : watched.search.triangles()[triangle]) {
     if (watched.side[v] != 0) return watched.side[v];
   }
   return 0;
 }
 
-std::vector<SkinCrossings::Row> SkinCrossings::rows_of(const Positions& rest,
-                                                       const Displacements& shape) const {
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
-    const std::uint32_t v = shape.vertices[i];
-    if (is_skin_[v]) rows.push_back({static_cast<Index>(i), v, row3(rest, v)});
-  }
-  return rows;
-}
-
-/// Lids: away from each other as they are at rest, the upper one over the lower one.
+/// Lids: the upper one forward over the lower one, as pushed up it would open, and the lower one pushed back would go
+/// into the eyeball. Where that does not help, both, as they lie at rest.
 void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& watched,
-                               const Positions& rest, std::span<const Row> rows, double by,
-                               Displacements& shape, std::vector<bool>& changed) const {
+                               const Positions& rest, double by, Push how, Displacements& shape,
+                               std::vector<bool>& changed) const {
   std::map<std::uint32_t, Eigen::Vector3d> wanted;
   for (const Pair& pair : pairs) {
     std::array<Eigen::Vector3d, 2> middle;
@@ -216,26 +246,35 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
       const auto& [a, b, c] = watched.search.triangles()[pair[k]];
       middle[k] = row3(rest, a) + row3(rest, b) + row3(rest, c);
     }
-    const Eigen::Vector3d between =
-        unit3(unit3(middle[0] - middle[1]) + side_of(watched, pair[0]) * axes_.front);
+    const double side = side_of(watched, pair[0]);
+    Eigen::Vector3d over = unit3(unit3(middle[0] - middle[1]) + side * axes_.front);
+    if (how == Push::kForward) over -= dot3(over, axes_.up) * axes_.up;
+    over = unit3(over);
     for (std::size_t k = 0; k < 2; ++k) {
       for (const std::uint32_t v : watched.search.triangles()[pair[k]]) {
-        wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? between : -between;
+        if (how == Push::kForward && watched.side[v] < 0) continue;
+        wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? over : -over;
       }
     }
   }
   const double reach = kPushed * extent_;
-  for (const Row& row : rows) {
+  Surroundings around;
+  for (auto& [v, push] : wanted) {
+    push = unit3(push);
+    around.add(row3(rest, v));
+  }
+  for (const Row& row : watched.rows) {
     const signed char side = watched.side[row.vertex];
-    if (side == 0) continue;
+    const Eigen::Vector3d here = row3(rest, row.vertex);
+    if (side == 0 || !around.have(here, reach)) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0, most = 0;
     for (const auto& [v, push] : wanted) {
       if (watched.side[v] != side && v != row.vertex) continue;
-      const double distance = length3(row3(rest, v) - row.rest) / reach;
+      const double distance = length3(row3(rest, v) - here) / reach;
       if (distance >= 1) continue;
       const double weight = square(1 - square(distance));
-      sum += weight * unit3(push);
+      sum += weight * push;
       weights += weight;
       most = std::max(most, weight);
     }
@@ -246,37 +285,29 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
 }
 
 void SkinCrossings::even_out(const std::vector<Pair>& pairs, const Watched& watched,
-                             const Positions& rest, std::span<const Row> rows, double grown,
-                             Displacements& shape, std::vector<bool>& changed) const {
+                             const Positions& rest, double grown, Displacements& shape,
+                             std::vector<bool>& changed) const {
   const double cell = grown * kCell * extent_, whole = grown * kEvened * extent_,
                none = grown * kNotEvened * extent_;
-  const std::vector<std::uint32_t> crossing = vertices_of(pairs, watched.search);
-  Eigen::Vector3d low = row3(rest, crossing.front()), high = low;
-  for (const std::uint32_t v : crossing) {
-    low = low.cwiseMin(row3(rest, v));
-    high = high.cwiseMax(row3(rest, v));
-  }
-  low.array() -= none + cell;
-  high.array() += none + cell;
-  CellMeans means(low, high, cell);
+  Surroundings crossing;
+  for (const std::uint32_t v : vertices_of(pairs, watched.search)) crossing.add(row3(rest, v));
+  CellMeans means(crossing.low.array() - (none + cell), crossing.high.array() + (none + cell),
+                  cell);
   std::vector<Row> around;
-  for (const Row& row : rows) {
-    if ((row.rest.array() <= low.array()).any() || (row.rest.array() >= high.array()).any()) {
-      continue;
-    }
-    means.add(row.rest, row3(shape.moves, row.row));
+  for (const Row& row : watched.rows) {
+    const Eigen::Vector3d here = row3(rest, row.vertex);
+    if (!crossing.have(here, none + cell)) continue;
+    means.add(here, row3(shape.moves, row.row));
     around.push_back(row);
   }
   for (const Row& row : around) {
-    double distance = none;
-    for (const std::uint32_t v : crossing) {
-      distance = std::min(distance, length3(row3(rest, v) - row.rest));
-    }
+    const Eigen::Vector3d here = row3(rest, row.vertex);
+    const double distance = crossing.distance(here);
     if (distance >= none) continue;
     const double t = std::clamp((none - distance) / (none - whole), 0.0, 1.0);
     const double share = t * t * (3 - 2 * t);
     const Eigen::Vector3d before = row3(shape.moves, row.row);
-    Eigen::Vector3d by = share * (means.at(row.rest) - before);
+    Eigen::Vector3d by = share * (means.at(here) - before);
     if (!watched.side.empty() && watched.side[row.vertex] != 0) {
       by -= (1 - kClosing) * dot3(by, axes_.up) * axes_.up;
     }
@@ -299,7 +330,7 @@ CrossingSearch SkinCrossings::watch_all(const Positions& neutral,
 std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
                                                   const CrossingSearch& all) const {
   std::vector<bool> at(is_skin_.size(), false);
-  const std::vector<bool> none(all.triangles().size(), false);
+  const auto none = [](std::uint32_t) { return false; };
   for (const std::uint32_t v : vertices_of(all.crossing(rest, all.boxes_of(rest), none), all)) {
     at[v] = true;
   }
@@ -310,11 +341,10 @@ Index SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_res
                           const Watched& watched, Positions& mesh, Displacements& shape) const {
   const CrossingSearch& search = watched.search;
   if (search.triangles().empty()) return 0;
-  std::vector<bool> excused = watched.excused;
-  for (std::size_t i = 0; i < excused.size(); ++i) {
-    const auto& [a, b, c] = search.triangles()[i];
-    if (at_rest[a] || at_rest[b] || at_rest[c]) excused[i] = true;
-  }
+  const auto excused = [&](std::uint32_t t) {
+    const auto& [a, b, c] = search.triangles()[t];
+    return watched.excused[t] || at_rest[a] || at_rest[b] || at_rest[c];
+  };
   shape.add_to(mesh);
   CrossingSearch::Boxes boxes = search.boxes_of(mesh);
   std::vector<Pair> pairs = search.crossing(mesh, boxes, excused);
@@ -326,11 +356,9 @@ Index SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_res
 }
 
 void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
-                               const std::vector<bool>& excused, CrossingSearch::Boxes& boxes,
+                               const Excused& excused, CrossingSearch::Boxes& boxes,
                                std::vector<Pair>& pairs, Positions& mesh,
                                Displacements& shape) const {
-  if (pairs.empty()) return;
-  const std::vector<Row> rows = rows_of(rest, shape);
   double grown = 1;
   for (int round = 0; round < kRounds && !pairs.empty(); ++round, grown += kGrowth) {
     const auto are_lids = [&](const Pair& pair) {
@@ -341,10 +369,11 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
     std::erase_if(pairs, are_lids);
     std::vector<bool> changed(is_skin_.size(), false);
     if (!lids.empty()) {
-      push_apart(lids, watched, rest, rows, grown * kPush * extent_, shape, changed);
+      push_apart(lids, watched, rest, grown * kPush * extent_,
+                 round < kForwardRounds ? Push::kForward : Push::kApart, shape, changed);
     }
-    if (!pairs.empty()) even_out(pairs, watched, rest, rows, grown, shape, changed);
-    for (const Row& row : rows) {
+    if (!pairs.empty()) even_out(pairs, watched, rest, grown, shape, changed);
+    for (const Row& row : watched.rows) {
       if (!changed[row.vertex]) continue;
       mesh.row(row.vertex) = rest.row(row.vertex) + shape.moves.row(row.row);
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,12 +26,17 @@ class SkinCrossings {
   SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin, double extent,
                 const HeadAxes& axes);
 
+  /// A row of a shape's displacements that is skin.
+  struct Row {
+    std::uint32_t row, vertex;
+  };
   /// Which skin of a shape is looked at: that which the shape brings, or may on a face bring, to other skin.
   struct Watched {
     CrossingSearch search;
     std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
     std::vector<signed char>
-        side;               ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+        side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+    std::vector<Row> rows;
     bool is_meant = false;  ///< its crossings are counted and left
   };
   /// \param neutral  of the template, #V by 3
@@ -58,25 +64,18 @@ class SkinCrossings {
 
  private:
   using Pair = CrossingSearch::Pair;
-  /// A row of the displacements that is skin.
-  struct Row {
-    Index row;
-    std::uint32_t vertex;
-    Eigen::Vector3d rest;
-  };
+  using Excused = std::function<bool(std::uint32_t)>;
 
   /// \param pairs  that cross; those that are left, in the end
-  void take_apart(const Positions& rest, const Watched& watched, const std::vector<bool>& excused,
+  void take_apart(const Positions& rest, const Watched& watched, const Excused& excused,
                   CrossingSearch::Boxes& boxes, std::vector<Pair>& pairs, Positions& mesh,
                   Displacements& shape) const;
-  int side_of(const Watched& watched, std::uint32_t place) const;
-  std::vector<Row> rows_of(const Positions& rest, const Displacements& shape) const;
+  int side_of(const Watched& watched, std::uint32_t triangle) const;
+  enum class Push { kForward, kApart };
   void push_apart(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
-                  std::span<const Row> rows, double by, Displacements& shape,
-                  std::vector<bool>& changed) const;
+                  double by, Push how, Displacements& shape, std::vector<bool>& changed) const;
   void even_out(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
-                std::span<const Row> rows, double grown, Displacements& shape,
-                std::vector<bool>& changed) const;
+                double grown, Displacements& shape, std::vector<bool>& changed) const;
 
   double extent_ = 0;
   HeadAxes axes_;

@@ -2,7 +2,7 @@
 #include "crowdface/validity/triangle_scene.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 
 #include "crowdface/core/parallel.h"
@@ -32,7 +32,6 @@ bool meets_triangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direct
 }
 
 /// Whether a ray meets a box (slabs, Kay & Kajiya 1986).
-template <class Box>
 bool meets_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, const Box& box) {
   double near = 0, far = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
@@ -56,33 +55,16 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
     : triangles_(triangles),
       tree_(tree),
       positions_(positions),
-      leaves_((tree.order.size() + kLeaf - 1) / kLeaf),
+      leaves_(tree.leaf_count()),
       boxes_(tree.nodes.size()) {
-  constexpr float kEnd = std::numeric_limits<float>::infinity();
   constexpr std::size_t kLeavesATask = 512;
-  parallel_for_each(leaves_.size(), kLeavesATask, [&](std::size_t leaf) {
-    LeafBoxes& boxes = leaves_[leaf];
-    for (std::size_t i = 0; i < kLeaf; ++i) {
-      const std::size_t place = leaf * kLeaf + i;
-      for (std::size_t c = 0; c < 3; ++c) {
-        boxes.low[c][i] = kEnd;
-        boxes.high[c][i] = -kEnd;
-        if (place >= tree.order.size()) continue;
-        const Triangle& t = triangles[tree.order[place]];
-        const auto axis = static_cast<Index>(c);
-        const double x = positions(t[0], axis), y = positions(t[1], axis);
-        const double z = positions(t[2], axis);
-        const float low = static_cast<float>(std::min({x, y, z}) - margin);
-        const float high = static_cast<float>(std::max({x, y, z}) + margin);
-        boxes.low[c][i] = low - 1e-6F * std::abs(low);
-        boxes.high[c][i] = high + 1e-6F * std::abs(high);
-      }
-    }
+  parallel_for_each(leaves_.size(), kLeavesATask, [&](std::size_t l) {
+    leaves_[l] = LeafBoxes(tree.leaf(l), triangles, positions, margin);
   });
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
     const TriangleTree::Node& node = tree.nodes[n];
-    if (node.right == 0) {
-      boxes_[n] = box_of(leaves_[node.begin / kLeaf]);
+    if (node.is_leaf()) {
+      boxes_[n] = leaves_[node.leaf()].whole();
       continue;
     }
     const Box &left = boxes_[n + 1], &right = boxes_[node.right];
@@ -93,26 +75,11 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   }
 }
 
-TriangleScene::Box TriangleScene::box_of(const LeafBoxes& leaf) const {
-  Box box;
-  for (std::size_t c = 0; c < 3; ++c) {
-    box.low[c] = *std::min_element(leaf.low[c].begin(), leaf.low[c].end());
-    box.high[c] = *std::max_element(leaf.high[c].begin(), leaf.high[c].end());
-  }
-  return box;
-}
-
-bool TriangleScene::overlap(const NodePair& pair) const {
-  const Box &a = boxes_[pair.a], &b = boxes_[pair.b];
-  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] &&
-         b.low[1] <= a.high[1] && a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
-}
-
 /// The pairs of children that have to be looked at in place of a pair that is not of two leaves.
 void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) const {
   const TriangleTree::Node &a = tree_.nodes[pair.a], &b = tree_.nodes[pair.b];
   const auto add = [&](std::uint32_t first, std::uint32_t second) {
-    if (overlap({first, second})) into.push_back({first, second});
+    if (overlap(boxes_[first], boxes_[second])) into.push_back({first, second});
   };
   if (pair.a == pair.b) {
     add(pair.a + 1, pair.a + 1);
@@ -127,41 +94,26 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
   }
 }
 
-void TriangleScene::compare_leaves(const NodePair& pair, std::vector<TrianglePair>& found) const {
-  const TriangleTree::Node &a = tree_.nodes[pair.a], &b = tree_.nodes[pair.b];
-  const LeafBoxes &in_a = leaves_[a.begin / kLeaf], &in_b = leaves_[b.begin / kLeaf];
-  for (std::uint32_t i = 0; i < a.end - a.begin; ++i) {
-    std::array<std::int32_t, kLeaf> near;
-    near.fill(1);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float low = in_a.low[c][i], high = in_a.high[c][i];
-      for (std::size_t j = 0; j < kLeaf; ++j) {
-        near[j] &= static_cast<std::int32_t>(low <= in_b.high[c][j]) &
-                   static_cast<std::int32_t>(in_b.low[c][j] <= high);
-      }
-    }
-    const std::uint32_t t = tree_.order[a.begin + i];
-    for (std::uint32_t j = pair.a == pair.b ? i + 1 : 0; j < b.end - b.begin; ++j) {
-      if (near[j] == 0) continue;
-      const std::uint32_t other = tree_.order[b.begin + j];
-      if (!share_vertex(triangles_[t], triangles_[other])) {
-        found.emplace_back(std::min(t, other), std::max(t, other));
-      }
-    }
+void TriangleScene::compare_leaves(const LeafPair& pair, std::vector<TrianglePair>& found) const {
+  const auto ones = tree_.leaf(pair.one), others = tree_.leaf(pair.other);
+  for (std::uint64_t left = overlapping(leaves_[pair.one], leaves_[pair.other]); left != 0;
+       left &= left - 1) {
+    const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+    const std::size_t i = bit / kLeaf, j = bit % kLeaf;
+    if (pair.one == pair.other && j <= i) continue;
+    if (share_vertex(triangles_[ones[i]], triangles_[others[j]])) continue;
+    found.emplace_back(std::min(ones[i], others[j]), std::max(ones[i], others[j]));
   }
 }
 
-std::vector<TrianglePair> TriangleScene::near_pairs() const {
-  if (tree_.nodes.empty()) return {};
-  const auto are_leaves = [&](const NodePair& pair) {
-    return tree_.nodes[pair.a].right == 0 && tree_.nodes[pair.b].right == 0;
-  };
+std::vector<TriangleScene::NodePair> TriangleScene::first_pairs() const {
   constexpr std::size_t kTasks = 64;
-  std::vector<NodePair> tasks = {{0, 0}};
-  for (bool is_split = true; is_split && tasks.size() < kTasks;) {
+  std::vector<NodePair> pairs;
+  if (!tree_.nodes.empty()) pairs.push_back({0, 0});
+  for (bool is_split = true; is_split && pairs.size() < kTasks;) {
     is_split = false;
     std::vector<NodePair> finer;
-    for (const NodePair& pair : tasks) {
+    for (const NodePair& pair : pairs) {
       if (are_leaves(pair)) {
         finer.push_back(pair);
       } else {
@@ -169,24 +121,42 @@ std::vector<TrianglePair> TriangleScene::near_pairs() const {
         is_split = true;
       }
     }
-    tasks = std::move(finer);
+    pairs = std::move(finer);
   }
+  return pairs;
+}
+
+template <class Use>
+void TriangleScene::visit_leaves(const NodePair& from, const Use& use) const {
+  std::vector<NodePair> waiting = {from};
+  while (!waiting.empty()) {
+    const NodePair pair = waiting.back();
+    waiting.pop_back();
+    if (are_leaves(pair)) {
+      use(LeafPair{tree_.nodes[pair.a].leaf(), tree_.nodes[pair.b].leaf()});
+    } else {
+      split(pair, waiting);
+    }
+  }
+}
+
+std::vector<TrianglePair> TriangleScene::near_pairs() const {
+  const std::vector<NodePair> tasks = first_pairs();
   std::vector<std::vector<TrianglePair>> found(tasks.size());
   parallel_for_each(tasks.size(), [&](std::size_t t) {
-    std::vector<NodePair> waiting = {tasks[t]};
-    while (!waiting.empty()) {
-      const NodePair pair = waiting.back();
-      waiting.pop_back();
-      if (are_leaves(pair)) {
-        compare_leaves(pair, found[t]);
-      } else {
-        split(pair, waiting);
-      }
-    }
+    visit_leaves(tasks[t], [&](const LeafPair& pair) { compare_leaves(pair, found[t]); });
   });
   std::vector<TrianglePair> pairs;
   for (const auto& some : found) pairs.insert(pairs.end(), some.begin(), some.end());
   std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<TriangleScene::LeafPair> TriangleScene::near_leaves() const {
+  std::vector<LeafPair> pairs;
+  for (const NodePair& from : first_pairs()) {
+    visit_leaves(from, [&](const LeafPair& pair) { pairs.push_back(pair); });
+  }
   return pairs;
 }
 
@@ -199,7 +169,7 @@ bool TriangleScene::meets(const Eigen::Vector3d& origin, const Eigen::Vector3d& 
     waiting.pop_back();
     if (!meets_box(origin, direction, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
-    if (node.right != 0) {
+    if (!node.is_leaf()) {
       waiting.push_back(node.right);
       waiting.push_back(n + 1);
       continue;

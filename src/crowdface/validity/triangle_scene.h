@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "crowdface/validity/leaf_boxes.h"
 #include "crowdface/validity/triangle_tree.h"
 
 namespace crowdface {
@@ -26,33 +26,38 @@ class TriangleScene {
   /// thousand are left out.
   std::vector<TrianglePair> near_pairs() const;
 
+  /// Two leaves of the tree, the same one or the one that comes first in it first.
+  struct LeafPair {
+    std::uint32_t one, other;
+  };
+  /// Those with triangles whose boxes may overlap.
+  std::vector<LeafPair> near_leaves() const;
+
   /// Whether a ray meets a triangle other than the one it starts from.
   /// \param direction  of any length but zero.
   bool meets(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
              std::uint32_t start) const;
 
  private:
-  /// Boxes of a leaf's triangles, coordinate by coordinate; of what it lacks empty.
-  struct LeafBoxes {
-    std::array<std::array<float, TriangleTree::kLeaf>, 3> low, high;
-  };
-  struct Box {
-    std::array<float, 3> low, high;
-  };
   struct NodePair {
     std::uint32_t a, b;
   };
 
-  Box box_of(const LeafBoxes& leaf) const;
-  bool overlap(const NodePair& pair) const;
+  bool are_leaves(const NodePair& pair) const {
+    return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
+  }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
-  void compare_leaves(const NodePair& pair, std::vector<TrianglePair>& found) const;
+  /// Pairs of nodes that together hold all pairs of leaves that may overlap.
+  std::vector<NodePair> first_pairs() const;
+  template <class Use>
+  void visit_leaves(const NodePair& from, const Use& use) const;
+  void compare_leaves(const LeafPair& pair, std::vector<TrianglePair>& found) const;
 
   const std::vector<Triangle>& triangles_;
   const TriangleTree& tree_;
   const Positions& positions_;
-  std::vector<LeafBoxes> leaves_;  ///< by `begin` of a leaf over kLeaf
-  std::vector<Box> boxes_;         ///< of the nodes
+  std::vector<LeafBoxes> leaves_;
+  std::vector<Box> boxes_;  ///< of the nodes
 };
 
 }  // namespace crowdface

@@ -52,12 +52,14 @@ void add_nodes(TriangleTree& tree, const std::vector<Eigen::Vector3d>& middles, 
 
 }  // namespace
 
-TriangleTree::TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions) {
+TriangleTree::TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
+                           double apart) {
   const std::vector<bool> left_out = around_hubs(triangles, positions.rows());
   std::vector<Eigen::Vector3d> middles;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     middles.emplace_back(row3(positions, a) + row3(positions, b) + row3(positions, c));
+    if (apart > 0) middles.back() += 3 * apart * unit3(area_vector(positions, triangles[t]));
     if (!left_out[t]) order.push_back(t);
   }
   if (!order.empty()) add_nodes(*this, middles, 0, static_cast<std::uint32_t>(order.size()));

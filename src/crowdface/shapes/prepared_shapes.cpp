@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/prepared_shapes.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
+#include "crowdface/parts/eye_socket.h"
+#include "crowdface/parts/point_grid.h"
+#include "crowdface/parts/surface_point.h"
+
+namespace crowdface {
+namespace {
+
+/// Vertices of an eyeball or a jaw that tell where all of it is.
+constexpr std::size_t kMostFitted = 500;
+/// How far from an eyeball's centre its lids' skin may be, as a share of its radius.
+constexpr double kEyeSkin = 3;
+/// A shape that takes lips through each other by more than this share of the skin's extent, some 5 mm, is made
+/// to be added to another; its crossings are meant.
+constexpr double kMeant = 0.012;
+
+std::uint32_t place_in(std::span<const std::uint32_t> sorted, std::uint32_t value) {
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
+  if (at == sorted.end() || *at != value) return kNoIndex;
+  return static_cast<std::uint32_t>(at - sorted.begin());
+}
+
+std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
+  std::vector<std::uint32_t> used;
+  for (const Shape& shape : set.shapes) {
+    std::vector<std::uint32_t> both;
+    std::set_union(used.begin(), used.end(), shape.moves.vertices.begin(),
+                   shape.moves.vertices.end(), std::back_inserter(both));
+    used = std::move(both);
+  }
+  return used;
+}
+
+/// A head's displacements as rows of the whole set's.
+Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& shape) {
+  Positions rows = Positions::Zero(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
+    rows.row(place_in(vertices, shape.vertices[i])) =
+        shape.moves.row(static_cast<Index>(i)).cast<double>();
+  }
+  return rows;
+}
+
+std::vector<std::uint32_t> skin_of(const FaceSet& faces, const PartList& parts,
+                                   const FacesAround& around) {
+  std::vector<bool> is_skin(static_cast<std::size_t>(faces.topology.vertex_count), true);
+  for (const Part& part : parts.parts) {
+    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
+  }
+  std::vector<std::uint32_t> skin;
+  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
+    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
+  }
+  return skin;
+}
+
+}  // namespace
+
+PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjacency,
+                               const PartList& parts, const HeadAxes& head_axes,
+                               const ShapeSet& shape_set, const RegionWeights& regions)
+    : faces(all_faces),
+      set(shape_set),
+      axes(head_axes),
+      around(faces.topology),
+      skin(skin_of(faces, parts, around)),
+      used(used_vertices(set)),
+      contacts(faces, adjacency, skin),
+      extent(extent_of(set.neutral, skin)),
+      crossings(faces.topology, skin, extent, axes) {
+  const Positions mean = mean_head(faces);
+  for (const Part& part : parts.parts) {
+    if (part.part_class != PartClass::kRigid) continue;
+    add_part(part, parts, mean);
+    if (part.eyeball) add_eye(part, parts.shapes[part.ball], mean);
+  }
+  field = FrameField(set.neutral, skin, extent, used);
+  if (!set.of_head.empty()) look_up_regions(regions);
+  shapes.resize(set.shapes.size());
+  parallel_for_each(shapes.size(),
+                    [&](std::size_t s) { shapes[s] = bind(set.shapes[s].moves, adjacency); });
+  std::vector<const CrossingSearch*> searches;
+  for (const PreparedShape& shape : shapes) searches.push_back(&shape.watched.search);
+  watched = crossings.watch_all(set.neutral, searches);
+  add_sets();
+}
+
+void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
+  RigidPart bound{part.vertices, some_of(part.vertices, kMostFitted), {}, Eigen::Vector3d::Zero()};
+  bound.ones.assign(bound.fitted.size(), 1.0);
+  if (part.eyeball) {
+    const RigidMotion motion = fit_rigid_motion(mean, set.neutral, bound.fitted, bound.ones);
+    bound.middle = motion.apply(parts.shapes[part.ball].centre);
+  } else {
+    for (const std::uint32_t v : part.vertices) bound.middle += row3(set.neutral, v);
+    bound.middle /= static_cast<double>(part.vertices.size());
+  }
+  rigid.push_back(std::move(bound));
+}
+
+void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const Positions& mean) {
+  const RigidPart& bound = rigid.back();
+  const auto map_in = [&](const Positions& head) {
+    const RigidMotion motion = fit_rigid_motion(mean, head, bound.fitted, bound.ones);
+    return BallMap(faces.topology, around, head, part.surface, motion.apply(ball.centre),
+                   motion.scale * ball.radius, axes);
+  };
+  ActingEye eye{rigid.size() - 1, {map_in(set.neutral), {}, {}}, {}};
+  eye.balls.resize(faces.heads.size());
+  parallel_for_each(faces.heads.size(),
+                    [&](std::size_t h) { eye.balls[h] = map_in(faces.heads[h].positions); });
+  const BallMap& here = eye.of_template.ball;
+  eye.of_template.lids = find_lids(set.neutral, PointGrid(set.neutral, part.vertices),
+                                   here.centre(), here.radius(), axes, skin);
+  for (const std::uint32_t v : skin) {
+    if (length3(row3(set.neutral, v) - here.centre()) < kEyeSkin * here.radius()) {
+      eye.of_template.skin.push_back(v);
+    }
+  }
+  eyes.push_back(std::move(eye));
+}
+
+/// Masks say nothing of lashes and eyeballs.
+void PreparedShapes::look_up_regions(const RegionWeights& regions) {
+  const PointGrid grid(set.neutral, skin);
+  const auto nearest = [&](std::uint32_t v) {
+    return std::ranges::binary_search(skin, v) ? v : grid.nearest(row3(set.neutral, v)).vertex;
+  };
+  alpha.resize(static_cast<Index>(used.size()), regions.alpha.cols());
+  parallel_for_each(used.size(), [&](std::size_t i) {
+    alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(used[i]));
+  });
+  const std::vector<std::uint32_t> at_contacts = contacts.vertices();
+  contact_alpha.resize(static_cast<Index>(at_contacts.size()), regions.alpha.cols());
+  for (std::size_t p = 0; p < at_contacts.size(); ++p) {
+    contact_alpha.row(static_cast<Index>(p)) = regions.alpha.row(at_contacts[p]);
+  }
+  for (const RigidPart& part : rigid) {
+    std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
+    for (const std::uint32_t v : part.fitted) {
+      const std::uint32_t at = nearest(v);
+      for (std::size_t k = 0; k < mean.size(); ++k) {
+        mean[k] +=
+            regions.alpha(at, static_cast<Index>(k)) / static_cast<double>(part.fitted.size());
+      }
+    }
+    rigid_alpha.push_back(std::move(mean));
+  }
+}
+
+PreparedShape PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency) const {
+  PreparedShape state;
+  for (const std::uint32_t v : moves.vertices) state.used.push_back(place_in(used, v));
+  for (std::size_t p = 0; p < rigid.size(); ++p) {
+    PartMove part{p, {}, {}, {}};
+    for (const std::uint32_t v : rigid[p].vertices) {
+      const std::uint32_t row = place_in(moves.vertices, v);
+      if (row == kNoIndex) continue;
+      part.rows.push_back(row);
+      part.vertices.push_back(v);
+    }
+    if (!part.rows.empty()) state.parts.push_back(std::move(part));
+  }
+  bind_lids(moves, adjacency, state);
+  state.moves_contacts = contacts.moved_by(moves.vertices);
+  state.watched = watch(moves, state);
+  return state;
+}
+
+SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
+                                             const PreparedShape& state) const {
+  Positions mesh = set.neutral;
+  moves.add_to(mesh);
+  const std::vector<double> gaps = contacts.gaps(mesh);
+  const bool is_meant =
+      std::ranges::any_of(gaps, [&](double gap) { return gap < -kMeant * extent; });
+  std::vector<signed char> side;
+  for (std::size_t e = 0; e < eyes.size(); ++e) {
+    if (!state.lids[e].lids.closes()) continue;
+    side.resize(static_cast<std::size_t>(mesh.rows()), 0);
+    lid_sides(eyes[e].of_template, set.neutral, side);
+  }
+  SkinCrossings::Watched found = crossings.watch(set.neutral, moves, std::move(side));
+  found.is_meant = is_meant;
+  return found;
+}
+
+void PreparedShapes::bind_lids(const Displacements& moves, const Adjacency& adjacency,
+                               PreparedShape& state) const {
+  std::vector<bool> fitted(moves.vertices.size(), false);
+  for (const ActingEye& eye : eyes) {
+    LidClosure lids(eye.of_template, adjacency, set.neutral, moves, axes);
+    for (const std::uint32_t row : lids.rows()) fitted[row] = true;
+    state.lids.push_back({std::move(lids), {}});
+  }
+  std::vector<bool> is_free(static_cast<std::size_t>(set.neutral.rows()), true);
+  for (const std::uint32_t v : skin) is_free[v] = false;
+  for (const RigidPart& part : rigid) {
+    for (const std::uint32_t v : part.vertices) is_free[v] = false;
+  }
+  std::vector<std::uint32_t> lid_skin;
+  for (const ActingEye& eye : eyes) {
+    lid_skin.insert(lid_skin.end(), eye.of_template.skin.begin(), eye.of_template.skin.end());
+  }
+  if (lid_skin.empty()) return;
+  const PointGrid grid(set.neutral, lid_skin);
+  const double reach = eyes.front().of_template.ball.radius();
+  for (std::uint32_t row = 0; row < moves.vertices.size(); ++row) {
+    const std::uint32_t v = moves.vertices[row];
+    if (!is_free[v]) continue;
+    const Eigen::Vector3d point = row3(set.neutral, v);
+    const auto nearest = grid.nearest(point, reach);
+    if (nearest.vertex == kNoIndex) continue;
+    const SurfacePoint place =
+        nearest_around(faces.topology, around, set.neutral, nearest.vertex, point);
+    Hanging hanging{row, {}, place.shares};
+    bool any = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t corner = place_in(moves.vertices, place.corners[k]);
+      hanging.rows[k] = corner != kNoIndex && fitted[corner] ? corner : kNoIndex;
+      any = any || hanging.rows[k] != kNoIndex;
+    }
+    if (any) state.hanging.push_back(hanging);
+  }
+}
+
+PreparedShapes::Carrier PreparedShapes::carrier_to(const Positions& face) const {
+  Carrier carrier{face, field.frames(face), std::vector<Eigen::Matrix3d>(used.size()),
+                  contacts.gaps(face), crossings.crossing_at_rest(face, watched)};
+  for (std::size_t i = 0; i < used.size(); ++i) carrier.maps[i] = field.at(i, carrier.frames);
+  return carrier;
+}
+
+Eigen::Matrix3d PreparedShapes::map_of(const PartMove& part, const PreparedShape& state,
+                                       std::span<const Eigen::Matrix3d> maps) const {
+  Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t row : part.rows) map += maps[state.used[row]];
+  return map / static_cast<double>(part.rows.size());
+}
+
+/// Finds what each set's shapes do to parts and lids, and takes out of the heads' own shapes how the heads
+/// are turned and stretched.
+void PreparedShapes::add_sets() {
+  const std::size_t heads = set.of_head.size();
+  for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
+    const Carrier carrier = carrier_to(heads > 0 ? faces.heads[h].positions : set.neutral);
+    std::vector<PlacedEye> at_eyes;
+    for (const ActingEye& eye : eyes) {
+      const FaceEye there{heads > 0 ? &eye.balls[h] : &eye.of_template.ball, {}};
+      at_eyes.push_back(placed(eye, there, carrier.mesh));
+    }
+    parallel_for_each(shapes.size(), [&](std::size_t s) {
+      const Displacements& all = set.shapes[s].moves;
+      if (heads == 0) return add_set(carrier, all, at_eyes, shapes[s]);
+      const Positions own = rows_in(all.vertices, set.of_head[h][s]);
+      add_set(carrier, {all.vertices, own}, at_eyes, shapes[s]);
+      shapes[s].of_head.push_back(undone(carrier, shapes[s], own));
+    });
+  }
+}
+
+void PreparedShapes::add_set(const Carrier& carrier, const Displacements& shape,
+                             std::span<const PlacedEye> at_eyes, PreparedShape& state) const {
+  const Positions& moves = shape.moves;
+  const RigidMotion& whole = carrier.frames.whole;
+  for (PartMove& part : state.parts) {
+    const RigidPart& bound = rigid[part.part];
+    const Eigen::Matrix3d map = map_of(part, state, carrier.maps);
+    const PlacedPart placed(bound, set.neutral, carrier.mesh, whole, map);
+    part.turns.push_back(find_turn(bound, placed, part.vertices, part.rows, moves));
+  }
+  for (std::size_t e = 0; e < eyes.size(); ++e) {
+    LidMove& move = state.lids[e];
+    if (move.lids.empty()) continue;
+    const auto& [eye, rest_gaps] = at_eyes[e];
+    move.goals.push_back(move.lids.goals(carrier.mesh, eye, rest_gaps, whole, moves));
+  }
+  Positions moved = carrier.mesh;
+  shape.add_to(moved);
+  if (!set.of_head.empty() && !state.watched.search.triangles().empty()) {
+    crossings.excuse(moved, state.watched);
+  }
+  if (!state.moves_contacts) return;
+  std::vector<double>& widening = state.widening.emplace_back(contacts.gaps(moved));
+  for (std::size_t p = 0; p < widening.size(); ++p) {
+    widening[p] = (widening[p] - carrier.gaps[p]) / whole.scale;
+  }
+}
+
+SingleRows PreparedShapes::undone(const Carrier& carrier, const PreparedShape& state,
+                                  const Positions& moves) const {
+  SingleRows rows(moves.rows(), 3);
+  for (Index i = 0; i < moves.rows(); ++i) {
+    const Eigen::Matrix3d& map = carrier.maps[state.used[static_cast<std::size_t>(i)]];
+    rows.row(i) = apply3(inverse3(map), row3(moves, i)).cast<float>().transpose();
+  }
+  return rows;
+}
+
+}  // namespace crowdface
