@@ -195,7 +195,8 @@ CastFace child_of(std::vector<SourceWeight> shares, std::vector<std::string> par
 }
 
 TEST(AttachmentDraw, GoesByWhatMostOfAMixtureIs) {
-  AttachmentDraw draw = draw_of({{"bob", "hair", {"female"}, 1, {}}, {"crop", "hair", {"male"}, 1, {}}});
+  AttachmentDraw draw =
+      draw_of({{"bob", "hair", {"female"}, 1, {}}, {"crop", "hair", {"male"}, 1, {}}});
   draw.tags = {{"female", "young"}, {"male", "old"}, {"female", "young"}};
   // The man has the largest share, but women have more.
   EXPECT_THAT(worn_by(draw, child_of({{0, 0.3}, {1, 0.4}, {2, 0.3}}, {})), ElementsAre("bob"));

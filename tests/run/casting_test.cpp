@@ -460,7 +460,8 @@ TEST(Casting, ChildrenOfAGroupAreMadeOfItsHeads) {
   const SmallCrowdFolder folder(crowd);
   ConfigOverrides overrides;
   overrides.set = {
-      "faces.tags={ann: [female, fair], bob: [female, fair], cyd: [female, dark], dan: [male, fair], "
+      "faces.tags={ann: [female, fair], bob: [female, fair], cyd: [female, dark], dan: [male, "
+      "fair], "
       "eve: [male, dark], fay: [male, dark]}"};
   run(folder, overrides);
   const std::set<std::string> women = {"ann", "bob", "cyd"};

@@ -111,10 +111,9 @@ class Drawing {
     const std::vector<std::string>& tags = tags_of(head);
     Items items;
     for (const AttachmentItem& item : draw_.items) {
-      const bool may =
-          std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
-            return contains(tags, tag) || (item.colour == colour && says_colour(tag, colour));
-          });
+      const bool may = std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
+        return contains(tags, tag) || (item.colour == colour && says_colour(tag, colour));
+      });
       if (item.kind == kind && item.share > 0 && may) items.push_back(&item);
     }
     return items;

@@ -24,8 +24,8 @@ struct AttachmentItem {
 struct AttachmentDraw {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
-  std::map<std::string, double> none;          ///< by kind: the share of faces without one
-  HeadTags tags;                               ///< #heads
+  std::map<std::string, double> none;  ///< by kind: the share of faces without one
+  HeadTags tags;                       ///< #heads
   /// By kind, name or colour: the share of sampled faces that wear one, in each group apart. A kind has its
   /// own or those of some of its names and colours.
   std::map<std::string, double> quotas = {};

@@ -226,8 +226,8 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
   HandRecipe open;
   open.target = family_.target;
   open.age = Range{0, 0};
-  CastFace face = draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)},
-                              somebody_else());
+  CastFace face =
+      draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)}, somebody_else());
   if (parents_.empty()) return face;
   if (!family_.target) {
     set_target(face.recipe, mixed_weights(form_of(0), form_of(1), 0.5));

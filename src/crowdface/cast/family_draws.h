@@ -96,8 +96,8 @@ class FamilyDraws {
   std::vector<KnownParent> parents_;  ///< #parents; empty ones are still to be drawn
   std::vector<std::size_t> to_draw_;  ///< parents who were not in the crowd
   std::vector<FaceSearch::Found> drawn_;
-  StandIns form_;                 ///< of parents, among the targets of the family's group
-  std::vector<StandIns> detail_;  ///< by bands, among who lends to these; empty: no group
+  StandIns form_;                       ///< of parents, among the targets of the family's group
+  std::vector<StandIns> detail_;        ///< by bands, among who lends to these; empty: no group
   std::vector<std::string> relatives_;  ///< families of parents, and families that share one
   FacePointIndex kin_, strangers_;      ///< relatives, and everyone else
 };

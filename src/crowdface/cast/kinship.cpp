@@ -42,8 +42,7 @@ Strangers::Strangers(const Casting& casting, const FaceSpace& space) {
     const FaceKind kind = kind_of_group(casting, group);
     parallel_for_each(static_cast<Index>(kStrangers), [&, &points = points](Index i) {
       const DrawKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
-      points[static_cast<std::size_t>(i)] =
-          space.point(draw_recipe(casting, {}, key, kind).recipe);
+      points[static_cast<std::size_t>(i)] = space.point(draw_recipe(casting, {}, key, kind).recipe);
     });
   }
 }

@@ -43,16 +43,14 @@ StandIns::StandIns(const std::vector<Index>& group, const HeadTags& tags,
     }
     const Eigen::VectorXf place = space.head_point(head).as_built + apart;
     const auto rank = [&](Index other) {
-      const std::size_t common =
-          tags.empty() ? 0
-                       : common_tags(tags[static_cast<std::size_t>(head)],
-                                     tags[static_cast<std::size_t>(other)]);
+      const std::size_t common = tags.empty() ? 0
+                                              : common_tags(tags[static_cast<std::size_t>(head)],
+                                                            tags[static_cast<std::size_t>(other)]);
       return std::tuple(-static_cast<std::ptrdiff_t>(common), contains(taken, other),
                         (space.head_point(other).as_built - place).norm());
     };
-    of_head_.push_back(*std::min_element(group.begin(), group.end(), [&](Index a, Index b) {
-      return rank(a) < rank(b);
-    }));
+    of_head_.push_back(*std::min_element(group.begin(), group.end(),
+                                         [&](Index a, Index b) { return rank(a) < rank(b); }));
   }
 }
 

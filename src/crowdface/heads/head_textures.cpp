@@ -56,9 +56,9 @@ int finish_texels(int most_px) {
 Texture finish_of(const BlendedPicture& picture, bool normals, int most_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto row = [&](int y, std::span<Light> texels) {
-    const std::uint16_t* at =
-        picture.words.data() +
-        channels * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(y);
+    const std::uint16_t* at = picture.words.data() + channels *
+                                                         static_cast<std::size_t>(picture.width) *
+                                                         static_cast<std::size_t>(y);
     for (Light& texel : texels) {
       texel = Light::Zero();
       for (std::size_t c = 0; c < channels; ++c) {
@@ -83,7 +83,8 @@ Texture finish_of(const TextureMap& map, int most_px) {
 
 /// \param texture  of picture p of a kind's layout; null: there is none.
 template <class OfPicture>
-void add_layers(const std::vector<HeadTextures>& maps, TextureCoat& coat, const OfPicture& texture) {
+void add_layers(const std::vector<HeadTextures>& maps, TextureCoat& coat,
+                const OfPicture& texture) {
   std::size_t first = 0;
   for (const HeadTextures& of_kind : maps) {
     const TextureKind kind = of_kind.names.front().kind;

@@ -41,7 +41,8 @@ std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const Fa
   for (const Head& head : faces.heads) {
     const auto [own_low, own_high] = box_of(head.positions);
     for (const Eigen::Vector3d& point : farthest) {
-      reach.push_back(own_low + (point.array() - low) * (own_high - own_low) / (high - low).max(1e-9));
+      reach.push_back(own_low +
+                      (point.array() - low) * (own_high - own_low) / (high - low).max(1e-9));
     }
   }
   return reach;
@@ -51,8 +52,9 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
                                  const Inputs& inputs) {
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
-  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views,
-                     {.cut_below = kCutBelow, .beside = reach_of(inputs.attachments, inputs.faces)});
+  return fit_cameras(
+      heads, {config.faces.up, config.faces.front}, sheet.views,
+      {.cut_below = kCutBelow, .beside = reach_of(inputs.attachments, inputs.faces)});
 }
 
 std::string to_png(const Rgb8Image& image) {

@@ -137,7 +137,8 @@ Light shade(const ShadePoint& point, float gleam) {
   Material material = material_of(point.kind);
   if (point.roughness >= 0) {
     material.roughness = std::clamp(point.roughness, kLeastRoughness, 1.0F);
-  } else if (point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn) {
+  }
+  if (point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn) {
     material.reflectance *= dark_gleam(point.albedo);
   }
   const Eigen::Vector3f& n = point.normal;

@@ -89,7 +89,8 @@ Vector towards(const Vector& viewer, const Vector& normal) {
 }
 
 /// A unit normal that leans as slopes say, which are along the texture's axes on this quad.
-Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal, const Light& slopes) {
+Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal,
+               const Light& slopes) {
   const Quad& quad = stage.quads[primitive];
   const TexturedQuad& textured = stage.uvs[primitive];
   // The triangle at the first corner, which tells where the picture's axes run on all of the quad.
@@ -113,8 +114,8 @@ Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal
 }
 
 /// What a coat says of how the surface reflects.
-void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights, Vector& normal,
-            ShadePoint& surface) {
+void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
+            Vector& normal, ShadePoint& surface) {
   if (stage.coat == nullptr || surface.inside) return;
   const TextureLayer& slopes = stage.coat->slopes;
   const TextureLayer& roughness = stage.coat->roughness;
@@ -485,10 +486,8 @@ class Tile {
   }
 
   Light shaded(const Meeting& meeting, int x, int y) {
-    // Where no map says how rough hair is, its colour does.
-    const bool known = meeting.surface.roughness >= 0;
     return shade(with_shared_lights(meeting, x, y),
-                 known ? 1 : skin_gleam(meeting.surface.albedo, meeting.skin_lightness));
+                 skin_gleam(meeting.surface.albedo, meeting.skin_lightness));
   }
 
   /// The mean of a pixel's samples.

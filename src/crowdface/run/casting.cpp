@@ -290,9 +290,9 @@ Casting casting_of(const Config& config, const Inputs& inputs,
 }
 
 AttachmentDraw attachment_draw(const Config& config) {
-  AttachmentDraw draw{
-      config.crowd.seed,         {},                        config.attachments.none,
-      config.faces.tags,         config.attachments.quotas, config.faces.names};
+  AttachmentDraw draw{config.crowd.seed,         {},
+                      config.attachments.none,   config.faces.tags,
+                      config.attachments.quotas, config.faces.names};
   for (const Config::Attachment& item : config.attachments.items) draw.items.push_back(item);
   return draw;
 }
