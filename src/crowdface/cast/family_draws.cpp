@@ -124,7 +124,8 @@ void FamilyDraws::know_group() {
     for (const SourceWeight& share : target_shares(parent.face.recipe)) taken.push_back(share.head);
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
-  form_ = StandIns(targets, casting_.tags, taken, judge_.space());
+  // On a single target children would have nothing of their parents' large forms.
+  form_ = targets.size() > 1 ? StandIns(targets, casting_.tags, taken, judge_.space()) : StandIns();
   detail_.clear();
   for (std::size_t b = 0; b < band_count(*kind.sampling); ++b) {
     detail_.emplace_back(sources_of(kind, b), casting_.tags, taken, judge_.space());
