@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# From nothing to a first crowd: installs what is missing, builds, makes twelve synthetic heads and
+# From nothing to a first crowd: installs what is missing, builds, makes sixteen synthetic heads and
 # casts 24 faces from them. May be run again at any time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,11 +11,11 @@ scripts/build.sh release crowdface
 start=$SECONDS
 crowdface=build/release/bin/crowdface
 # --force: after a change of the program or of configs/demo.yaml the demo's own folders are filled anew.
-"$crowdface" synth -o out/demo_heads --count 12 --vertices 20000 --seed 1 --textures 1024 --hair --force
+"$crowdface" synth -o out/demo_heads --count 16 --vertices 20000 --seed 1 --textures 1024 --hair --force
 "$crowdface" generate configs/demo.yaml --force
 
 echo
-echo "24 new faces from 12 heads in $((SECONDS - start)) s"
+echo "24 new faces from 16 heads in $((SECONDS - start)) s"
 [ ! -f out/demo/gallery/index.html ] || echo "  gallery        $PWD/out/demo/gallery/index.html"
 echo "  contact sheet  $PWD/out/demo/sheets/sheet_001.png"
 echo "  meshes         $PWD/out/demo/meshes/"

@@ -3,11 +3,25 @@
 
 import { loadScript } from './dom.js';
 
+/// The tags of a face: its target's, or of a mixture those of the head in it with whose tags most of it
+/// agrees, as the program has them (cast/typical_head.h).
+export function tagsOf(recipe, heads) {
+  const tagsOfHead = (name) => heads.get(name)?.tags ?? [];
+  if (!recipe.mixture) return tagsOfHead(recipe.target);
+  const parts = Object.entries(recipe.mixture);
+  const shareOf = (tag) => parts.reduce(
+    (sum, [name, share]) => sum + (tagsOfHead(name).includes(tag) ? share : 0), 0);
+  const agrees = ([name]) => tagsOfHead(name).reduce((sum, tag) => sum + 2 * shareOf(tag) - 1, 0);
+  const [first] = parts.map((part) => ({ name: part[0], share: part[1], agrees: agrees(part) }))
+    .sort((a, b) => (Math.abs(a.agrees - b.agrees) > 1e-9 ? b.agrees - a.agrees : b.share - a.share));
+  return tagsOfHead(first.name);
+}
+
 function facesOf(data, heads) {
   return data.faces.map((recipe, order) => ({
     ...recipe,
     order,
-    tags: heads.get(recipe.target)?.tags ?? [],
+    tags: tagsOf(recipe, heads),
     group: recipe.group ?? null,
     byHand: recipe.index === null && recipe.family === null,
     near: (data.near[order] ?? []).map(([other, mm]) => ({ id: data.faces[other].id, mm })),

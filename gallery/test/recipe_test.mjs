@@ -4,6 +4,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { unpack } from './src/api.js';
+import { tagsOf } from './src/crowd.js';
 import { cornersAround } from './src/editor/corners.js';
 import { normalsOf } from './src/normals.js';
 import { hitTriangle } from './src/hit.js';
@@ -352,4 +353,13 @@ test('a ray meets the nearest triangle that looks at it, and no part', () => {
 
 test('fifty heads have fifty colours', () => {
   assert.equal(new Set(Array.from({ length: 50 }, (_, k) => colourOf(k))).size, 50);
+});
+
+test('a mixture has the tags of the head that most of it agrees with', () => {
+  const heads = new Map([
+    ['ann', { tags: ['female', 'young'] }], ['bob', { tags: ['male', 'old'] }], ['cyd', { tags: ['female', 'young'] }],
+  ]);
+  assert.deepEqual(tagsOf({ target: 'bob' }, heads), ['male', 'old']);
+  assert.deepEqual(tagsOf({ target: 'bob', mixture: { ann: 0.3, bob: 0.4, cyd: 0.3 } }, heads), ['female', 'young']);
+  assert.deepEqual(tagsOf({ target: 'bob', mixture: { ann: 0.2, bob: 0.6, cyd: 0.2 } }, heads), ['male', 'old']);
 });

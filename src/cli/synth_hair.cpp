@@ -20,6 +20,12 @@ const char* curl_tag(bool curly) {
   return curly ? "curly_hair" : "straight_hair";
 }
 
+/// \param tone  see synth::Complexion
+const char* skin_tag(double tone) {
+  if (tone < 1 / 3.0) return "light_skin";
+  return tone < 2 / 3.0 ? "medium_skin" : "dark_skin";
+}
+
 std::string picture_name(const std::string& colour, bool curly) {
   return concat(colour, curly ? "_curly.png" : "_straight.png");
 }
@@ -28,11 +34,12 @@ std::string picture_name(const std::string& colour, bool curly) {
 
 std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
   const synth::Complexion look = synth::draw_complexion(seed, index);
-  if (look.receding > kBald) return "bald";
+  const std::string skin = skin_tag(look.tone);
+  if (look.receding > kBald) return concat(skin, ", bald");
   const Wish wish{synth::draw_person(seed, index).male < 0, synth::has_curls(seed, index),
                   std::string(synth::nearest_hair_colour(look.hair).name)};
   wishes_.insert(wish);
-  return concat(wish.colour, "_hair, ", curl_tag(wish.curly));
+  return concat(skin, ", ", wish.colour, "_hair, ", curl_tag(wish.curly));
 }
 
 void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads,
@@ -66,7 +73,7 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
                                 concat("newmtl hair\nKd 1 1 1\nmap_Kd textures/", picture, '\n')));
       section += concat("    - {name: ", name, ", kind: hair, file: attachments/", name,
                         ".obj, tags: [", wish.female ? "female" : "male", ", ", wish.colour,
-                        "_hair, ", curl_tag(wish.curly), "]}\n");
+                        "_hair, ", curl_tag(wish.curly), "], colour: ", wish.colour, "}\n");
     }
   }
   for (const synth::HairColour& colour : synth::hair_colours()) {

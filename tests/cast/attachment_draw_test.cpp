@@ -184,6 +184,54 @@ TEST(AttachmentDraw, GivesOneFaceOneColour) {
   EXPECT_LT(count(crowd, "mop"), 50U);
 }
 
+/// A child of a mother and a father, on a mixture of heads.
+CastFace child_of(std::vector<SourceWeight> shares, std::vector<std::string> parents) {
+  CastFace child;
+  child.id = "child";
+  child.family = "kin";
+  child.parents = std::move(parents);
+  set_target(child.recipe, std::move(shares));
+  return child;
+}
+
+TEST(AttachmentDraw, GoesByWhatMostOfAMixtureIs) {
+  AttachmentDraw draw =
+      draw_of({{"bob", "hair", {"female"}, 1, {}}, {"crop", "hair", {"male"}, 1, {}}});
+  draw.tags = {{"female", "young"}, {"male", "old"}, {"female", "young"}};
+  // The man has the largest share, but women have more.
+  EXPECT_THAT(worn_by(draw, child_of({{0, 0.3}, {1, 0.4}, {2, 0.3}}, {})), ElementsAre("bob"));
+  EXPECT_THAT(worn_by(draw, child_of({{0, 0.2}, {1, 0.6}, {2, 0.2}}, {})), ElementsAre("crop"));
+  draw.tags = {{}, {}, {}};
+  EXPECT_EQ(typical_head(child_of({{0, 0.3}, {1, 0.4}, {2, 0.3}}, {}).recipe, draw.tags), 1);
+}
+
+TEST(AttachmentDraw, ChildrenHaveAParentsColourWhateverTheirHeadHas) {
+  AttachmentDraw draw = draw_of({{"bob_red", "hair", {"female", "red_hair"}, 1, {}, "red"},
+                                 {"bob_black", "hair", {"female", "black_hair"}, 1, {}, "black"},
+                                 {"bob_grey", "hair", {"female", "grey_hair"}, 1, {}, "grey"},
+                                 {"crop_red", "hair", {"male", "red_hair"}, 1, {}, "red"}});
+  draw.tags = {{"female", "red_hair"},
+               {"male", "red_hair"},
+               {"female", "black_hair"},
+               {"female", "grey_hair", "old"},
+               {"male", "bald"}};
+  draw.heads = {"ann", "bob", "cyd", "dot", "eve"};
+  const auto worn = [&](const std::string& mother, const std::string& father) {
+    CastFace child = child_of({{0, 0.1}, {2, 0.9}}, {mother, father});
+    return worn_by(draw, child);
+  };
+  EXPECT_THAT(worn("ann", "bob"), ElementsAre("bob_red")) << "of heads that are parents";
+  EXPECT_THAT(worn("ann", "eve"), ElementsAre("bob_red")) << "a bald father has none to give";
+  EXPECT_THAT(worn("dot", "eve"), ElementsAre("bob_black")) << "age is not inherited";
+  CastFace old = child_of({{3, 1}}, {"dot", "eve"});
+  EXPECT_THAT(worn_by(draw, old), ElementsAre("bob_grey"));
+  // Faces that are parents, by what they wear.
+  CastFace mother = face_of(1, 0);
+  std::vector<CastFace> crowd = {mother, child_of({{2, 1}}, {mother.id, "eve"})};
+  draw_attachments(draw, {}, crowd);
+  EXPECT_THAT(crowd[1].attachments, ElementsAre("bob_red"));
+}
+
 TEST(AttachmentDraw, LetsColoursRunInFamilies) {
   const AttachmentDraw draw = draw_of({{"bob", "hair", {"female"}, 1, {}, "black"},
                                        {"braid", "hair", {"female"}, 1, {}, "red"},

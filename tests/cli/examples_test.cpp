@@ -21,7 +21,7 @@ class Examples : public ::testing::Test {
     fs::copy(kSource / "masks", folder_ / "masks");
     const fs::path heads = folder_ / "out/demo_heads";
     crowdface(0,
-              {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "12", "--textures",
+              {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "16", "--textures",
                "64", "--hair"},
               {});
     crowdface(0,

@@ -16,7 +16,7 @@ TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
     return concat("synth_", zero_padded(static_cast<std::uint64_t>(i), 2), ".obj");
   };
   for (int i = 1; i <= 24; ++i) touch("out/brief_heads/" + synthetic(i));
-  for (int i = 1; i <= 12; ++i) touch("out/demo_heads/" + synthetic(i));
+  for (int i = 1; i <= 16; ++i) touch("out/demo_heads/" + synthetic(i));
   for (int i = 1; i <= 8; ++i) {
     touch(concat("heads/ict/ict_0", i, ".obj"));
     touch(concat("heads/makehuman/makehuman_0", i, ".obj"));

@@ -55,6 +55,20 @@ TEST(Camera, EveryHeadFitsWithItsMarginAndTouchesIt) {
   }
 }
 
+TEST(Camera, ShowsWhatIsBesideTheHeadsUnlessItIsTooLow) {
+  const auto heads = two_heads();
+  FramingOptions options = {.margin = 0.08, .cut_below = 0.2};
+  const Camera alone = fit_camera(pointers(heads), {}, View::kFront, options);
+  options.beside = {{0, 50, 5}};
+  EXPECT_EQ(fit_camera(pointers(heads), {}, View::kFront, options).distance, alone.distance);
+  const Eigen::Vector3d hair(2, 122, 6);
+  options.beside.push_back(hair);
+  const Camera both = fit_camera(pointers(heads), {}, View::kFront, options);
+  EXPECT_GT(both.distance, alone.distance);
+  const Eigen::Vector2d place = testing::project(both, hair.transpose());
+  EXPECT_NEAR(std::min(place.minCoeff(), 1 - place.maxCoeff()), 0.08, 1e-9);
+}
+
 TEST(Camera, ViewsShareTheDistanceOfTheFurthest) {
   const auto heads = two_heads();
   const auto cameras = fit_cameras(pointers(heads), {}, kViews);

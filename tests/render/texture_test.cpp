@@ -94,7 +94,7 @@ TEST(FaceRenderer, TexturesColourTheFacesTheyCover) {
   Surfaces surfaces;
   surfaces.uvs = squares.uvs;
   const FaceRenderer renderer(squares.topology, {.size_px = 64}, surfaces);
-  TextureCoat coat{{std::make_shared<const Texture>(red_and_blue())}, {0, TextureCoat::kNone}};
+  TextureCoat coat{{{std::make_shared<const Texture>(red_and_blue())}, {0, TextureCoat::kNone}}};
   const Rgb8Image plain = renderer.render(squares.positions, squares.camera);
   const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &coat);
   EXPECT_GT(image.at(8, 32)[0], image.at(8, 32)[2] + 60) << "red on the left";
@@ -105,6 +105,41 @@ TEST(FaceRenderer, TexturesColourTheFacesTheyCover) {
   coat.of_face.pop_back();
   EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &coat),
                BrokenPrecondition);
+}
+
+/// One texel that holds this everywhere.
+TextureLayer everywhere(const Light& texel) {
+  return {{std::make_shared<const Texture>(Texture{1, 1, {texel}})}, {0, 0}};
+}
+
+TEST(FaceRenderer, SlopesTurnTheLightAsATurnedSurfaceWould) {
+  const TwoSquares squares;
+  Surfaces surfaces;
+  surfaces.uvs = squares.uvs;
+  const FaceRenderer renderer(squares.topology, {.size_px = 64, .occlusion = false}, surfaces);
+  const auto light = [&](const Light& slopes) {
+    TextureCoat coat{everywhere({0.3F, 0.3F, 0.3F})};
+    coat.slopes = everywhere(slopes);
+    const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &coat);
+    return static_cast<int>(image.at(20, 32)[0]);
+  };
+  // The key light comes from the upper left.
+  const int flat = light({0, 0, 0});
+  EXPECT_GT(light({-0.4F, 0, 0}), flat + 5) << "to the left";
+  EXPECT_LT(light({0.4F, 0, 0}), flat - 5) << "to the right";
+  EXPECT_GT(light({0, 0.4F, 0}), flat + 5) << "upwards";
+  EXPECT_LT(light({0, -0.4F, 0}), flat - 5) << "downwards";
+  // Between the key light and the eye a smooth surface shines.
+  const Eigen::Vector3f half = (key_direction() + Eigen::Vector3f::UnitZ()).normalized();
+  const auto gloss = [&](float roughness) {
+    TextureCoat coat{everywhere({0.05F, 0.05F, 0.05F})};
+    coat.slopes = everywhere({half.x() / half.z(), half.y() / half.z(), 0});
+    coat.roughness = everywhere({roughness, 0, 0});
+    const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &coat);
+    return static_cast<int>(image.at(20, 32)[0]);
+  };
+  EXPECT_GT(gloss(0.3F), gloss(0.5F) + 10);
+  EXPECT_GT(gloss(0.5F), gloss(0.8F) + 3);
 }
 
 }  // namespace

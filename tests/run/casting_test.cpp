@@ -445,6 +445,49 @@ TEST(Casting, DrawnParentsStandOnHeadsOfTheirSex) {
   EXPECT_EQ(targets("{bob: [male]}", "one")["father"], "bobbob") << "and no head is a woman's";
 }
 
+TEST(Casting, ChildrenOfAGroupAreMadeOfItsHeads) {
+  SmallCrowd crowd = six_bowls();
+  crowd.more =
+      "groups:\n"
+      "  - {name: women, tags: [female]}\n"
+      "  - {name: men, tags: [male]}\n"
+      "families:\n"
+      "  - {name: girls, group: women, members: 2, parents: {mother: {group: women}, father: "
+      "{group: men}}}\n"
+      "  - {name: boys, group: men, members: 2, parents: {mother: girls_mother, father: "
+      "girls_father}}\n"
+      "  - {name: heads, group: women, members: 1, parents: {mother: ann, father: dan}}\n";
+  const SmallCrowdFolder folder(crowd);
+  ConfigOverrides overrides;
+  overrides.set = {
+      "faces.tags={ann: [female, fair], bob: [female, fair], cyd: [female, dark], dan: [male, "
+      "fair], "
+      "eve: [male, dark], fay: [male, dark]}"};
+  run(folder, overrides);
+  const std::set<std::string> women = {"ann", "bob", "cyd"};
+  std::map<std::string, int> children;
+  for (const json& line : plan_lines(folder.out())) {
+    if (line.at("family").is_null()) continue;
+    const auto family = line.at("family").get<std::string>();
+    ++children[family];
+    const bool female = family != "boys";
+    std::set<std::string> heads = {line.at("target").get<std::string>()};
+    if (line.contains("mixture")) {
+      for (const auto& [head, share] : line.at("mixture").items()) heads.insert(head);
+    }
+    for (const json& region : line.at("regions")) {
+      for (const auto& [head, weight] : region.at("weights").items()) heads.insert(head);
+    }
+    for (const std::string& head : heads) {
+      EXPECT_EQ(women.contains(head), female) << line.at("id") << " has some of " << head;
+    }
+    EXPECT_EQ(line.at("group"), female ? "women" : "men");
+    // Of the women bob has most in common with dan and is nobody's parent.
+    if (family == "heads") EXPECT_TRUE(heads.contains("bob"));
+  }
+  EXPECT_EQ(children, (std::map<std::string, int>{{"girls", 2}, {"boys", 2}, {"heads", 1}}));
+}
+
 TEST(Casting, AQuotaThatTheSourcesContradictIsWarnedOf) {
   SmallCrowd crowd = six_bowls();
   crowd.sampling = "{sources: [cyd, dan], smoothness: [0.2, 0.9]}";

@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/verify.h"
 #include "crowdface/io/image.h"
+#include "crowdface/run/crowd_sheets.h"
 #include "crowdface/run/generate.h"
 
 #include "support/crowd_files.h"
@@ -284,6 +285,32 @@ TEST_F(OwnMaps, ABumpMapOfNormalsIsBlendedAsNormals) {
   const Image normals = read_image(meshes() / "blended/mob_0001.bump.png");
   EXPECT_GT(normals.at(8, 8, 2), 0.9F);
   EXPECT_NEAR(normals.at(8, 8, 1), 0.5F, 0.01F);
+}
+
+TEST_F(OwnMaps, AMapThatOneHeadAloneHasIsToldNotToBeBlended) {
+  for (const std::string& name : folder_.names()) {
+    folder_.folder().write(concat("heads/", name, ".mtl"),
+                           concat("newmtl skin\nKd 1 1 1\nmap_Kd ", name, ".png\n",
+                                  name == "bob" ? "norm bob_n.png\n" : ""));
+  }
+  run(folder_);
+  const auto warnings = testing::read_json(folder_.out() / "report.json").at("warnings").dump();
+  EXPECT_THAT(warnings, HasSubstr("the normal texture of bob is not blended"));
+  EXPECT_THAT(warnings, HasSubstr("(ann, cyd"));
+}
+
+TEST_F(OwnMaps, PicturesShowThem) {
+  run(folder_, {"output.contact_sheet={cell: 64}"});
+  const std::string shown = read_text(folder_.out() / "renders/mob_0002.png");
+  // The sheet made again from what the folder holds is the same.
+  fs::remove(folder_.out() / "renders/mob_0002.png");
+  remake_sheets(folder_.out(), {}, folder_.cache());
+  EXPECT_EQ(read_text(folder_.out() / "renders/mob_0002.png"), shown);
+  for (const std::string& name : folder_.names()) {
+    folder_.folder().write(concat("heads/", name, "_n.png"), normal_png(16, -0.5));
+  }
+  run(folder_, {"output.contact_sheet={cell: 64}"});
+  EXPECT_NE(read_text(folder_.out() / "renders/mob_0002.png"), shown);
 }
 
 TEST_F(OwnMaps, WhatIsNoNormalMapIsRefused) {

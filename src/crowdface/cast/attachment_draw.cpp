@@ -35,6 +35,11 @@ bool narrow(Items& items, const Wanted& wanted) {
   return true;
 }
 
+/// Whether a tag speaks of a colour: "brown" or "brown_hair" of brown.
+bool says_colour(const std::string& tag, const std::string& colour) {
+  return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
+}
+
 /// \param drawn  from 0 to 1
 const AttachmentItem* one_of(const Items& items, double drawn) {
   double sum = 0;
@@ -87,6 +92,7 @@ class Drawing {
     }
     std::vector<std::string> names = without_excluded(worn);
     worn_[face.id] = those(worn, [&](const auto& item) { return contains(names, item.name); });
+    heads_[face.id] = typical_head(face.recipe, draw_.tags);
     if (face.family) {
       for (const AttachmentItem* item : worn_[face.id]) {
         if (!item->colour.empty()) families_.try_emplace({*face.family, item->kind}, item->colour);
@@ -96,12 +102,18 @@ class Drawing {
   }
 
  private:
-  Items wearable(const std::string& kind, const CastFace& face) const {
-    const std::vector<std::string>& tags = draw_.tags[static_cast<std::size_t>(face.recipe.target)];
+  const std::vector<std::string>& tags_of(Index head) const {
+    return draw_.tags[static_cast<std::size_t>(head)];
+  }
+
+  /// What somebody with a head's tags may wear. \param colour  whose own this colour is, whatever the tags say.
+  Items wearable(const std::string& kind, Index head, const std::string& colour = {}) const {
+    const std::vector<std::string>& tags = tags_of(head);
     Items items;
     for (const AttachmentItem& item : draw_.items) {
-      const bool may = std::all_of(item.tags.begin(), item.tags.end(),
-                                   [&](const std::string& tag) { return contains(tags, tag); });
+      const bool may = std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
+        return contains(tags, tag) || (item.colour == colour && says_colour(tag, colour));
+      });
       if (item.kind == kind && item.share > 0 && may) items.push_back(&item);
     }
     return items;
@@ -109,7 +121,7 @@ class Drawing {
 
   const AttachmentItem* draw_one(const std::string& kind, const CastFace& face,
                                  const Items& worn) const {
-    Items items = wearable(kind, face);
+    Items items = wearable(kind, typical_head(face.recipe, draw_.tags));
     if (items.empty()) return nullptr;
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
@@ -161,15 +173,56 @@ class Drawing {
       if (found != families_.end()) take(found->second);
       return;
     }
+    const Index head = typical_head(face.recipe, draw_.tags);
     std::vector<std::string> parents = face.parents;
     const std::string purpose = concat("attachment/", kind, "/parent/", face.id);
     if (random_unit({draw_.seed, 0, purpose}) < 0.5) std::reverse(parents.begin(), parents.end());
     for (const std::string& parent : parents) {
-      const auto found = worn_.find(parent);
-      if (found == worn_.end()) continue;
-      const Items own = those(found->second, [&](const auto& item) { return item.kind == kind; });
-      if (!own.empty() && take(own[0]->colour)) return;
+      const std::string colour = colour_of(kind, parent);
+      if (!contains(tags_of(head), "old") && is_of_age(kind, colour)) continue;
+      if (take(colour)) return;
+      Items others = those(wearable(kind, head, colour),
+                           [&](const auto& item) { return item.colour == colour; });
+      if (colour.empty() || others.empty()) continue;
+      items = std::move(others);
+      return;
     }
+  }
+
+  /// Whose tags a parent has; −1 of somebody unknown.
+  Index head_of(const std::string& parent) const {
+    const auto face = heads_.find(parent);
+    if (face != heads_.end()) return face->second;
+    const auto head = std::find(draw_.heads.begin(), draw_.heads.end(), parent);
+    return head == draw_.heads.end() ? -1 : head - draw_.heads.begin();
+  }
+
+  /// Whether nobody but the old may wear what has this colour, such as grey.
+  bool is_of_age(const std::string& kind, const std::string& colour) const {
+    for (std::size_t head = 0; head < draw_.tags.size(); ++head) {
+      if (contains(draw_.tags[head], "old")) continue;
+      const Items items = wearable(kind, static_cast<Index>(head));
+      if (std::any_of(items.begin(), items.end(),
+                      [&](const auto* item) { return item->colour == colour; })) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// That of what a parent wears; of one who wears none, that of all that it might wear, if it is one.
+  std::string colour_of(const std::string& kind, const std::string& parent) const {
+    if (const auto found = worn_.find(parent); found != worn_.end()) {
+      const Items own = those(found->second, [&](const auto& item) { return item.kind == kind; });
+      if (!own.empty()) return own[0]->colour;
+    }
+    const Index head = head_of(parent);
+    if (head < 0) return {};
+    const Items items = wearable(kind, head);
+    const bool one = std::all_of(items.begin(), items.end(), [&](const auto* item) {
+      return item->colour == items[0]->colour;
+    });
+    return one && !items.empty() ? items[0]->colour : std::string();
   }
 
   /// Names in the order of the items, of which each in turn takes away what it excludes.
@@ -200,6 +253,7 @@ class Drawing {
   std::vector<std::pair<int, std::uint64_t>> places_;  ///< of sampled faces: group, and which of it
   std::map<int, std::uint64_t> sizes_;                 ///< of groups
   std::map<std::string, Items> worn_;                  ///< by face
+  std::map<std::string, Index> heads_;                 ///< whose tags a face has
   std::map<std::pair<std::string, std::string>, std::string> families_;  ///< colours by kinds
 };
 

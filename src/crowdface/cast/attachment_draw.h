@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/typical_head.h"
 
 namespace crowdface {
 
 /// What may sit on a face.
 struct AttachmentItem {
   std::string name, kind;
-  std::vector<std::string> tags;      ///< only for faces whose target has all of these
+  std::vector<std::string> tags;      ///< only for faces whose typical_head has all of these
   double share = 1;                   ///< against the others of its kind
   std::vector<std::string> excludes;  ///< names and kinds of what it does not go with
   std::string colour = {};            ///< what goes together in one face and runs in families
@@ -23,11 +24,12 @@ struct AttachmentItem {
 struct AttachmentDraw {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
-  std::map<std::string, double> none;          ///< by kind: the share of faces without one
-  std::vector<std::vector<std::string>> tags;  ///< #heads
+  std::map<std::string, double> none;  ///< by kind: the share of faces without one
+  HeadTags tags;                       ///< #heads
   /// By kind, name or colour: the share of sampled faces that wear one, in each group apart. A kind has its
   /// own or those of some of its names and colours.
   std::map<std::string, double> quotas = {};
+  std::vector<std::string> heads = {};  ///< their names: parents may be heads
 };
 
 /// What an attachment counts for: its kind, name and colour.
@@ -37,7 +39,8 @@ bool is_called(const AttachmentItem& item, const std::string& word);
 /// drawn by the face's own index, or its id if it is not sampled, and by the kind, so that nothing else about
 /// the crowd or the other kinds matters; but
 /// - of what has a colour one that what is drawn already has, or else that of a parent or of the family,
-///   is taken where the face may wear some,
+///   is taken where the face may wear some. A child has a parent's colour whatever its own tags say of its
+///   colour; but not that of an old parent, who may be grey, unless it is old itself,
 /// - quotas serve the m-th sampled face of a group whatever else is drawn; one that may not wear what
 ///   a quota asks for goes as if it were not asked.
 /// Then each in turn takes away what it excludes.

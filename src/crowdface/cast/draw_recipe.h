@@ -11,6 +11,7 @@
 #include "crowdface/cast/group.h"
 #include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
+#include "crowdface/cast/typical_head.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
 namespace crowdface {
@@ -37,6 +38,7 @@ struct Casting {
   std::vector<FamilyOptions> families = {};
   std::vector<Review> reviews = {};  ///< one after the other
   std::vector<Group> groups = {};    ///< of sampled faces; none where there are quotas
+  HeadTags tags = {};                ///< #heads, or none
 };
 
 /// What a face is drawn from: the numbers of the crowd or of a group, and what its target may be.

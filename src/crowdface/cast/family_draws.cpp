@@ -2,6 +2,7 @@
 #include "crowdface/cast/family_draws.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "crowdface/cast/ageing.h"
@@ -91,6 +92,7 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
     know(p, found->id, *found, crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
     if (found->family) relatives_.push_back(*found->family);
   }
+  if (to_draw_.empty()) know_group();
   const auto is_parent = [&](const std::string& name) {
     return std::any_of(parents_.begin(), parents_.end(),
                        [&](const KnownParent& one) { return !name.empty() && one.name == name; });
@@ -111,6 +113,59 @@ void FamilyDraws::know(std::size_t parent, std::string name, CastFace face,
                        FaceSpace::Point point) {
   take_back_age(face, sampling_of(face));  // what children inherit are no wrinkles of age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
+}
+
+/// Once the parents are known: who stands for those of their heads that are not of the family's group.
+void FamilyDraws::know_group() {
+  if (!family_.group || parents_.empty()) return;
+  const FaceKind kind = kind_of_group(casting_, family_.group);
+  std::vector<Index> taken, targets;
+  for (const KnownParent& parent : parents_) {
+    for (const SourceWeight& share : target_shares(parent.face.recipe)) taken.push_back(share.head);
+  }
+  for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
+  // On a single target children would have nothing of their parents' large forms.
+  form_ = targets.size() > 1 ? StandIns(targets, casting_.tags, taken, judge_.space()) : StandIns();
+  detail_.clear();
+  for (std::size_t b = 0; b < band_count(*kind.sampling); ++b) {
+    detail_.emplace_back(sources_of(kind, b), casting_.tags, taken, judge_.space());
+  }
+}
+
+/// A parent's large forms, as somebody of the family's group would have them.
+std::vector<SourceWeight> FamilyDraws::form_of(std::size_t parent) const {
+  return form_.of(target_shares(parents_[parent].face.recipe));
+}
+
+/// From whom a child has what it has from neither parent: as far as there are some, from heads that have
+/// the tags which both parents have, lest light parents have dark children.
+FaceKind FamilyDraws::somebody_else() const {
+  constexpr std::size_t kFewest = 3;
+  FaceKind kind = kind_of_group(casting_, family_.group);
+  if (parents_.empty() || casting_.tags.empty()) return kind;
+  const auto tags_of = [&](std::size_t parent) {
+    const Index head = typical_head(parents_[parent].face.recipe, casting_.tags);
+    return casting_.tags[static_cast<std::size_t>(head)];
+  };
+  std::vector<std::string> both = tags_of(0);
+  std::erase_if(both, [father = tags_of(1)](const auto& tag) { return !contains(father, tag); });
+  const auto likest = [&](auto& heads, const auto& head_of) {
+    std::vector<std::size_t> common;
+    for (const auto& one : heads) {
+      common.push_back(common_tags(both, casting_.tags[static_cast<std::size_t>(head_of(one))]));
+    }
+    std::vector<std::size_t> sorted = common;
+    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    const std::size_t least = sorted[std::min(kFewest, sorted.size()) - 1];
+    std::size_t i = 0;
+    std::erase_if(heads, [&](const auto&) { return common[i++] < least; });
+  };
+  likest(kind.targets, [](const WeightedHead& target) { return target.head; });
+  for (std::size_t b = 0; b < band_count(*kind.sampling); ++b) {
+    kind.sources.push_back(sources_of(*kind.sampling, b));
+    likest(kind.sources.back(), [](Index head) { return head; });
+  }
+  return kind;
 }
 
 bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
@@ -140,6 +195,7 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
     know(p, found->face.id, found->face, found->point);
     drawn_.push_back(std::move(*found));
   }
+  know_group();
   return true;
 }
 
@@ -154,12 +210,16 @@ const SamplingOptions& FamilyDraws::sampling_of(const CastFace& face) const {
 /// What a parent hands down in a band of a region: a face its recipe's part, a head its own detail.
 BandRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region, std::size_t band,
                                   const BandRecipe& drawn) const {
-  if (!family_.parents[parent].head) {
-    return band_of(parents_[parent].face.recipe.regions[region], band);
-  }
   BandRecipe own = drawn;
+  if (family_.parents[parent].head) {
+    own.position.reset();
+    own.weights = {{*family_.parents[parent].head, 1}};
+  } else {
+    own = band_of(parents_[parent].face.recipe.regions[region], band);
+  }
+  if (detail_.empty() || detail_[band].has_all(own.weights)) return own;
   own.position.reset();
-  own.weights = {{*family_.parents[parent].head, 1}};
+  own.weights = detail_[band].of(own.weights);
   return own;
 }
 
@@ -167,12 +227,11 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
   HandRecipe open;
   open.target = family_.target;
   open.age = Range{0, 0};
-  CastFace face = draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)},
-                              kind_of_group(casting_, family_.group));
+  CastFace face =
+      draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)}, somebody_else());
   if (parents_.empty()) return face;
   if (!family_.target) {
-    set_target(face.recipe, mixed_weights(target_shares(parents_[0].face.recipe),
-                                          target_shares(parents_[1].face.recipe), 0.5));
+    set_target(face.recipe, mixed_weights(form_of(0), form_of(1), 0.5));
     face.mother_share = 0.5;
   }
   const Recipe& mother = parents_[0].face.recipe;
@@ -226,8 +285,7 @@ void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
   if (!family_.target) {
     const double one = kLargeFormsShare / (1 - kForeignShare);
     const double mother = parent_of("large forms") == 0 ? one : 1 - one;
-    const auto of_parents = mixed_weights(target_shares(parents_[0].face.recipe),
-                                          target_shares(parents_[1].face.recipe), 1 - mother);
+    const auto of_parents = mixed_weights(form_of(0), form_of(1), 1 - mother);
     set_target(face.recipe, mixed_weights(of_parents, target_shares(face.recipe), kForeignShare));
     face.mother_share = mother * (1 - kForeignShare);
   }
@@ -263,7 +321,7 @@ FamilyDraws::Draft FamilyDraws::draft(const FamilyCast& cast, int member,
   if (parents_.empty()) open.target = cast.founder.recipe.target;
   open.age = Range{0, 0};
   Draft draft;
-  draft.to = draw_recipe(casting_, open, key, kind_of_group(casting_, family_.group));
+  draft.to = draw_recipe(casting_, open, key, somebody_else());
   draft.to.family = family_.name;
   if (!parents_.empty()) inherit(draft.to, key);
   const std::string purpose = concat(key.who, "/how");
@@ -344,8 +402,9 @@ bool FamilyDraws::takes_after_parents(const FamilyCast& cast, const FaceSpace::P
 double FamilyDraws::strangers_nearer(const FaceSpace::Point& point) const {
   double share = 0;
   for (const KnownParent& parent : parents_) {
-    share =
-        std::max(share, unrelated_.share_nearer(point, FaceSpace::distance(point, parent.point)));
+    if (!form_.has_all(target_shares(parent.face.recipe))) continue;
+    const double mm = FaceSpace::distance(point, parent.point);
+    share = std::max(share, unrelated_.share_nearer(point, mm, family_.group));
   }
   return share;
 }

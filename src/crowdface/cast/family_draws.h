@@ -9,6 +9,7 @@
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_search.h"
 #include "crowdface/cast/kinship.h"
+#include "crowdface/cast/stand_ins.h"
 
 namespace crowdface {
 
@@ -55,7 +56,8 @@ class FamilyDraws {
                                 const std::vector<FaceSpace::Point>& own,
                                 const Kinship& kinship) const;
 
-  /// The largest share of strangers that are nearer to a place than one of the parents.
+  /// The largest share of strangers that are nearer to a place than one of the parents; of a family of a
+  /// group strangers and parents of this group alone.
   double strangers_nearer(const FaceSpace::Point& point) const;
 
  private:
@@ -71,6 +73,9 @@ class FamilyDraws {
   };
 
   void know(std::size_t parent, std::string name, CastFace face, FaceSpace::Point point);
+  void know_group();
+  std::vector<SourceWeight> form_of(std::size_t parent) const;
+  FaceKind somebody_else() const;
   const SamplingOptions& sampling_of(const CastFace& face) const;
   BandRecipe of_parent(std::size_t parent, std::size_t region, std::size_t band,
                        const BandRecipe& drawn) const;
@@ -91,6 +96,8 @@ class FamilyDraws {
   std::vector<KnownParent> parents_;  ///< #parents; empty ones are still to be drawn
   std::vector<std::size_t> to_draw_;  ///< parents who were not in the crowd
   std::vector<FaceSearch::Found> drawn_;
+  StandIns form_;                       ///< of parents, among the targets of the family's group
+  std::vector<StandIns> detail_;        ///< by bands, among who lends to these; empty: no group
   std::vector<std::string> relatives_;  ///< families of parents, and families that share one
   FacePointIndex kin_, strangers_;      ///< relatives, and everyone else
 };

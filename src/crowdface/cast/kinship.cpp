@@ -35,22 +35,27 @@ void Kinship::add(const std::string& family, const std::vector<FaceSpace::Point>
 }
 
 Strangers::Strangers(const Casting& casting, const FaceSpace& space) {
-  const bool needed = std::any_of(casting.families.begin(), casting.families.end(),
-                                  [](const auto& family) { return !family.parents.empty(); });
-  if (!needed) return;
-  points_.resize(kStrangers);
-  parallel_for_each(static_cast<Index>(kStrangers), [&](Index i) {
-    const DrawKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
-    points_[static_cast<std::size_t>(i)] =
-        space.point(draw_recipe(casting, {}, key, kind_of_group(casting)).recipe);
-  });
+  for (const FamilyOptions& family : casting.families) {
+    if (!family.parents.empty()) of_group_[family.group].resize(kStrangers);
+  }
+  for (auto& [group, points] : of_group_) {
+    const FaceKind kind = kind_of_group(casting, group);
+    parallel_for_each(static_cast<Index>(kStrangers), [&, &points = points](Index i) {
+      const DrawKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
+      points[static_cast<std::size_t>(i)] = space.point(draw_recipe(casting, {}, key, kind).recipe);
+    });
+  }
 }
 
-double Strangers::share_nearer(const FaceSpace::Point& point, double mm) const {
-  const auto nearer = std::count_if(points_.begin(), points_.end(), [&](const auto& stranger) {
+double Strangers::share_nearer(const FaceSpace::Point& point, double mm,
+                               std::optional<std::size_t> group) const {
+  const auto found = of_group_.find(group);
+  if (found == of_group_.end()) return 0;
+  const auto& points = found->second;
+  const auto nearer = std::count_if(points.begin(), points.end(), [&](const auto& stranger) {
     return FaceSpace::distance(point, stranger) < mm;
   });
-  return points_.empty() ? 0 : static_cast<double>(nearer) / static_cast<double>(points_.size());
+  return static_cast<double>(nearer) / static_cast<double>(points.size());
 }
 
 }  // namespace crowdface

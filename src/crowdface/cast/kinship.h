@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,17 +36,18 @@ class Kinship {
   std::vector<Member> members_;
 };
 
-/// Faces as sampling draws them, whom nobody in the crowd is kin to: how near strangers come by
-/// chance. A function of seed and sampling alone, so that a family is the same however large the
-/// crowd is. There are none where no family has parents.
+/// Faces as sampling draws them, or the numbers of a group, whom nobody in the crowd is kin to: how near
+/// strangers come by chance. A function of seed and these numbers alone, so that a family is the same
+/// however large the crowd is. There are none where no family has parents.
 class Strangers {
  public:
   Strangers(const Casting& casting, const FaceSpace& space);
-  /// The share of them that are nearer than `mm` to a place, 0 … 1.
-  double share_nearer(const FaceSpace::Point& point, double mm) const;
+  /// The share of those of a family's group that are nearer than `mm` to a place, 0 … 1.
+  double share_nearer(const FaceSpace::Point& point, double mm,
+                      std::optional<std::size_t> group = std::nullopt) const;
 
  private:
-  std::vector<FaceSpace::Point> points_;
+  std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> of_group_;
 };
 
 }  // namespace crowdface

@@ -15,7 +15,7 @@ inline constexpr int kMirrorVersion =
 /// Entries of the cache, and so the faces made of them.
 inline constexpr int kPrepareVersion = 5;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
-inline constexpr int kFaceFilesVersion = 13;
+inline constexpr int kFaceFilesVersion = 14;
 inline constexpr int kShapesVersion =
     6;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
@@ -23,6 +23,6 @@ inline constexpr int kRigVersion = 1;          ///< joints that follow, and what
 inline constexpr int kAttachmentsVersion = 2;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
 inline constexpr int kTextureVersion = 1;      ///< textures of faces' own
-inline constexpr int kSheetVersion = 10;  ///< contact sheets and the gallery, of the same pictures
+inline constexpr int kSheetVersion = 11;  ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

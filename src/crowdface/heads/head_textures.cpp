@@ -47,6 +47,62 @@ Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb,
   });
 }
 
+/// Relief that is finer than pixels only makes grain: fewer texels than colours have, each a mean.
+int finish_texels(int most_px) {
+  return std::max(1, most_px / 2);
+}
+
+/// A map's numbers, and normals as slopes.
+Texture finish_of(const BlendedPicture& picture, bool normals, int most_px) {
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  const auto row = [&](int y, std::span<Light> texels) {
+    const std::uint16_t* at = picture.words.data() + channels *
+                                                         static_cast<std::size_t>(picture.width) *
+                                                         static_cast<std::size_t>(y);
+    for (Light& texel : texels) {
+      texel = Light::Zero();
+      for (std::size_t c = 0; c < channels; ++c) {
+        texel[static_cast<Index>(c)] = picture.low + picture.step * static_cast<float>(*at++);
+      }
+      if (!normals) continue;
+      texel = 2 * texel - 1;
+      texel /= std::max(texel[2], 1e-3F);
+    }
+  };
+  return shrunk_texture(picture.width, picture.height, most_px, row);
+}
+
+Texture finish_of(const TextureMap& map, int most_px) {
+  return shrunk_texture(map.width, map.height, most_px, [&](int y, std::span<Light> texels) {
+    for (std::size_t x = 0; x < texels.size(); ++x) {
+      texels[x] = Light::Zero();
+      for (int c = 0; c < map.coding.channels; ++c) texels[x][c] = map.number(map.row(c, y)[x]);
+    }
+  });
+}
+
+/// \param texture  of picture p of a kind's layout; null: there is none.
+template <class OfPicture>
+void add_layers(const std::vector<HeadTextures>& maps, TextureCoat& coat,
+                const OfPicture& texture) {
+  std::size_t first = 0;
+  for (const HeadTextures& of_kind : maps) {
+    const TextureKind kind = of_kind.names.front().kind;
+    const TextureLayout& layout = of_kind.blended.layout;
+    const std::size_t begin = std::exchange(first, first + layout.pictures.size());
+    if (kind != TextureKind::kNormal && kind != TextureKind::kRoughness) continue;
+    TextureLayer& layer = kind == TextureKind::kNormal ? coat.slopes : coat.roughness;
+    layer.of_face = layout.of_face;
+    for (std::size_t p = 0; p < layout.pictures.size(); ++p) {
+      layer.textures.push_back(texture(of_kind, begin, p));
+      if (layer.textures.back() != nullptr) continue;
+      for (std::uint32_t& picture : layer.of_face) {
+        if (picture == p) picture = TextureLayer::kNone;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int shown_texels(const Config::ContactSheet& sheet) {
@@ -64,6 +120,25 @@ TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPictur
         texture_of(picture.width, picture.height, picture.srgb, most_px)));
   }
   return coat;
+}
+
+void add_finish(const std::vector<HeadTextures>& maps, std::span<const BlendedPicture> pictures,
+                int most_px, TextureCoat& coat) {
+  add_layers(maps, coat, [&](const HeadTextures& of_kind, std::size_t first, std::size_t p) {
+    const bool normals = of_kind.names.front().kind == TextureKind::kNormal;
+    return std::make_shared<const Texture>(
+        finish_of(pictures[first + p], normals, finish_texels(most_px)));
+  });
+}
+
+void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
+                        TextureCoat& coat) {
+  add_layers(maps, coat, [&](const HeadTextures& of_kind, std::size_t, std::size_t p) {
+    const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
+    return map == nullptr
+               ? nullptr
+               : std::make_shared<const Texture>(finish_of(*map, finish_texels(most_px)));
+  });
 }
 
 std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px) {

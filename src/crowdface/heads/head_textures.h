@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,14 @@ int shown_texels(const Config::ContactSheet& sheet);
 /// \param most_px  larger ones are made smaller: more than this no picture shows.
 TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPicture>& pictures,
                     int most_px);
+/// Has the coat reflect as a face's own maps say: its normals and its roughness.
+/// \param maps      of all kinds but colours. \param pictures  theirs, one kind after the other.
+void add_finish(const std::vector<HeadTextures>& maps, std::span<const BlendedPicture> pictures,
+                int most_px, TextureCoat& coat);
+/// The same of what a head has itself.
+void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
+                        TextureCoat& coat);
+
 /// What a head wears itself; nothing if it has no texture.
 std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px);
 

@@ -237,6 +237,23 @@ void warn(Inputs& inputs, std::string text) {
   inputs.warnings.push_back(std::move(text));
 }
 
+/// Whether pictures show maps of this kind.
+bool shows(TextureKind kind) {
+  return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
+}
+
+/// What to say of heads without a map where all others have one and the same: it is not blended.
+std::optional<std::string> told_of_single(const HeadsTextures& textures, const FaceSet& faces) {
+  std::vector<std::string> with, without;
+  for (std::size_t h = 0; h < textures.heads.size(); ++h) {
+    (textures.heads[h].files.empty() ? without : with).push_back(faces.heads[h].name);
+  }
+  if (with.empty() || without.empty()) return std::nullopt;
+  return concat("the ", statement_of(textures.kind).name, " texture of ", join(with),
+                " is not blended, as all other heads have none (", join(without),
+                "): only faces with such a target get it, as it is");
+}
+
 void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
   const bool shown = sheet && sheet->texture != SheetTexture::kNo;
@@ -266,9 +283,14 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
       inputs.textures = load_coats(std::move(found), shown_texels(*sheet));
     }
     for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
-    for (std::size_t k = 1; blend && !config.output.meshes.empty() && k < kinds.size(); ++k) {
+    for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
+      const bool pictured = shown && shows(kinds[k].kind);
+      if (!pictured && config.output.meshes.empty()) continue;
       for (std::string& text : leave_out_unreadable(kinds[k])) warn(inputs, std::move(text));
-      if (!kinds[k].differ()) continue;
+      if (!kinds[k].differ()) {
+        if (auto text = told_of_single(kinds[k], inputs.faces)) warn(inputs, std::move(*text));
+        continue;
+      }
       inputs.maps.push_back(load_blended_textures(inputs.faces, inputs.materials,
                                                   std::move(kinds[k]), config.textures.size));
       for (const std::string& text : inputs.maps.back().warnings) warn(inputs, text);

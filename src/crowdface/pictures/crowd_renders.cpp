@@ -2,6 +2,8 @@
 #include "crowdface/pictures/crowd_renders.h"
 
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "crowdface/core/file.h"
 #include "crowdface/io/image.h"
@@ -15,12 +17,44 @@ namespace {
 /// Of a bust, shoulders may leave the picture: it is for judging faces.
 constexpr double kCutBelow = 0.22;
 
+/// Where what heads may wear reaches farthest: of each attachment some vertices, carried from the head that
+/// it was fitted to onto each head as boxes around heads are. Cheap, and near enough for a frame.
+std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const FaceSet& faces) {
+  std::vector<Eigen::Vector3d> farthest;
+  for (const Attachment& item : attachments.items) {
+    const Positions& points = item.file.positions;
+    if (points.rows() == 0) continue;
+    for (int i = 0; i < 27; ++i) {
+      const Eigen::Vector3d towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      Index best = 0;
+      (points * towards).maxCoeff(&best);
+      farthest.emplace_back(points.row(best));
+    }
+  }
+  if (farthest.empty()) return farthest;
+  const auto box_of = [](const Positions& positions) {
+    return std::pair<Eigen::Array3d, Eigen::Array3d>(positions.colwise().minCoeff().transpose(),
+                                                     positions.colwise().maxCoeff().transpose());
+  };
+  const auto [low, high] = box_of(attachments.fitted_to);
+  std::vector<Eigen::Vector3d> reach;
+  for (const Head& head : faces.heads) {
+    const auto [own_low, own_high] = box_of(head.positions);
+    for (const Eigen::Vector3d& point : farthest) {
+      reach.push_back(own_low +
+                      (point.array() - low) * (own_high - own_low) / (high - low).max(1e-9));
+    }
+  }
+  return reach;
+}
+
 std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
                                  const Inputs& inputs) {
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
-  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views,
-                     {.cut_below = kCutBelow});
+  return fit_cameras(
+      heads, {config.faces.up, config.faces.front}, sheet.views,
+      {.cut_below = kCutBelow, .beside = reach_of(inputs.attachments, inputs.faces)});
 }
 
 std::string to_png(const Rgb8Image& image) {
@@ -35,7 +69,7 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
       renderer_(inputs.faces.topology,
                 RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
                 surfaces_of(config, inputs), &inputs.faces.heads.front().positions),
-      textures_(inputs.textures),
+      inputs_(inputs),
       textured_(sheet.texture != SheetTexture::kNo),
       most_texels_(shown_texels(sheet)),
       worn_surfaces_(most_texels_, textured_) {}
@@ -71,11 +105,20 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
 std::optional<TextureCoat> CrowdRenders::own_coat(
     const std::vector<BlendedPicture>& textures) const {
   if (!textured_) return std::nullopt;
-  return crowdface::coat_of(textures_.blended.layout, textures, most_texels_);
+  const HeadTextures& colours = inputs_.textures;
+  TextureCoat coat = crowdface::coat_of(colours.blended.layout, textures, most_texels_);
+  const std::size_t others = colours.names.size();
+  if (textures.size() > others) {
+    add_finish(inputs_.maps, std::span(textures).subspan(others), most_texels_, coat);
+  }
+  return coat;
 }
 
 std::optional<TextureCoat> CrowdRenders::coat_of(Index head) const {
-  return textured_ ? coat_of_head(textures_, head, most_texels_) : std::nullopt;
+  if (!textured_) return std::nullopt;
+  std::optional<TextureCoat> coat = coat_of_head(inputs_.textures, head, most_texels_);
+  if (coat) add_finish_of_head(inputs_.maps, head, most_texels_, *coat);
+  return coat;
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, const VertexColours* colours,

@@ -68,7 +68,7 @@ class CrowdRenders {
 
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;
-  const HeadTextures& textures_;
+  const Inputs& inputs_;
   bool textured_;
   int most_texels_;
   WornSurfaces worn_surfaces_;

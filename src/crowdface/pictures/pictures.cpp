@@ -30,7 +30,7 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
 
 CrowdPictures::CrowdPictures(const Config& config, const Config::ContactSheet& sheet,
                              const Inputs& inputs, const Digest& settings,
-                             const CrowdDirectory& directory, const TextureBlender* textures,
+                             const CrowdDirectory& directory, const FaceTextures& textures,
                              const FaceShapes& shapes)
     : config_(config),
       sheet_(sheet),
@@ -62,8 +62,9 @@ void CrowdPictures::write_founder(const std::string& family, const Positions& po
                                   const Recipe& recipe) const {
   const std::filesystem::path path = directory_.founder_render(family);
   make_directories(path.parent_path());
-  write_file(path, textures_ != nullptr ? renders_.render_png(positions, textures_->blend(recipe))
-                                        : renders_.render_png(positions, recipe.target));
+  write_file(path, textures_.colours() != nullptr
+                       ? renders_.render_png(positions, textures_.blend(recipe))
+                       : renders_.render_png(positions, recipe.target));
 }
 
 void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
@@ -74,7 +75,7 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
     throw_if_interrupted();
     const CastFace& face = crowd[static_cast<std::size_t>(i)];
     std::vector<BlendedPicture> textures;
-    if (textures_ != nullptr) textures = textures_->blend(face.recipe);
+    if (textures_.colours() != nullptr) textures = textures_.blend(face.recipe);
     const Positions positions =
         read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count);
     std::vector<Displacements> moves;

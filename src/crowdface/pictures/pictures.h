@@ -6,10 +6,10 @@
 
 #include "crowdface/crowd/likeness_file.h"
 #include "crowdface/heads/face_shapes.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/pictures/gallery.h"
 #include "crowdface/pictures/sheets.h"
-#include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
 
@@ -19,11 +19,11 @@ class CrowdPictures {
   /// \param config, inputs, directory  must outlive this object.
   /// \param sheet     how its sheets are to be; likewise.
   /// \param settings  see settings_digest; the gallery shows it.
-  /// \param textures  of faces' own, or null; likewise.
+  /// \param textures  of faces' own, if they have any; likewise.
   /// \param shapes    of faces; likewise.
   CrowdPictures(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                 const Digest& settings, const CrowdDirectory& directory,
-                const TextureBlender* textures, const FaceShapes& shapes);
+                const FaceTextures& textures, const FaceShapes& shapes);
 
   const CrowdRenders& renders() const { return renders_; }
 
@@ -44,7 +44,7 @@ class CrowdPictures {
   const Inputs& inputs_;
   Digest settings_;
   const CrowdDirectory& directory_;
-  const TextureBlender* textures_;
+  const FaceTextures& textures_;
   const FaceShapes& shapes_;
   CrowdRenders renders_;
   std::optional<std::filesystem::path> page_;  ///< of the gallery, if there is to be one

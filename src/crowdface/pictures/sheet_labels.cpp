@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "crowdface/cast/typical_head.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
@@ -88,7 +89,7 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
         return concat("near ", heads[static_cast<std::size_t>(labelled.notes.nearest->head)], ", ",
                       format_fixed(rounded(labelled.notes.nearest->head_mm), 2), " mm");
       case SheetLabel::kTags:
-        return join(tags[static_cast<std::size_t>(labelled.recipe.target)]);
+        return join(tags[static_cast<std::size_t>(typical_head(labelled.recipe, tags))]);
       case SheetLabel::kAttachments:
         return join(labelled.attachments);
     }

@@ -111,6 +111,12 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
       along.add(height, z);
     }
   }
+  for (const Eigen::Vector3d& point : options.beside) {
+    const double height = point.dot(camera.up), z = point.dot(camera.back);
+    if (height < lowest) continue;
+    across.add(point.dot(camera.right), z);
+    along.add(height, z);
+  }
   require(nearest >= furthest, "camera: no vertex to look at");
   // The target lies half-way through the heads, so that half_extent() is about a head's size.
   const double middle = (nearest + furthest) / 2;

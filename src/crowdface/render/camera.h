@@ -37,10 +37,12 @@ struct FramingOptions {
   double margin = 0.06;  ///< left free on each side, as a fraction of the image's side
   double cut_below = 0;  ///< share of the heads' height, from the lowest vertex of all, that may
                          ///< leave the picture: a portrait of a bust that shows the face larger
+  /// Points that are shown beside the heads, such as hair; those too low to be shown of a head are not.
+  std::vector<Eigen::Vector3d> beside = {};
 };
 
 /// The nearest camera that shows every vertex of every head, margin kept (but for what `cut_below`
-/// gives up): one for all faces of a set, so that their sizes compare.
+/// gives up) and what is beside them: one for all faces of a set, so that their sizes compare.
 /// \param heads  at least one; each #V by 3 in the files' unit, with at least one vertex.
 /// \throws BrokenPrecondition if there is no vertex, or up and front are one axis; InvalidInput if a
 /// coordinate is not finite.

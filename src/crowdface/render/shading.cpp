@@ -86,6 +86,9 @@ float highlight(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye,
   return n_l * facets * fresnel / (shadowing * masking) * std::numbers::pi_v<float>;
 }
 
+/// Lamps are points: what is smoother than this would show nothing of them but dots.
+constexpr float kLeastRoughness = 0.14F;
+
 /// What is darker than any skin is painted hair, which scatters what falls on it.
 float dark_gleam(const Light& albedo) {
   constexpr float kDarkestSkin = 0.055F;
@@ -132,8 +135,12 @@ bool faces_key(const ShadePoint& point) {
 Light shade(const ShadePoint& point, float gleam) {
   const Studio& lamps = studio();
   Material material = material_of(point.kind);
-  if (point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn)
+  if (point.roughness >= 0) {
+    material.roughness = std::clamp(point.roughness, kLeastRoughness, 1.0F);
+  }
+  if (point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn) {
     material.reflectance *= dark_gleam(point.albedo);
+  }
   const Eigen::Vector3f& n = point.normal;
   const Light open = with_bounces(point.sky, point.albedo);
 

@@ -19,9 +19,10 @@ struct ShadePoint {
   Eigen::Vector3f to_eye;  ///< unit
   Light albedo;
   SurfaceKind kind = SurfaceKind::kSkin;
-  bool inside = false;  ///< the back of the surface is seen: nostrils, sockets
-  float sky = 1;        ///< share of the ambient light that arrives
-  float key = 1;        ///< share of the key light that arrives
+  bool inside = false;   ///< the back of the surface is seen: nostrils, sockets
+  float sky = 1;         ///< share of the ambient light that arrives
+  float key = 1;         ///< share of the key light that arrives
+  float roughness = -1;  ///< of its gloss, 0 … 1; below 0: what its kind has
 };
 
 /// What a surface of this kind reflects where no colour is given.

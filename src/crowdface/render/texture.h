@@ -31,16 +31,21 @@ Texture shrunk_texture(int width, int height, int most_px,
 /// \param steps    how far, in texels
 void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 
-/// The colour at texture coordinates: bilinear between the centres of texels, clamped at the edge.
+/// The colour, or whatever else it holds, at texture coordinates: bilinear between the centres of texels, clamped at the edge.
 /// Only what lies behind the point of a coordinate counts, so that each tile holds one picture.
 Light colour_at(const Texture& texture, const Eigen::Vector2f& uv);
 
-/// What colours the faces of one head.
-struct TextureCoat {
+/// Pictures on the faces of one head.
+struct TextureLayer {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::shared_ptr<const Texture>> textures;
-  std::vector<std::uint32_t>
-      of_face;  ///< #F rows of `textures`, or kNone: the surface's own colour
+  std::vector<std::uint32_t> of_face;  ///< #F rows of `textures`, or kNone; empty: no face has any
+};
+
+/// What colours the faces of one head, where a face has kNone its surface does itself; and how they reflect.
+struct TextureCoat : TextureLayer {
+  TextureLayer slopes = {};     ///< of tangent-space normals, to the right and upwards
+  TextureLayer roughness = {};  ///< in the first channel
 };
 
 }  // namespace crowdface

@@ -27,25 +27,32 @@ constexpr float kSameAlbedo = 0.03F;
 // The pixels around a point count its own pixel in; this is for a point unlike all of them.
 constexpr float kOwnWeight = 0.01F;
 
-/// Which of the coat's pictures is on this quad, or kNone.
-std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
-  if (stage.coat == nullptr || stage.uvs.empty()) return TextureCoat::kNone;
+/// Which of a layer's pictures is on this quad, or kNone.
+std::uint32_t texture_of(const Stage& stage, const TextureLayer& layer, std::uint32_t primitive) {
+  if (stage.uvs.empty() || layer.of_face.empty()) return TextureLayer::kNone;
   const TexturedQuad& quad = stage.uvs[primitive];
-  return quad.face == TextureCoat::kNone ? TextureCoat::kNone : stage.coat->of_face[quad.face];
+  return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.of_face[quad.face];
 }
 
-Light texture_albedo(const Stage& stage, std::uint32_t texture, std::uint32_t primitive,
-                     const Eigen::Vector4f& weights) {
+/// Which of the coat's colours.
+std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
+  return stage.coat == nullptr ? TextureLayer::kNone : texture_of(stage, *stage.coat, primitive);
+}
+
+/// What a picture of the layer has at a place of a quad that it is on.
+Light texel_at(const Stage& stage, const TextureLayer& layer, std::uint32_t texture,
+               std::uint32_t primitive, const Eigen::Vector4f& weights) {
   const TexturedQuad& quad = stage.uvs[primitive];
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
-  return colour_at(*stage.coat->textures[texture], uv);
+  return colour_at(*layer.textures[texture], uv);
 }
 
 Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
                  const Vector& point) {
   const std::uint32_t texture = texture_of(stage, primitive);
-  if (texture != TextureCoat::kNone) return texture_albedo(stage, texture, primitive, weights);
+  if (texture != TextureCoat::kNone)
+    return texel_at(stage, *stage.coat, texture, primitive, weights);
   if (!stage.paints.empty() && stage.paints[primitive]) return *stage.paints[primitive];
   const SurfaceKind kind = stage.kinds[primitive];
   if (kind != SurfaceKind::kEye) return albedo_of(kind);
@@ -81,6 +88,45 @@ Vector towards(const Vector& viewer, const Vector& normal) {
   return (normal - away * viewer).normalized();
 }
 
+/// A unit normal that leans as slopes say, which are along the texture's axes on this quad.
+Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal,
+               const Light& slopes) {
+  const Quad& quad = stage.quads[primitive];
+  const TexturedQuad& textured = stage.uvs[primitive];
+  // The triangle at the first corner, which tells where the picture's axes run on all of the quad.
+  const std::size_t last = quad[2] == quad[3] ? 2 : 3;
+  const Vector origin = stage.scene.point(quad[0]);
+  const Vector one = stage.scene.point(quad[1]) - origin;
+  const Vector other = stage.scene.point(quad[last]) - origin;
+  const Eigen::Vector2f uv_one = textured.uvs[1] - textured.uvs[0];
+  const Eigen::Vector2f uv_other = textured.uvs[last] - textured.uvs[0];
+  const float area = uv_one.x() * uv_other.y() - uv_other.x() * uv_one.y();
+  if (area == 0) return normal;
+  const float sign = area > 0 ? 1.0F : -1.0F;
+  const auto along = [&](const Vector& axis) -> Vector {
+    const Vector flat = axis - axis.dot(normal) * normal;
+    const float length = flat.norm();
+    return length > 0 ? Vector(sign / length * flat) : Vector(Vector::Zero());
+  };
+  return (normal + slopes[0] * along(uv_other.y() * one - uv_one.y() * other) +
+          slopes[1] * along(uv_one.x() * other - uv_other.x() * one))
+      .normalized();
+}
+
+/// What a coat says of how the surface reflects.
+void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
+            Vector& normal, ShadePoint& surface) {
+  if (stage.coat == nullptr || surface.inside) return;
+  const TextureLayer& slopes = stage.coat->slopes;
+  const TextureLayer& roughness = stage.coat->roughness;
+  if (const auto at = texture_of(stage, slopes, primitive); at != TextureLayer::kNone) {
+    normal = leaning(stage, primitive, normal, texel_at(stage, slopes, at, primitive, weights));
+  }
+  if (const auto at = texture_of(stage, roughness, primitive); at != TextureLayer::kNone) {
+    surface.roughness = texel_at(stage, roughness, at, primitive, weights)[0];
+  }
+}
+
 Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const Quad& quad = stage.quads[hit.primitive];
   const Eigen::Vector4f weights = quad_shares(quad, hit.u, hit.v);
@@ -104,7 +150,9 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   meeting.surface.inside = geometric.dot(direction) > 0;
   const float side = meeting.surface.inside ? -1.0F : 1.0F;
   meeting.surface.to_eye = -direction.normalized();
-  meeting.surface.normal = towards(meeting.surface.to_eye, side * normal.normalized());
+  normal.normalize();
+  finish(stage, hit.primitive, weights, normal, meeting.surface);
+  meeting.surface.normal = towards(meeting.surface.to_eye, side * normal);
   meeting.asks_key = faces_key(meeting.surface);
   // Rays start above the facets, on the smooth surface that the normals speak of, lest facets show
   // where light grazes them (Hanika 2021, "Hacking the shadow terminator").

@@ -285,12 +285,14 @@ Casting casting_of(const Config& config, const Inputs& inputs,
           config.diversity,
           config.families,
           config.review.reviews,
-          config.groups};
+          config.groups,
+          config.faces.tags};
 }
 
 AttachmentDraw attachment_draw(const Config& config) {
-  AttachmentDraw draw{
-      config.crowd.seed, {}, config.attachments.none, config.faces.tags, config.attachments.quotas};
+  AttachmentDraw draw{config.crowd.seed,         {},
+                      config.attachments.none,   config.faces.tags,
+                      config.attachments.quotas, config.faces.names};
   for (const Config::Attachment& item : config.attachments.items) draw.items.push_back(item);
   return draw;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crowdface/cast/attachment_draw.h"
+#include "crowdface/cast/typical_head.h"
 #include "crowdface/config/words.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
@@ -76,11 +77,12 @@ Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
   return json;
 }
 
-/// How many faces are built on heads of each tag.
+/// How many faces are built on heads of each tag, or for the most part on such.
 Json tags_to_json(const Config& config, const Cast& cast) {
   Json json = Json::object();
   for (const CastFace& face : cast.crowd) {
-    for (const std::string& tag : config.faces.tags[static_cast<std::size_t>(face.recipe.target)]) {
+    const Index head = typical_head(face.recipe, config.faces.tags);
+    for (const std::string& tag : config.faces.tags[static_cast<std::size_t>(head)]) {
       json[tag] = json.value(tag, 0U) + 1U;
     }
   }

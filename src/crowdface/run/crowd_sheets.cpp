@@ -56,6 +56,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
                      const CrowdLikeness& likeness, const std::vector<FaceFiles>& files) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
+  for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
   // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
   add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
@@ -132,7 +133,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const FaceTextures textures(job.config, job.inputs);
   const FaceShapes shapes(job.config, job.inputs);
   CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs, job.settings,
-                         directory, textures.colours(), shapes);
+                         directory, textures, shapes);
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   pictures.write_faces(

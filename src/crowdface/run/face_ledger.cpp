@@ -57,6 +57,7 @@ Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras)
     hasher.add(sheet.cell).add(sheet.views.size());
     for (const View view : sheet.views) hasher.add(static_cast<int>(view));
     hasher.add(job.inputs.textures.digest);
+    for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
     if (job.inputs.textures.blend()) hasher.add(kTextureVersion);
     for (const auto& [material, surface] : config.output.surfaces) {
       hasher.add(material).add(static_cast<int>(surface.kind)).add(surface.colour.has_value());

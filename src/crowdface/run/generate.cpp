@@ -256,8 +256,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
-                                           cast_job.textures.get().colours(),
-                                           cast_job.shapes.get());
+                                           cast_job.textures.get(), cast_job.shapes.get());
   });
   const StageBusy busy = timed(stages, "build", [&] {
     const CrowdRenders* renders =

@@ -79,7 +79,8 @@ Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
   look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
   look.iris = draw_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
-    grow_beard(unit("synth/beard"), look);
+    // Of five successive men two are shaven.
+    grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);
     look.receding = smooth_step(28, 80, person.age + 45 * (unit("synth/receding") - 0.5));
   } else {
     look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);

@@ -97,7 +97,7 @@ double skin_roughness(const SkinPlace& place, double on_lips, double hair, doubl
   roughness -= front * (0.12 * nose + 0.08 * forehead);
   roughness += on_lips * (0.34 - roughness);
   roughness += smooth_step(1.05, 1.15, place.eye) * (0.15 - roughness);  // the lid's moist edge
-  return roughness + hair * (0.62 - roughness);
+  return roughness + hair * (0.8 - roughness);
 }
 
 }  // namespace crowdface::synth

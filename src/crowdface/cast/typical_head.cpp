@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/typical_head.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace crowdface {
+
+Index typical_head(const Recipe& recipe, const HeadTags& tags) {
+  if (recipe.mixture.empty() || tags.empty()) return recipe.target;
+  std::map<std::string, double> shares;
+  for (const SourceWeight& part : recipe.mixture) {
+    for (const std::string& tag : tags[static_cast<std::size_t>(part.head)]) {
+      shares[tag] += part.weight;
+    }
+  }
+  // A tag that a head has counts for it by how much of the mixture has it, and against it by how much has not.
+  constexpr double kSame = 1e-9;
+  std::pair<double, double> best;
+  Index typical = -1;
+  for (const SourceWeight& part : recipe.mixture) {
+    double agrees = 0;
+    for (const std::string& tag : tags[static_cast<std::size_t>(part.head)]) {
+      agrees += 2 * shares[tag] - 1;
+    }
+    const bool better = agrees > best.first + kSame ||
+                        (agrees > best.first - kSame && part.weight > best.second + kSame);
+    if (typical >= 0 && !better) continue;
+    best = {agrees, part.weight};
+    typical = part.head;
+  }
+  return typical;
+}
+
+}  // namespace crowdface
