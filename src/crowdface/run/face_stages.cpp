@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "crowdface/core/block_shelf.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -345,6 +346,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   const std::uint64_t room = memory - standing - faces_held(at_once_) * one_face;
   waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
                               std::max(waiting_bytes_, FaceWriter::kMostWaitingBytes));
+  encoded_bytes_ = of_threads + 2 * waiting_bytes_;
 }
 
 BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders* renders,
@@ -357,6 +359,7 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (renders != nullptr) renders->make_folders(directory, faces);
 
   Progress progress("faces", faces.size());
+  const KeptBlocks kept(encoded_bytes_);
   FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
                     renders, check_ ? &*check_ : nullptr, writer, attachments_, shapes_,
