@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/block_shelf.h"
 
+#include <cstddef>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
 
 namespace crowdface {
@@ -13,12 +16,17 @@ namespace {
 
 constexpr std::size_t kSize = std::size_t{3} << 20U;
 
-TEST(BlockShelf, KeepsNothingUnlessAsked) {
+class BlockShelf : public ::testing::Test {
+ protected:
+  BlockShelf() { give_back_large_blocks(); }  // as programs do
+};
+
+TEST_F(BlockShelf, KeepsNothingUnlessAsked) {
   take_block(kSize);
   EXPECT_EQ(kept_block_bytes(), 0U);
 }
 
-TEST(BlockShelf, GivesABlockToTheNextOfItsSize) {
+TEST_F(BlockShelf, GivesABlockToTheNextOfItsSize) {
   const KeptBlocks kept(10 * kSize);
   const char* const first = take_block(kSize).get();
   EXPECT_EQ(kept_block_bytes(), kSize);
@@ -31,7 +39,7 @@ TEST(BlockShelf, GivesABlockToTheNextOfItsSize) {
   EXPECT_NE(other.get(), first) << "it is in use";
 }
 
-TEST(BlockShelf, HoldsItsLimitWithThoseInUse) {
+TEST_F(BlockShelf, HoldsItsLimitWithThoseInUse) {
   const KeptBlocks kept(2 * kSize);
   auto a = take_block(kSize), b = take_block(kSize), c = take_block(kSize);
   a.reset();
@@ -42,7 +50,7 @@ TEST(BlockShelf, HoldsItsLimitWithThoseInUse) {
   EXPECT_EQ(kept_block_bytes(), 2 * kSize);
 }
 
-TEST(BlockShelf, FreesWhatIsKeptAtTheEndAndWhatIsInUseLater) {
+TEST_F(BlockShelf, FreesWhatIsKeptAtTheEndAndWhatIsInUseLater) {
   std::shared_ptr<char[]> held;
   {
     const KeptBlocks kept(10 * kSize);
@@ -56,7 +64,7 @@ TEST(BlockShelf, FreesWhatIsKeptAtTheEndAndWhatIsInUseLater) {
   EXPECT_EQ(kept_block_bytes(), 0U);
 }
 
-TEST(BlockShelf, NoTwoThreadsHoldTheSame) {
+TEST_F(BlockShelf, NoTwoThreadsHoldTheSame) {
   const KeptBlocks kept(100 * kSize);
   std::vector<int> spoilt(200, 0);
   parallel_for_each(spoilt.size(), [&](std::size_t i) {

@@ -46,8 +46,9 @@ void give_back_large_blocks() {
   // glibc raises this by itself whenever such a block is freed, up to 32 MiB; once set it stays.
   constexpr int kLarge = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);  // NOLINT(concurrency-mt-unsafe): before any thread
-  // With that threshold set, glibc gives back a heap's end from 128 KiB on, at every loop that takes a little memory.
-  constexpr int kHeapEnd = 32 << 20;
+  // With that set, glibc would give back a heap's end from 128 KiB on, at every loop that takes a little
+  // memory. No large block must fit into what it keeps.
+  constexpr int kHeapEnd = kLarge / 4 * 3;
   ::mallopt(M_TRIM_THRESHOLD, kHeapEnd);  // NOLINT(concurrency-mt-unsafe)
 }
 
