@@ -73,29 +73,29 @@ class BlockShelf {
   std::uint64_t kept_bytes_ = 0, used_bytes_ = 0, most_ = 0;
 };
 
-BlockShelf& shelf() {
-  static auto* const kShelf = new BlockShelf;  // blocks may outlive everything
-  return *kShelf;
+BlockShelf& the_shelf() {
+  static auto* const shelf = new BlockShelf;  // blocks may outlive everything
+  return *shelf;
 }
 
 }  // namespace
 
 std::shared_ptr<char[]> take_block(std::size_t size) {
-  Memory memory = shelf().take(size);
+  Memory memory = the_shelf().take(size);
   char* const block = memory.release();
-  return {block, [size](char* held) { shelf().give_back(Memory(held), size); }};
+  return {block, [size](char* held) { the_shelf().give_back(Memory(held), size); }};
 }
 
 KeptBlocks::KeptBlocks(std::uint64_t most) {
-  shelf().keep(most);
+  the_shelf().keep(most);
 }
 
 KeptBlocks::~KeptBlocks() {
-  shelf().keep(0);
+  the_shelf().keep(0);
 }
 
 std::uint64_t kept_block_bytes() {
-  return shelf().kept_bytes();
+  return the_shelf().kept_bytes();
 }
 
 }  // namespace crowdface
