@@ -204,5 +204,85 @@ TEST_F(KeptHeads, CacheThatCannotBeWrittenToOnlyWarns) {
   EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());
 }
 
+/// Three heads of one mesh, and one of another.
+class SideBySide : public ::testing::Test {
+ protected:
+  SideBySide() : folder_(four_heads()) {
+    for (const char* name : {"ann", "bob", "cyd", "dan"}) paths_.push_back(folder_.head(name));
+    const std::string face = "f 2/2/2 1/1/1 4/4/4 5/5/5\n";
+    write("dan", read_text(paths_[3]) + face);
+  }
+  static SmallCrowd four_heads() {
+    SmallCrowd crowd;
+    crowd.heads = 4;
+    crowd.bowl.normals = true;
+    return crowd;
+  }
+  void write(const std::string& name, const std::string& text) {
+    folder_.folder().write("heads/" + name + ".obj", text);
+  }
+  std::vector<HeadFile> read(std::string* told = nullptr) const {
+    Problems problems;
+    std::vector<HeadFile> heads = read_heads(paths_, {}, problems);
+    try {
+      problems.throw_if_any();
+    } catch (const Error& error) {
+      if (told != nullptr) *told = error.what();
+    }
+    return heads;
+  }
+
+  SmallCrowdFolder folder_;
+  std::vector<fs::path> paths_;
+};
+
+TEST_F(SideBySide, AMeshIsReadOnceAndIsThatOfEachText) {
+  const std::vector<HeadFile> heads = read();
+  ASSERT_EQ(heads.size(), 4U);
+  for (const HeadFile& head : heads) {
+    const ObjFile alone = read_obj(head.file.path);
+    EXPECT_EQ(head.mesh->topology.corner_vertices, alone.topology.corner_vertices);
+    EXPECT_EQ(head.mesh->topology.corner_uvs, alone.topology.corner_uvs);
+    EXPECT_EQ(head.mesh->topology.face_offsets, alone.topology.face_offsets);
+    EXPECT_EQ(head.mesh->topology.vertex_count, alone.topology.vertex_count);
+    EXPECT_EQ(head.mesh->corner_normals, alone.corner_normals);
+    EXPECT_EQ(head.mesh->uvs, alone.uvs);
+    EXPECT_EQ(head.file.positions, alone.positions);
+    EXPECT_EQ(head.mesh_digest, head.mesh->digest());
+  }
+  EXPECT_EQ(heads[1].mesh, heads[0].mesh);
+  EXPECT_EQ(heads[2].mesh, heads[0].mesh);
+  EXPECT_NE(heads[3].mesh, heads[0].mesh);
+}
+
+TEST_F(SideBySide, AHeadThatCannotBeReadLeavesTheOthersTheirMesh) {
+  for (const char* name : {"ann", "bob", "cyd"}) {
+    const std::string text = read_text(folder_.head(name));
+    std::string bad = text;
+    bad.replace(bad.find("\nv ") + 3, 1, "x");
+    write(name, bad);
+    std::string told;
+    const std::vector<HeadFile> heads = read(&told);
+    ASSERT_EQ(heads.size(), 3U);
+    for (const HeadFile& head : heads) {
+      EXPECT_EQ(head.mesh->topology.corner_vertices,
+                read_obj(head.file.path).topology.corner_vertices);
+    }
+    EXPECT_THAT(told, ::testing::HasSubstr(concat(name, ".obj:")));
+    write(name, text);
+  }
+}
+
+TEST_F(SideBySide, AMeshThatIsBadIsToldOfEach) {
+  for (const char* name : {"ann", "bob", "cyd"}) {
+    write(name, read_text(folder_.head(name)) + "f 1 2 999999\n");
+  }
+  std::string told;
+  EXPECT_EQ(read(&told).size(), 1U);
+  for (const char* name : {"ann.obj:", "bob.obj:", "cyd.obj:"}) {
+    EXPECT_THAT(told, ::testing::HasSubstr(name));
+  }
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -3,6 +3,7 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,58 @@ TEST(FaceMaterials, NameIsKeptOnceAndOnlyIfAFaceHasIt) {
   EXPECT_EQ(materials.names, (std::vector<std::string>{"", "skin", "lips"}));
   EXPECT_EQ(materials.of_face, (std::vector<std::uint32_t>{0, 1, 2, 1, 1}));
   EXPECT_EQ(face_materials({}, 2).of_face, (std::vector<std::uint32_t>{0, 0}));
+}
+
+/// A small mesh in many ways of writing it.
+constexpr const char* kMeshText =
+    "# one\nmtllib one.mtl\no one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\n"
+    "vt 0 1\ng left\nusemtl skin\nf 1/1/1 2/2/1 3/3/1\nv 2 2 2\nf -1/1/1 2/2/1 3/3/1\n";
+
+std::string with(std::string text, const std::string& part, const std::string& other) {
+  return text.replace(text.find(part), part.size(), other);
+}
+
+TEST(OutlineObj, IsOfTheMeshAndNotOfPlacesNamesOrComments) {
+  const ObjOutline outline = outline_obj(kMeshText);
+  EXPECT_EQ(outline.vertices, 5U);
+  EXPECT_EQ(outline.uvs, 3U);
+  EXPECT_EQ(outline.normals, 1U);
+  EXPECT_EQ(outline.faces, 2U);
+  const std::vector<std::pair<std::string, std::string>> same = {
+      {"v 0 1 0", "v -3e2 1 7.5 1"},    {"vn 0 0 1", "vn 1 0 0"},
+      {"# one\n", "# other\n# more\n"}, {"o one", "o two"},
+      {"one.mtl", "another.mtl"},       {"usemtl skin", "usemtl lips"}};
+  for (const auto& [part, other] : same) {
+    EXPECT_EQ(outline_obj(with(kMeshText, part, other)).mesh, outline.mesh) << other;
+  }
+  const std::vector<std::pair<std::string, std::string>> different = {
+      {"vt 1 0", "vt 1 0.5"},
+      {"f 1/1/1", "f 4/1/1"},
+      {"f 1/1/1 2/2/1 3/3/1\nv 2 2 2\n", "v 2 2 2\nf 1/1/1 2/2/1 3/3/1\n"},
+      {"v 0 0 0\n", ""},
+      {"v 0 0 0\n", "v 0 0 0\nv 0 0 0\n"},
+      {"vn 0 0 1\n", "vn 0 0 1\nvn 0 0 1\n"},
+      {"g left\n", ""},
+      {"f -1/1/1", "s 1\nf -1/1/1"},
+      {"v 2 2 2\n", "x 2 2 2\n"}};
+  for (const auto& [part, other] : different) {
+    EXPECT_NE(outline_obj(with(kMeshText, part, other)).mesh, outline.mesh) << other;
+  }
+}
+
+TEST(ReadObjBeside, TellsAllButTheMesh) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("head.obj", kMeshText);
+  const ObjFile whole = read_obj(path);
+  const ObjFile beside = read_obj_beside(path, MappedFile(path), outline_obj(kMeshText));
+  EXPECT_EQ(beside.positions, whole.positions);
+  EXPECT_EQ(beside.material_libraries, whole.material_libraries);
+  ASSERT_EQ(beside.groups.size(), whole.groups.size());
+  ASSERT_EQ(beside.materials.size(), 1U);
+  EXPECT_EQ(beside.materials[0].name, "skin");
+  EXPECT_EQ(beside.materials[0].first_face, whole.materials[0].first_face);
+  EXPECT_EQ(beside.topology.corner_count(), 0);
+  EXPECT_EQ(beside.uvs.rows(), 0);
 }
 
 // One of 40 MB took eleven gigabytes, a copy a face.

@@ -46,9 +46,10 @@ void give_back_large_blocks() {
   // glibc raises this by itself whenever such a block is freed, up to 32 MiB; once set it stays.
   constexpr int kLarge = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);  // NOLINT(concurrency-mt-unsafe): before any thread
-  // What one face took in smaller blocks the next one takes again: cleared pages cost more than the work.
-  constexpr int kKept = 64 << 20;
-  ::mallopt(M_TRIM_THRESHOLD, kKept);  // NOLINT(concurrency-mt-unsafe)
+  // With that set, glibc would give back a heap's end from 128 KiB on, at every loop that takes a little
+  // memory. No large block must fit into what it keeps.
+  constexpr int kHeapEnd = kLarge / 4 * 3;
+  ::mallopt(M_TRIM_THRESHOLD, kHeapEnd);  // NOLINT(concurrency-mt-unsafe)
 }
 
 void watch_for_lack_of_memory() {

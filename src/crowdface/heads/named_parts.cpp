@@ -15,11 +15,17 @@ std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, cons
   const Topology& topology = inputs.faces.topology;
   std::vector<std::map<std::size_t, Index>> faces(
       static_cast<std::size_t>(inputs.components.count()));
-  std::size_t range = 0;
-  for (Index f = ranges.empty() ? topology.face_count() : ranges[0].first_face;
-       f < topology.face_count(); ++f) {
-    while (range + 1 < ranges.size() && ranges[range + 1].first_face <= f) ++range;
-    ++faces[inputs.components.of_vertex[topology.face(f)[0]]][range];
+  for (std::size_t range = 0; range < ranges.size(); ++range) {
+    const Index end =
+        range + 1 < ranges.size() ? ranges[range + 1].first_face : topology.face_count();
+    std::uint32_t component = kNoIndex;
+    Index* count = nullptr;  // of this component: faces of one mostly follow each other
+    for (Index f = ranges[range].first_face; f < end; ++f) {
+      const std::uint32_t of_face = inputs.components.of_vertex[topology.face(f)[0]];
+      if (of_face != component) count = &faces[of_face][range];
+      component = of_face;
+      ++*count;
+    }
   }
   std::vector<std::string> names;
   for (const auto& of_component : faces) {

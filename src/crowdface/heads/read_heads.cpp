@@ -39,17 +39,39 @@ class MeshShelf {
     if (!kept) return nullptr;
     return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
   }
-  std::shared_ptr<HeadMesh> put(const Digest& digest, HeadMesh mesh) {
+
+  /// Whether nobody has asked this of a text's mesh: then it is the caller's to read it.
+  bool is_first(const Digest& outline) {
     const std::lock_guard lock(mutex_);
-    auto& place = meshes_[digest];
+    return of_outline_.emplace(outline, Known()).second;
+  }
+  /// \param outline  of the text that the mesh was read from
+  void put(const Digest& outline, HeadMesh mesh, HeadFile& head) {
+    head.mesh_digest = mesh.digest();
+    const std::lock_guard lock(mutex_);
+    auto& place = meshes_[head.mesh_digest];
     if (!place) place = std::make_shared<HeadMesh>(std::move(mesh));
-    return place;
+    head.mesh = place;
+    of_outline_[outline] = {head.mesh_digest, place};
+  }
+  /// The mesh that was read from another text with this outline; nothing if there is none.
+  void take(const Digest& outline, HeadFile& head) {
+    const std::lock_guard lock(mutex_);
+    const Known& known = of_outline_[outline];
+    head.mesh_digest = known.digest;
+    head.mesh = known.mesh;
   }
 
  private:
+  struct Known {
+    Digest digest;
+    std::shared_ptr<HeadMesh> mesh;
+  };
+
   const fs::path& cache_;
   std::mutex mutex_;
   std::map<Digest, std::shared_ptr<HeadMesh>, decltype(&by_digest)> meshes_{by_digest};
+  std::map<Digest, Known, decltype(&by_digest)> of_outline_{by_digest};
 };
 
 bool fits(const ObjFile& head, const HeadMesh& mesh) {
@@ -81,8 +103,25 @@ bool read_from_cache(HeadFile& head, const fs::path& cache, MeshShelf& shelf) {
   }
 }
 
-HeadFile read_head(const fs::path& path, const fs::path& cache, MeshShelf& shelf) {
+/// A head that is being read.
+struct HeadReading {
   HeadFile head;
+  ObjOutline outline;
+};
+
+void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
+  ObjFile& file = reading.head.file;
+  file = read_obj(fs::path(file.path), std::move(file.file), reading.outline);
+  HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
+                std::exchange(file.corner_normals, {})};
+  file.uvs.resize(0, 2);
+  shelf.put(reading.outline.mesh, std::move(mesh), reading.head);
+}
+
+/// Reads all but the mesh if another head has the same, which may not be there yet.
+HeadReading begin_reading(const fs::path& path, const fs::path& cache, MeshShelf& shelf) {
+  HeadReading reading;
+  HeadFile& head = reading.head;
   head.file.path = path;
   const SeenFile seen(cache, path);
   head.file.file = MappedFile(path);
@@ -91,15 +130,23 @@ HeadFile read_head(const fs::path& path, const fs::path& cache, MeshShelf& shelf
       !cache.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
   if (head.is_kept) {
     seen.remember(head.text);
-    return head;
+    return reading;
   }
-  head.file = read_obj(path, std::move(head.file.file));
-  HeadMesh mesh{std::exchange(head.file.topology, {}), std::move(head.file.uvs),
-                std::exchange(head.file.corner_normals, {})};
-  head.file.uvs.resize(0, 2);
-  head.mesh_digest = mesh.digest();
-  head.mesh = shelf.put(head.mesh_digest, std::move(mesh));
-  return head;
+  reading.outline = outline_obj(head.file.file.bytes());
+  if (shelf.is_first(reading.outline.mesh)) {
+    read_with_mesh(reading, shelf);
+  } else {
+    head.file = read_obj_beside(path, std::move(head.file.file), reading.outline);
+    head.mesh = nullptr;
+  }
+  return reading;
+}
+
+/// Gives a head its mesh when that of the first that has the same is there, or could not be read.
+void end_reading(HeadReading& reading, MeshShelf& shelf) {
+  if (reading.head.mesh) return;
+  shelf.take(reading.outline.mesh, reading.head);
+  if (!reading.head.mesh) read_with_mesh(reading, shelf);
 }
 
 }  // namespace
@@ -111,14 +158,25 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
   std::vector<std::optional<Error>> errors(paths.size());
   MeshShelf shelf(cache);
   Progress progress(concat("reading ", what), paths.size());
-  parallel_for_each(paths.size(), [&](std::size_t i) {
-    throw_if_interrupted();
-    try {
-      files[i] = read_head(paths[i], cache, shelf);
-    } catch (const Error& error) {
-      errors[i] = error;
-    }
+  std::vector<HeadReading> readings(paths.size());
+  const auto for_each_sound = [&](const auto& read) {
+    parallel_for_each(paths.size(), [&](std::size_t i) {
+      throw_if_interrupted();
+      if (errors[i]) return;
+      try {
+        read(i);
+      } catch (const Error& error) {
+        errors[i] = error;
+      }
+    });
+  };
+  for_each_sound([&](std::size_t i) {
+    readings[i] = begin_reading(paths[i], cache, shelf);
     progress.step();
+  });
+  for_each_sound([&](std::size_t i) {
+    end_reading(readings[i], shelf);
+    files[i] = std::move(readings[i].head);
   });
   for (const auto& error : errors) {
     if (error) problems.add(*error);

@@ -9,6 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
@@ -37,10 +38,12 @@ TilePlace tile_of(const FaceSet& faces, Index face) {
 }
 
 WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
-                     const std::vector<TilePlace>& tiles, const FaceMaterials& materials,
+                     const std::vector<TilePlace>& tiles, const std::vector<MaterialRange>& ranges,
                      std::vector<fs::path>& missing) {
   WornTextures worn;
   worn.of_face.assign(tiles.size(), kNoIndex);
+  if (of_material.empty()) return worn;
+  const FaceMaterials materials = face_materials(ranges, static_cast<Index>(tiles.size()));
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();
@@ -110,9 +113,11 @@ std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces,
                                               std::span<const ObjFile> files) {
   const Index face_count = faces.topology.face_count();
   const bool has_uvs = !faces.topology.corner_uvs.empty();
-  std::vector<TilePlace> tile;
-  for (Index f = 0; f < face_count; ++f) {
-    tile.push_back(has_uvs ? tile_of(faces, f) : TilePlace{0, 0});
+  std::vector<TilePlace> tile(static_cast<std::size_t>(face_count), TilePlace{0, 0});
+  if (has_uvs) {
+    constexpr Index kBlock = 16384;
+    parallel_for_each(face_count, kBlock,
+                      [&](Index f) { tile[static_cast<std::size_t>(f)] = tile_of(faces, f); });
   }
   // Heads of one folder mostly share their material files.
   std::map<std::pair<fs::path, std::vector<std::string>>, NamedTextures> known;
@@ -142,7 +147,7 @@ std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces,
       const auto named = of_head[h]->of_kind.find(kind);
       result.heads.push_back(worn_by(
           named == of_head[h]->of_kind.end() ? std::map<std::string, fs::path>() : named->second,
-          tile, face_materials(files[h].materials, face_count), missing));
+          tile, files[h].materials, missing));
       for (const fs::path& path : missing) {
         heads_of_warning[concat("texture ", quoted(path.string()),
                                 " is missing; pictures do without")]

@@ -78,17 +78,27 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
   }
 }
 
+/// What the scan tells better than the loader.
+void take_places(ObjScan scan, ObjFile& result) {
+  result.positions = std::move(scan.positions);  // correctly rounded, which the loader's are not
+  result.material_libraries = std::move(scan.material_libraries);
+  result.materials = std::move(scan.materials);
+  result.groups = std::move(scan.groups);
+}
+
 }  // namespace
 
 ObjFile read_obj(const std::filesystem::path& path) {
-  return read_obj(path, MappedFile(path));
+  MappedFile file(path);
+  const ObjOutline outline = outline_obj(file.bytes());
+  return read_obj(path, std::move(file), outline);
 }
 
-ObjFile read_obj(const std::filesystem::path& path, MappedFile file) {
+ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOutline& outline) {
   ObjFile result;
   result.path = path;
   result.file = std::move(file);
-  ObjScan scan = scan_obj(result.file.bytes(), path.string());
+  ObjScan scan = scan_obj(result.file.bytes(), path.string(), outline, ObjLines::kAll);
 
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
@@ -105,11 +115,17 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file) {
   take_faces(shapes, result);
   result.topology.vertex_count = scan.positions.rows();
   compare(scan, attributes, result);
-  result.positions = std::move(scan.positions);  // correctly rounded, which the loader's are not
   result.uvs = std::move(scan.uvs);
-  result.material_libraries = std::move(scan.material_libraries);
-  result.materials = std::move(scan.materials);
-  result.groups = std::move(scan.groups);
+  take_places(std::move(scan), result);
+  return result;
+}
+
+ObjFile read_obj_beside(const std::filesystem::path& path, MappedFile file,
+                        const ObjOutline& outline) {
+  ObjFile result;
+  result.path = path;
+  result.file = std::move(file);
+  take_places(scan_obj(result.file.bytes(), path.string(), outline, ObjLines::kAllButMesh), result);
   return result;
 }
 

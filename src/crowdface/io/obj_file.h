@@ -29,8 +29,15 @@ struct ObjFile {
 /// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj).
 /// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
 ObjFile read_obj(const std::filesystem::path& path);
-/// \param file  what is at the path, mapped.
-ObjFile read_obj(const std::filesystem::path& path, MappedFile file);
+/// \param file     what is at the path, mapped.
+/// \param outline  of its text
+ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOutline& outline);
+
+/// The same without its mesh, which is that of a text that was read before: topology, texture coordinates and
+/// corner normals are left empty.
+/// \param outline  of the text; its `mesh` is that of the other, too.
+ObjFile read_obj_beside(const std::filesystem::path& path, MappedFile file,
+                        const ObjOutline& outline);
 
 /// Which face is of which material.
 struct FaceMaterials {

@@ -51,27 +51,106 @@ std::string_view rest_after(std::string_view line, std::string_view word) {
   return rest;
 }
 
-struct Counts {
-  std::uint64_t vertices = 0, uvs = 0, normals = 0, faces = 0;
+/// Calls visit(line) for each, without what ends it.
+template <class Visit>
+void for_each_line(std::string_view text, const Visit& visit) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    visit(line);
+    begin = end + 1;
+  }
+}
+
+std::string_view without_blanks_before(std::string_view line) {
+  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  return line;
+}
+
+/// Whether a line without blanks before it is of a statement.
+bool is_of(std::string_view line, std::string_view statement) {
+  return line.size() > statement.size() && line.starts_with(statement) &&
+         is_blank(line[statement.size()]);
+}
+
+/// Counts lines, so that indices can be checked as they come, and hashes what tells the mesh.
+class Outliner {
+ public:
+  void look_at(std::string_view whole_line) {
+    const std::string_view line = without_blanks_before(whole_line);
+    if (line.empty() || line[0] == '#') return;
+    if (is_of(line, "v")) {
+      ++outline_.vertices;
+      return;
+    }
+    if (is_of(line, "vn")) {
+      ++outline_.normals;
+      return;
+    }
+    for (const std::string_view statement : {"g", "o", "usemtl", "mtllib"}) {
+      if (!is_of(line, statement)) continue;
+      add_run();
+      mark_place();
+      hasher_.add(statement);
+      return;
+    }
+    if (is_of(line, "f")) ++outline_.faces;
+    if (is_of(line, "vt")) ++outline_.uvs;
+    take(whole_line);
+  }
+  ObjOutline end() {
+    add_run();
+    mark_place();
+    outline_.mesh = hasher_.digest();
+    return outline_;
+  }
+
+ private:
+  /// Lines that follow each other are hashed together.
+  void take(std::string_view line) {
+    constexpr std::ptrdiff_t kLongestEnd = 2;  // CR LF
+    const std::ptrdiff_t gap = run_.empty() ? -1 : line.data() - (run_.data() + run_.size());
+    if (gap > 0 && gap <= kLongestEnd) {
+      run_ = {run_.data(), run_.size() + static_cast<std::size_t>(gap) + line.size()};
+      return;
+    }
+    add_run();
+    mark_place();
+    run_ = line;
+  }
+  void add_run() {
+    if (!run_.empty()) hasher_.add(run_);
+    run_ = {};
+  }
+  /// Relative indices count from here.
+  void mark_place() { hasher_.add(outline_.vertices).add(outline_.normals); }
+
+  ObjOutline outline_;
+  Hasher hasher_;
+  std::string_view run_;
 };
 
 class Scanner {
  public:
-  Scanner(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  Scanner(std::string_view text, const std::string& name, const ObjOutline& outline, ObjLines lines)
+      : text_(text), name_(name), lines_(lines), total_(outline) {}
 
   ObjScan run() {
     if (text_.starts_with("\xEF\xBB\xBF")) {
       fail("expected plain text, found a byte-order mark; save the file as UTF-8 without BOM");
     }
-    for_each_line([&](std::string_view line) { count(line); });
     require_at_most(input_limits().vertices, total_.vertices, "vertices");
     // A vertex may have several of these, but not without end.
     require_at_most(kMostPerVertex * input_limits().vertices, total_.uvs, "texture coordinates");
     require_at_most(kMostPerVertex * input_limits().vertices, total_.normals, "normals");
     require_at_most(input_limits().faces, total_.faces, "faces");
     scan_.positions.resize(static_cast<Index>(total_.vertices), 3);
-    scan_.uvs.resize(static_cast<Index>(total_.uvs), 2);
-    for_each_line([&](std::string_view line) { check(line); });
+    scan_.uvs.resize(lines_ == ObjLines::kAll ? static_cast<Index>(total_.uvs) : 0, 2);
+    for_each_line(text_, [&](std::string_view line) {
+      ++line_number_;
+      if (lines_ == ObjLines::kAll || !passes_over(line)) check(line);
+    });
     if (total_.vertices == 0) {
       throw InvalidInput(concat(name_, ": expected a mesh, found no vertex ('v' line)"));
     }
@@ -82,19 +161,6 @@ class Scanner {
   }
 
  private:
-  template <class Visit>
-  void for_each_line(const Visit& visit) {
-    line_number_ = 0;
-    for (std::size_t begin = 0; begin < text_.size();) {
-      const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-      std::string_view line = text_.substr(begin, end - begin);
-      if (line.ends_with('\r')) line.remove_suffix(1);
-      ++line_number_;
-      visit(line);
-      begin = end + 1;
-    }
-  }
-
   [[noreturn]] void fail(const std::string& what) const {
     throw InvalidInput(concat(name_, ":", std::max<std::size_t>(line_number_, 1), ": ", what));
   }
@@ -105,15 +171,13 @@ class Scanner {
         concat(name_, ": expected at most ", most, ' ', what, " (--limit), found ", found));
   }
 
-  /// First pass: how many of each there are, so that indices can be checked as they come.
-  void count(std::string_view line) {
-    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-    if (line.size() >= 2 && line[0] == 'f' && is_blank(line[1])) ++total_.faces;
-    if (line.size() < 2 || line[0] != 'v') return;
-    if (is_blank(line[1])) ++total_.vertices;
-    if (line.size() < 3 || !is_blank(line[2])) return;
-    if (line[1] == 't') ++total_.uvs;
-    if (line[1] == 'n') ++total_.normals;
+  /// A line of a mesh that is known.
+  bool passes_over(std::string_view line) {
+    line = without_blanks_before(line);
+    if (is_of(line, "vt")) return true;
+    if (!is_of(line, "f")) return false;
+    ++scan_.face_count;
+    return true;
   }
 
   void check(std::string_view line) {
@@ -246,14 +310,26 @@ class Scanner {
   const std::string& name_;
   std::size_t line_number_ = 0;
   std::vector<std::string_view> words_;
-  Counts total_, seen_;  ///< in the whole text, and in the lines checked so far
+  ObjLines lines_;
+  ObjOutline total_, seen_;  ///< counts in the whole text, and in the lines checked so far
   ObjScan scan_;
 };
 
 }  // namespace
 
+ObjOutline outline_obj(std::string_view text) {
+  Outliner outliner;
+  for_each_line(text, [&](std::string_view line) { outliner.look_at(line); });
+  return outliner.end();
+}
+
+ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,
+                 ObjLines lines) {
+  return Scanner(text, name, outline, lines).run();
+}
+
 ObjScan scan_obj(std::string_view text, const std::string& name) {
-  return Scanner(text, name).run();
+  return scan_obj(text, name, outline_obj(text), ObjLines::kAll);
 }
 
 }  // namespace crowdface

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "crowdface/core/hash.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -26,12 +28,31 @@ struct ObjScan {
   std::vector<MaterialRange> groups;     ///< the same of groups and objects (`g`, `o`)
 };
 
+/// What a first look at an OBJ text finds.
+struct ObjOutline {
+  std::uint64_t vertices = 0, uvs = 0, normals = 0, faces = 0;
+  /// Of all but the numbers of `v` and `vn`, comments and the names of groups, objects and materials: texts that
+  /// have it in common have the same faces and texture coordinates, line by line.
+  Digest mesh;
+};
+ObjOutline outline_obj(std::string_view text);
+
+/// Which lines of a text are looked at.
+enum class ObjLines {
+  kAll,
+  kAllButMesh,  ///< not `f` and `vt`, which are those of a text that was scanned before
+};
+
 /// Checks an OBJ text line by line, because the loader accepts what it should not: words where
 /// numbers belong, numbers that overflow, indices that point nowhere or wrap, polygons of more than
 /// 255 corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
 /// vertex colours are fine.
 /// \param name  the file's name, for messages.
 /// \throws InvalidInput naming file, line, what was expected and what was found.
+/// \param outline  of the text
+/// \param lines    without those of the mesh the result has no texture coordinates and no corners.
+ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,
+                 ObjLines lines);
 ObjScan scan_obj(std::string_view text, const std::string& name);
 
 }  // namespace crowdface

@@ -1,68 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/parts/face_walk.h"
 
-#include <queue>
-#include <unordered_map>
-#include <unordered_set>
+#include <span>
+#include <utility>
 
 namespace crowdface {
-namespace {
 
-/// Where a face runs through an edge: its corner at the edge's beginning.
-struct FaceEdge {
-  std::uint32_t face;
-  std::size_t corner;
-};
+MirroredWalk::MirroredWalk(const Topology& topology, const FacesAround& around)
+    : topology_(topology),
+      around_(around),
+      partner_of_(static_cast<std::size_t>(topology.vertex_count), kNoIndex),
+      vertex_of_(partner_of_),
+      met_(static_cast<std::size_t>(topology.face_count()), false) {}
 
-std::optional<FaceEdge> face_along(const Topology& topology, const FacesAround& around,
-                                   DirectedEdge edge) {
-  for (const std::uint32_t f : around.of(edge.from)) {
-    const auto face = topology.face(f);
+std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge) const {
+  for (const std::uint32_t f : around_.of(edge.from)) {
+    const auto face = topology_.face(f);
     for (std::size_t c = 0; c < face.size(); ++c) {
-      if (face[c] == edge.from && face[(c + 1) % face.size()] == edge.to) return FaceEdge{f, c};
+      const std::size_t next = c + 1 == face.size() ? 0 : c + 1;
+      if (face[c] == edge.from && face[next] == edge.to) return FaceEdge{f, c};
     }
   }
   return std::nullopt;
 }
 
-}  // namespace
+/// \return false if only one side has a face there
+bool MirroredWalk::reach(DirectedEdge here, DirectedEdge there) {
+  const auto face = face_along(here);
+  const auto image = face_along(there);
+  if (face.has_value() != image.has_value()) return false;
+  if (!face || met_[face->face]) return true;
+  met_[face->face] = true;
+  faces_.push_back({*face, *image});
+  return true;
+}
 
-std::optional<std::vector<MirroredPair>> walk_mirrored(const Topology& topology,
-                                                       const FacesAround& around, DirectedEdge edge,
-                                                       DirectedEdge other) {
-  std::vector<MirroredPair> pairs;
-  std::unordered_map<std::uint32_t, std::uint32_t> partner_of, vertex_of;
-  std::unordered_set<std::uint32_t> met;
-  std::queue<std::pair<FaceEdge, FaceEdge>> open;
-  /// \return false if only one side has a face there
-  const auto reach = [&](DirectedEdge here, DirectedEdge there) {
-    const auto face = face_along(topology, around, here);
-    const auto image = face_along(topology, around, there);
-    if (face.has_value() != image.has_value()) return false;
-    if (face && met.insert(face->face).second) open.emplace(*face, *image);
-    return true;
-  };
-  if (!reach(edge, other) || open.empty()) return std::nullopt;
-  while (!open.empty()) {
-    const auto [at, at_image] = open.front();
-    open.pop();
-    const auto face = topology.face(at.face), image = topology.face(at_image.face);
-    const std::size_t size = face.size();
-    if (image.size() != size) return std::nullopt;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::uint32_t vertex = face[(at.corner + 1 + i) % size];
-      const std::uint32_t partner = image[(at_image.corner + size - i) % size];
-      const auto [known, is_new] = partner_of.emplace(vertex, partner);
-      if (known->second != partner) return std::nullopt;
-      if (vertex_of.emplace(partner, vertex).first->second != vertex) return std::nullopt;
-      if (is_new) pairs.push_back({vertex, partner});
-    }
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::uint32_t from = face[i], to = face[(i + 1) % size];
-      if (!reach({to, from}, {partner_of[from], partner_of[to]})) return std::nullopt;
+/// \return false if either has another partner
+bool MirroredWalk::pair(MirroredPair pair) {
+  std::uint32_t& partner = partner_of_[pair.vertex];
+  if (partner != kNoIndex) return partner == pair.partner;
+  if (vertex_of_[pair.partner] != kNoIndex) return false;
+  partner = pair.partner;
+  vertex_of_[pair.partner] = pair.vertex;
+  pairs_.push_back(pair);
+  return true;
+}
+
+bool MirroredWalk::pair_corners(const FacePair& faces,
+                                const std::function<bool(const MirroredPair&)>& goes_on) {
+  const auto face = topology_.face(faces.here.face), image = topology_.face(faces.there.face);
+  const std::size_t size = face.size(), known = pairs_.size();
+  if (image.size() != size) return false;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!pair({face[(faces.here.corner + 1 + i) % size],
+               image[(faces.there.corner + size - i) % size]})) {
+      return false;
     }
   }
-  return pairs;
+  for (std::size_t p = known; p < pairs_.size(); ++p) {
+    if (!goes_on(pairs_[p])) return false;
+  }
+  return true;
+}
+
+bool MirroredWalk::go(DirectedEdge edge, DirectedEdge other,
+                      const std::function<bool(const MirroredPair&)>& goes_on) {
+  if (!reach(edge, other) || faces_.empty()) return false;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (!pair_corners(FacePair(faces_[f]), goes_on)) return false;
+    const auto face = topology_.face(faces_[f].here.face);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const std::uint32_t from = face[i], to = face[(i + 1) % face.size()];
+      if (!reach({to, from}, {partner_of_[from], partner_of_[to]})) return false;
+    }
+  }
+  return true;
+}
+
+void MirroredWalk::forget() {
+  for (const auto [vertex, partner] : pairs_) {
+    partner_of_[vertex] = kNoIndex;
+    vertex_of_[partner] = kNoIndex;
+  }
+  for (const FacePair& faces : faces_) met_[faces.here.face] = false;
+  pairs_.clear();
+  faces_.clear();
+}
+
+std::optional<std::vector<MirroredPair>> MirroredWalk::from(
+    DirectedEdge edge, DirectedEdge other,
+    const std::function<bool(const MirroredPair&)>& goes_on) {
+  std::optional<std::vector<MirroredPair>> result;
+  if (go(edge, other, goes_on)) result = pairs_;
+  forget();
+  return result;
 }
 
 }  // namespace crowdface

@@ -31,6 +31,8 @@ constexpr double kBoxReach = 0.03;  // by how much the boxes of two components m
 /// How near to its image a partner must be that only its nearness tells, as a share of the edges there.
 constexpr double kNearness = 0.05;
 
+constexpr double kMore = 1 + 1e-9;  ///< than sums that are rounded
+
 using Vertices = std::vector<std::uint32_t>;
 
 Eigen::Vector3d at(const Positions& positions, std::uint32_t vertex) {
@@ -95,11 +97,15 @@ class PlaceFinder {
  public:
   PlaceFinder(const Topology& topology, const FacesAround& around, const Positions& mean,
               const MirrorPlane& plane, double extent)
-      : topology_(topology), around_(around), mean_(mean), plane_(plane), extent_(extent) {}
+      : topology_(topology),
+        around_(around),
+        mean_(mean),
+        plane_(plane),
+        extent_(extent),
+        walk_(topology, around) {}
 
   /// By the faces of both. \return nothing if they are not alike
-  std::optional<std::vector<MirroredPair>> by_faces(const Vertices& here,
-                                                    const Vertices& there) const {
+  std::optional<std::vector<MirroredPair>> by_faces(const Vertices& here, const Vertices& there) {
     if (here.size() != there.size() || here.size() < 3) return std::nullopt;
     const PointGrid grid(mean_, there);
     struct Seed {
@@ -122,8 +128,14 @@ class PlaceFinder {
         const auto corner = std::ranges::find(face, seed.vertex);
         const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
         const std::uint32_t partner_of_to = grid.nearest(image(to)).vertex;
-        auto pairs =
-            walk_mirrored(topology_, around_, {seed.vertex, to}, {partner_of_to, seed.partner});
+        // What is farther off than the best already need not be walked to its end.
+        const double most = kMore * best_rms * best_rms * static_cast<double>(here.size());
+        double squares = 0;
+        auto pairs = walk_.from({seed.vertex, to}, {partner_of_to, seed.partner},
+                                [&](const MirroredPair& pair) {
+                                  squares += square_off(pair);
+                                  return squares <= most;
+                                });
         if (!pairs || pairs->size() != here.size()) continue;
         const double rms = distance(*pairs);
         if (rms > best_rms) continue;
@@ -175,13 +187,15 @@ class PlaceFinder {
  private:
   Eigen::Vector3d image(std::uint32_t vertex) const { return plane_.image(at(mean_, vertex)); }
 
+  double square_off(const MirroredPair& pair) const {
+    const Eigen::Vector3d off = image(pair.vertex) - at(mean_, pair.partner);
+    return dot3(off, off);
+  }
+
   /// Between images and partners, the root mean square.
   double distance(const std::vector<MirroredPair>& pairs) const {
     double squares = 0;
-    for (const auto [vertex, partner] : pairs) {
-      const Eigen::Vector3d off = image(vertex) - at(mean_, partner);
-      squares += dot3(off, off);
-    }
+    for (const MirroredPair& pair : pairs) squares += square_off(pair);
     return std::sqrt(squares / static_cast<double>(pairs.size()));
   }
 
@@ -202,6 +216,7 @@ class PlaceFinder {
   const Positions& mean_;
   const MirrorPlane& plane_;
   double extent_;
+  MirroredWalk walk_;
 };
 
 /// Mean square of how far the mean head is from its image.
@@ -271,7 +286,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   map.plane = find_mirror_plane(topology, around, mean, skin,
                                 {side, dot3(side, 0.5 * (box.min() + box.max()))});
   {
-    const PlaceFinder finder(topology, around, mean, map.plane, extent);
+    PlaceFinder finder(topology, around, mean, map.plane, extent);
     const Vertices partners = component_partners(mean, of_component, map.plane, kBoxReach * extent);
     for (std::size_t c = 0; c < of_component.size(); ++c) {
       const Vertices& here = of_component[c];

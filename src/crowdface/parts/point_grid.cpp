@@ -78,19 +78,25 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
       }
     }
   };
+  // How far a layer of cells is, not more than it is by rounding.
+  const auto gap_to = [&](Index axis, Index cell) {
+    constexpr double kRounding = 1e-9;
+    const double low = low_(axis) + static_cast<double>(cell) * width_;
+    return std::max({low - point(axis), point(axis) - (low + width_), 0.0}) - kRounding * width_;
+  };
   for (Index shell = 0; shell <= farthest; ++shell) {
     if (static_cast<double>(shell - 1) * width_ > best.distance) break;
     const Index left = middle[0] - shell, right = middle[0] + shell;
     for (Index z = middle[2] - shell; z <= middle[2] + shell; ++z) {
-      if (z < 0 || z >= cells_[2]) continue;
+      if (z < 0 || z >= cells_[2] || gap_to(2, z) > best.distance) continue;
       for (Index y = middle[1] - shell; y <= middle[1] + shell; ++y) {
-        if (y < 0 || y >= cells_[1]) continue;
+        if (y < 0 || y >= cells_[1] || gap_to(1, y) > best.distance) continue;
         if (std::abs(z - middle[2]) == shell || std::abs(y - middle[1]) == shell) {
           look_at(std::max<Index>(left, 0), std::min(right, cells_[0] - 1), y, z);
           continue;
         }
-        if (left >= 0) look_at(left, left, y, z);
-        if (right < cells_[0]) look_at(right, right, y, z);
+        if (left >= 0 && gap_to(0, left) <= best.distance) look_at(left, left, y, z);
+        if (right < cells_[0] && gap_to(0, right) <= best.distance) look_at(right, right, y, z);
       }
     }
   }

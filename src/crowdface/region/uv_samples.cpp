@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/tile_files.h"
@@ -70,13 +74,18 @@ UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& 
           "region: texture coordinates that are not finite or not there");
   UvSamples corners = samples_by_vertex(topology, uvs, tiles);
   check_every_used_vertex(topology, corners);
-  UvSamples out;
-  for (Index i = 0; i < topology.vertex_count; ++i) {
+  constexpr Index kBlock = 16384;
+  std::vector<std::size_t> kept(static_cast<std::size_t>(topology.vertex_count));
+  parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
     const std::span<UvSample> places = corners.of(i);
     // Sorted, so that the mean's last bits do not depend on the order of the faces.
     std::sort(places.begin(), places.end());
-    out.add_group({places.begin(), std::unique(places.begin(), places.end())});
-  }
+    kept[static_cast<std::size_t>(i)] =
+        static_cast<std::size_t>(std::unique(places.begin(), places.end()) - places.begin());
+  });
+  UvSamples out;
+  out.reserve(kept.size(), std::accumulate(kept.begin(), kept.end(), std::size_t{0}));
+  for (std::size_t i = 0; i < kept.size(); ++i) out.add_group(corners.of(i).first(kept[i]));
   return out;
 }
 

@@ -5,9 +5,13 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <mutex>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "crowdface/core/block_shelf.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -97,13 +101,20 @@ std::uint64_t worn_bytes(const Config& config, const Inputs& inputs,
                           " are allowed (--memory); fewer threads (--threads) need less"));
 }
 
+/// How many faces are in memory at a time: while a group is blended, each thread may be at one of the group
+/// before, and there are never more than two groups.
+std::uint64_t faces_held(std::uint64_t at_once) {
+  return at_once + std::min(at_once, static_cast<std::uint64_t>(thread_count()));
+}
+
 /// How many faces are blended together within the memory.
 /// \param standing  what the process holds whatever their number.
 std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::uint64_t memory) {
-  const std::uint64_t least = standing + 2 * one_face;  // two groups of faces are in memory
+  const std::uint64_t least = standing + faces_held(1) * one_face;
   if (least > memory) refuse_memory(format_bytes(least), memory);
-  return static_cast<std::size_t>(
-      std::min<std::uint64_t>((memory - standing) / (2 * one_face), kMostAtOnce));
+  std::size_t at_once = kMostAtOnce;
+  while (standing + faces_held(at_once) * one_face > memory) --at_once;
+  return at_once;
 }
 
 /// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
@@ -227,10 +238,63 @@ class FaceOutput {
   std::atomic<double> blend_ = 0, encode_ = 0, render_ = 0, check_seconds_ = 0;
 };
 
-/// A group of faces in memory, and what is still being done with it.
-struct Slot {
-  std::vector<Positions> positions;
-  BackgroundTasks tasks;  // after what it uses, so that it ends first
+/// Memory of faces that are done, for faces to come: memory that is new to a process costs as much as
+/// half of blending.
+class FaceMemory {
+ public:
+  Positions take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return {};
+    Positions positions = std::move(free_.back());
+    free_.pop_back();
+    return positions;
+  }
+  void give_back(Positions positions) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(positions));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Positions> free_;
+};
+
+/// Faces that were blended together. Any thread makes the files of the next that nobody is at.
+class FaceGroup {
+ public:
+  /// \param make  what is done with each face, by its place in the group
+  void begin(std::vector<Positions> positions,
+             std::function<void(std::size_t, const Positions&)> make, FaceMemory& memory) {
+    positions_ = std::move(positions);
+    make_ = std::move(make);
+    memory_ = &memory;
+    next_ = 0;
+    for (int t = 1; t < thread_count(); ++t) {
+      tasks_.run([this] { make_files(); });
+    }
+  }
+  /// Returns when no face is left that nobody is at. \throws what making one threw; then no more are begun.
+  void make_files() {
+    try {
+      for (std::size_t f = next_++; f < positions_.size(); f = next_++) {
+        Positions positions = std::move(positions_[f]);
+        make_(f, positions);
+        memory_->give_back(std::move(positions));
+      }
+    } catch (...) {
+      next_ = positions_.size();
+      throw;
+    }
+  }
+  /// Returns when all are done. \throws what making one threw.
+  void wait() { tasks_.wait(); }
+
+ private:
+  std::vector<Positions> positions_;
+  std::function<void(std::size_t, const Positions&)> make_;
+  FaceMemory* memory_ = nullptr;
+  std::atomic<std::size_t> next_ = 0;
+  BackgroundTasks tasks_;  // after what it uses, so that it ends first
 };
 
 }  // namespace
@@ -273,10 +337,16 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     of_thread += attachments_->worn_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
-  waiting_bytes_ = std::min(of_threads, FaceWriter::kMostWaitingBytes);
+  waiting_bytes_ = std::min(of_threads, FaceWriter::kLeastWaitingBytes);
   // Files wait for the writer, and others are with it, beside those that threads are at.
   standing += of_threads + 2 * waiting_bytes_;
-  at_once_ = faces_at_once(standing, builder.bytes(1), memory);
+  const std::uint64_t one_face = builder.bytes(1);
+  at_once_ = faces_at_once(standing, one_face, memory);
+  // Where there is room, more may wait: the disk has work while faces are blended.
+  const std::uint64_t room = memory - standing - faces_held(at_once_) * one_face;
+  waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
+                              std::max(waiting_bytes_, FaceWriter::kMostWaitingBytes));
+  encoded_bytes_ = of_threads + 2 * waiting_bytes_;
 }
 
 BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders* renders,
@@ -289,32 +359,39 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
   if (renders != nullptr) renders->make_folders(directory, faces);
 
   Progress progress("faces", faces.size());
+  const KeptBlocks kept(encoded_bytes_);
   FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
   FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
                     renders, check_ ? &*check_ : nullptr, writer, attachments_, shapes_,
                     attachment_writers_);
   std::atomic<double> blend_seconds = 0;
-  std::array<Slot, 2> slots;
+  FaceMemory memory;
+  std::array<FaceGroup, 2> groups;
   std::size_t turn = 0;
   for (std::size_t first = 0; first < faces.size(); first += at_once_, turn ^= 1) {
-    Slot& slot = slots[turn];
-    slot.tasks.wait();
+    FaceGroup& group = groups[turn];
+    group.wait();
     throw_if_interrupted();
     const std::size_t count = std::min(at_once_, faces.size() - first);
     std::vector<const Recipe*> recipes;
-    for (std::size_t f = 0; f < count; ++f) recipes.push_back(&faces[first + f].recipe);
-    slot.positions.resize(count);
+    std::vector<Positions> positions;
+    for (std::size_t f = 0; f < count; ++f) {
+      recipes.push_back(&faces[first + f].recipe);
+      positions.push_back(memory.take());
+    }
     {
       const Busy busy(blend_seconds);
-      builder_.build(recipes, slot.positions);
+      builder_.build(recipes, positions);
     }
-    for (std::size_t f = 0; f < count; ++f) {
-      slot.tasks.run([&, f, first, positions = &slot.positions[f]] {
-        built.files[first + f] = output.make(faces[first + f], *positions);
-      });
-    }
+    group.begin(
+        std::move(positions),
+        [&, first](std::size_t f, const Positions& face) {
+          built.files[first + f] = output.make(faces[first + f], face);
+        },
+        memory);
+    group.make_files();
   }
-  for (Slot& slot : slots) slot.tasks.wait();
+  for (FaceGroup& group : groups) group.wait();
   writer.finish();
   output.add_to(built.busy);
   built.busy.blend += blend_seconds;

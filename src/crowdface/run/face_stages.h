@@ -46,8 +46,8 @@ class FaceStages {
              const FaceAttachments* attachments, const FaceShapes& shapes,
              const std::vector<CastFace>& crowd, std::uint64_t memory);
 
-  /// Each face is recorded when all its files are there. While one group of faces is written and
-  /// rendered the next is blended: two groups at most are in memory.
+  /// Each face is recorded when all its files are there. All threads blend a group of faces, then each makes
+  /// the files of one after the other. The next group begins when there is no face left that nobody is at.
   /// \param renders  may be null: no pictures.
   BuiltFaces build(const CrowdDirectory& directory, const CrowdRenders* renders,
                    const FaceLedger& ledger, const std::vector<CastFace>& faces) const;
@@ -65,6 +65,7 @@ class FaceStages {
   std::optional<SkinCheck> check_;  ///< none: no mesh is judged
   std::size_t at_once_;
   std::uint64_t waiting_bytes_;  ///< of files that are ready, at most
+  std::uint64_t encoded_bytes_;  ///< of all files that are not written, at most
 };
 
 }  // namespace crowdface

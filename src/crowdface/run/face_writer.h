@@ -41,8 +41,10 @@ class FaceWriter {
 
   /// How long the thread was at work.
   double busy_seconds() const { return busy_seconds_; }
-  /// More of it saves no waiting for the disk.
-  static constexpr std::uint64_t kMostWaitingBytes = std::uint64_t{64} << 20U;
+  /// What should be allowed to wait, so that threads do not wait for the disk.
+  static constexpr std::uint64_t kLeastWaitingBytes = std::uint64_t{64} << 20U;
+  /// So much keeps the disk busy while a group of faces is blended.
+  static constexpr std::uint64_t kMostWaitingBytes = std::uint64_t{256} << 20U;
 
  private:
   struct Waiting {
