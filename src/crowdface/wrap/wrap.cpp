@@ -185,7 +185,10 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   }
   wrapped = bend_skin(bent, wrapped, surface, marks,
                       used == nullptr ? options.bend : options.bend_with_model);
-  if (small) wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
+  if (small) {
+    unfold(bent, small->rest, wrapped);
+    wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
+  }
   DetailOptions detail = options.detail;
   if (small) detail.smoothings = shape.reduced->smoothings;
   wrapped = follow_detail(skin, wrapped, surface, detail);
