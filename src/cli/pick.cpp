@@ -26,6 +26,17 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
   return file;
 }
 
+/// One scan with the file of --landmarks, or those of a folder, each with the file of its name beside it.
+std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
+  if (options.batch.empty()) return {{options.scan, landmarks_file(options)}};
+  std::vector<PickScans::Entry> entries;
+  for (const std::filesystem::path& scan : scans_in(options.batch)) {
+    std::filesystem::path landmarks = scan;
+    entries.push_back({scan, landmarks.replace_extension(".yaml")});
+  }
+  return entries;
+}
+
 }  // namespace
 
 void pick(const WrapOptions& options) {
@@ -35,13 +46,22 @@ void pick(const WrapOptions& options) {
   picked.pages = gallery_page_folder();
   WrapOptions without_landmarks = options;
   without_landmarks.landmarks.clear();  // read with the scan
-  const std::filesystem::path file = landmarks_file(options);
+  const std::vector<PickScans::Entry> entries = entries_of(options);
   const WrapInputs inputs = read_wrap_inputs(without_landmarks);
-  pick_landmarks({inputs.shape, inputs.file.positions * inputs.mm, inputs.file.positions,
-                  read_scan(options.scan), inputs.hint, options.shape, options.scan, file},
-                 picked, [&](const std::string& address) {
-                   show_page(address, options.no_browser ? Browser::kNone : Browser::kOpen);
-                 });
+  PickScans scans(entries, [&](const PickScans::Entry& entry) {
+    return PickInputs{inputs.shape,
+                      inputs.file.positions * inputs.mm,
+                      inputs.file.positions,
+                      read_scan(entry.scan),
+                      inputs.hint,
+                      options.shape,
+                      entry.scan,
+                      entry.landmarks,
+                      options.batch.empty() ? std::string() : options.landmarks};
+  });
+  pick_landmarks(scans, picked, [&](const std::string& address) {
+    show_page(address, options.no_browser ? Browser::kNone : Browser::kOpen);
+  });
 }
 
 }  // namespace crowdface::cli

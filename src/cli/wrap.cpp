@@ -46,19 +46,9 @@ std::vector<Task> tasks_of(const WrapOptions& options) {
     return {make_task(options.scan, head, head.parent_path())};
   }
   std::vector<Task> tasks;
-  std::map<std::string, fs::path> names;
-  for (const fs::path& scan : files_of(options.batch, {".obj", ".ply", ".stl", ".glb"})) {
-    const std::string name = scan.stem().string();
-    if (const auto [before, added] = names.emplace(name, scan); !added) {
-      throw UsageError(concat(before->second.string(), " and ", scan.string(),
-                              " would give one head; expected different names"));
-    }
-    tasks.push_back(make_task(scan, fs::path(options.out) / concat(name, ".obj"),
+  for (const fs::path& scan : scans_in(options.batch)) {
+    tasks.push_back(make_task(scan, fs::path(options.out) / concat(scan.stem().string(), ".obj"),
                               fs::path(options.out) / "reports"));
-  }
-  if (tasks.empty()) {
-    throw InvalidInput(
-        concat(options.batch, ": expected scans (.obj, .ply, .stl, .glb), found none"));
   }
   return tasks;
 }
@@ -194,8 +184,8 @@ void wrap_all(const WrapOptions& options) {
 
 /// With the template where --batch has it, too.
 WrapOptions sorted(WrapOptions options) {
-  if (options.pick && (!options.batch.empty() || !options.out.empty())) {
-    throw UsageError("--pick takes TEMPLATE.obj, one SCAN and --landmarks FILE.yaml");
+  if (options.pick && !options.out.empty()) {
+    throw UsageError("--pick wraps nothing: expected no -o, --output");
   }
   if (!options.pick && options.out.empty()) throw UsageError("-o, --output is required");
   if (options.batch.empty()) {

@@ -2,6 +2,7 @@
 #include "cli/wrap_inputs.h"
 
 #include <algorithm>
+#include <map>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever a change of the code gives other heads: finished ones are then made anew.
-constexpr int kWrapVersion = 2;
+constexpr int kWrapVersion = 3;
 
 Axis axis_of(const std::string& option, const std::string& text) {
   const auto axis = parse_axis(text);
@@ -66,13 +67,6 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
   positions = inputs.model->mean;
 }
 
-/// The model at the rows of the template that are skin.
-ShapeModel skin_model(const ShapeModel& model, const WrapTemplate& shape) {
-  ShapeModel of_skin{shape.skin.of(model.mean), {}};
-  for (const Positions& mode : model.modes) of_skin.modes.push_back(shape.skin.of(mode));
-  return of_skin;
-}
-
 /// What is white in the mask is left alone.
 void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& shape, Hasher& digest) {
   const std::vector<double> ignored = mask_values(file.topology, file.uvs, MaskSource(mask));
@@ -115,6 +109,22 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
       &error);
   if (error) throw MissingInput(concat(folder.string(), ": cannot be read: ", error.message()));
   return files;
+}
+
+std::vector<fs::path> scans_in(const fs::path& folder) {
+  const std::vector<fs::path> scans = files_of(folder, {".obj", ".ply", ".stl", ".glb"});
+  if (scans.empty()) {
+    throw InvalidInput(
+        concat(folder.string(), ": expected scans (.obj, .ply, .stl, .glb), found none"));
+  }
+  std::map<std::string, fs::path> names;
+  for (const fs::path& scan : scans) {
+    if (const auto [before, added] = names.emplace(scan.stem().string(), scan); !added) {
+      throw UsageError(concat(before->second.string(), " and ", scan.string(),
+                              " would give one head; expected different names"));
+    }
+  }
+  return scans;
 }
 
 WrapInputs read_wrap_inputs(const WrapOptions& options) {

@@ -48,4 +48,8 @@ LengthUnit unit_of(const std::string& option, const std::string& text);
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
                                             const std::vector<std::string>& endings);
 
+/// The scans in a folder, by name. \throws MissingInput; UsageError if two have the name of one head;
+/// InvalidInput if there are none.
+std::vector<std::filesystem::path> scans_in(const std::filesystem::path& folder);
+
 }  // namespace crowdface::cli

@@ -55,8 +55,9 @@ class PickApiTest : public ::testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "landmarks.yaml";
   WrapTemplate shape_ = some_template();
-  PickSession session_{inputs()};
-  PickApi api_{session_, std::nullopt, 2000};
+  PickScans scans_{{{"s.obj", file_}}, [this](const PickScans::Entry&) { return inputs(); }};
+  PickSession& session_ = scans_.current()->session;
+  PickApi api_{scans_, std::nullopt, 2000};
 };
 
 TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
@@ -86,15 +87,43 @@ TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
   }
 
   // A page that is opened later gets them, and gives the same file.
-  PickSession later(inputs());
+  PickScans later({{"s.obj", file_}}, [this](const PickScans::Entry&) { return inputs(); });
   const Json job = Json::parse(PickApi(later, {}, 100).answer({"GET", "api/job", ""}).bytes);
   EXPECT_EQ(job["landmarks"].size(), 3U);
   EXPECT_EQ(job["landmarks"][0]["name"], "nose_tip");
   EXPECT_EQ(job["landmarks"][0]["scan"]["point"], on_scan["point"]);
   const std::string before = read_file(file_);
-  later.save(later.landmarks());
+  later.current()->session.save(later.current()->session.landmarks());
   EXPECT_EQ(read_landmarks(file_).of_template.size(), 3U);
   EXPECT_EQ(read_file(file_).size(), before.size());
+}
+
+TEST_F(PickApiTest, TheNextScanOfAFolderTakesOverWhatWasPickedOnTheTemplate) {
+  const std::filesystem::path first = folder_ / "a.yaml", second = folder_ / "b.yaml";
+  PickScans scans({{"a.obj", first}, {"b.obj", second}}, [&](const PickScans::Entry& entry) {
+    PickInputs of_one = inputs();
+    of_one.scan_file = entry.scan;
+    of_one.landmarks = entry.landmarks;
+    return of_one;
+  });
+  PickApi api(scans, std::nullopt, 100);
+  const Json landmarks = {{{"name", "chin"}, {"template", 5}, {"scan", 12}}};
+  EXPECT_EQ(api.answer({"PUT", "api/landmarks", Json{{"landmarks", landmarks}}.dump()}).status,
+            200);
+  EXPECT_EQ(api.answer({"POST", "api/open", R"({"scan": 2})"}).status, 400);
+  ASSERT_EQ(api.answer({"POST", "api/open", R"({"scan": 1})"}).status, 200);
+  const Json job = Json::parse(api.answer({"GET", "api/job", ""}).bytes);
+  EXPECT_EQ(job["number"], 1);
+  EXPECT_EQ(job["scan"]["name"], "b.obj");
+  EXPECT_EQ(job["scans"][0]["picked"], true);
+  EXPECT_EQ(job["scans"][1]["picked"], false);
+  ASSERT_EQ(job["landmarks"].size(), 1U);
+  EXPECT_EQ(job["landmarks"][0]["template"]["vertex"], 5);
+  EXPECT_TRUE(job["landmarks"][0]["scan"].is_null());
+  EXPECT_FALSE(std::filesystem::exists(second));
+  // Opened again, it begins with the first that is not done.
+  EXPECT_EQ(PickScans(scans.entries(), [&](const PickScans::Entry&) { return inputs(); }).number(),
+            1U);
 }
 
 TEST_F(PickApiTest, FewerTrianglesAreShownThanArePicked) {

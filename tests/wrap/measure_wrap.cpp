@@ -199,8 +199,7 @@ int main(int argc, char** argv) {
     const ShapeModel whole = make_model(others);
     const WrapTemplate mean = make_template(topology, whole.mean, {});
     run("mean", mean, nullptr);
-    ShapeModel of_skin{mean.skin.of(whole.mean), {}};
-    for (const Positions& mode : whole.modes) of_skin.modes.push_back(mean.skin.of(mode));
+    const ShapeModel of_skin = skin_model(whole, mean);
     run("model", mean, &of_skin);
   }
   for (const auto& [name, m] : all) print_row(concat(name, ", all"), m);

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/random.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/wrap/shape_regression.h"
 
 namespace crowdface::testing {
 namespace {
@@ -32,21 +34,49 @@ double covariance(const ShapeModel& model, Index a, Index b) {
   return sum;
 }
 
-TEST(LocalisedModel, KeepsVariancesAndWhatNeighboursShare) {
-  const ShapeModel model = some_model(), local = localised(model, {10, 50});
-  EXPECT_EQ(local.mean, model.mean);
-  EXPECT_EQ(local.modes.size(), 3 * model.modes.size());
-  for (Index v = 0; v < 60; ++v) {
-    EXPECT_NEAR(covariance(local, v, v), covariance(model, v, v), 1e-9);
+TEST(ShapeModel, MirrorImagesOfItsHeadsAreHeadsToo) {
+  const ShapeModel model = some_model();
+  MirrorMap map;  // two points each are partners
+  for (std::uint32_t v = 0; v < 60; ++v) {
+    map.corners.push_back({v ^ 1U, v, v});
+    map.shares.push_back({1, 0, 0});
   }
-  EXPECT_NEAR(covariance(local, 10, 11), covariance(model, 10, 11),
-              0.02 * std::abs(covariance(model, 10, 11)));
+  const ShapeModel both = with_mirror_images(model, map);
+  EXPECT_EQ(both.mean, model.mean);
+  for (Index v = 0; v < 60; ++v) {
+    const Index other = v ^ 1;
+    EXPECT_NEAR(covariance(both, v, v),
+                (covariance(model, v, v) + covariance(model, other, other)) / 2, 1e-9);
+    EXPECT_NEAR(covariance(both, v, v), covariance(both, other, other), 1e-9);
+  }
 }
 
-TEST(LocalisedModel, FarPlacesShareOnlyWhatIsNotLocal) {
-  const ShapeModel model = some_model();
-  const ShapeModel local = localised(model, {0, 59}, {.reach_mm = 20, .share = 0.7});
-  EXPECT_NEAR(covariance(local, 0, 59), 0.3 * covariance(model, 0, 59), 1e-3);
+/// A flat sheet of 13 by 13 points, 8 mm apart; heads are shifted to the side as far as they are raised.
+TEST(ShapeRegression, WhereAPlaceLiesAlongTheSurfaceFollowsFromHowHeadsDiffer) {
+  constexpr int kSide = 13;
+  SkinMesh skin;
+  ShapeModel model{Positions(kSide * kSide, 3), {Positions::Zero(kSide * kSide, 3)}};
+  for (std::uint32_t v = 0; v < kSide * kSide; ++v) {
+    const std::uint32_t column = v % kSide, row = v / kSide;
+    skin.vertices.push_back(v);
+    skin.openness.push_back(1);
+    // A dome, so that moving along it is not the same as staying.
+    const double x = 8.0 * column - 48, y = 8.0 * row - 48;
+    model.mean.row(v) << x, y, -(x * x + y * y) / 200;
+    model.modes[0].row(v) << 4 * std::exp(-y * y / 800), 0, 4 * std::exp(-y * y / 800);
+    if (column + 1 == kSide || row + 1 == kSide) continue;
+    skin.triangles.push_back({v, v + 1, v + kSide + 1});
+    skin.triangles.push_back({v, v + kSide + 1, v + kSide});
+  }
+  skin.adjacency = build_adjacency(topology_of(skin.triangles, kSide * kSide));
+  const Positions head = model.mean + model.modes[0];
+  const ScanSurface scan(Scan{head, skin.triangles});
+  const auto off = [&](const ShapeModel& used) {
+    const Positions found = regress_shape(skin, used, model.mean, scan, {}, {.smooth_mm = 0.1});
+    return (found - head).rowwise().norm().mean();
+  };
+  EXPECT_LT(off(model), 0.5);
+  EXPECT_GT(off({model.mean, {}}), 1.5);
 }
 
 }  // namespace

@@ -101,8 +101,7 @@ TEST(Wrap, AModelFindsAHeadBetterThanItsMean) {
   for (std::uint64_t i = 1; i <= 12; ++i) others.emplace_back(kMmPerCm * heads.positions(1, i));
   const ShapeModel whole = make_model(others);
   const WrapTemplate shape = make_template(heads.topology(), whole.mean, {});
-  ShapeModel model{shape.skin.of(whole.mean), {}};
-  for (const Positions& mode : whole.modes) model.modes.push_back(shape.skin.of(mode));
+  const ShapeModel model = skin_model(whole, shape);
   const WrapTemplate head = make_template(heads.topology(), kMmPerCm * heads.positions(1, 20), {});
   const TruthScan truth =
       make_truth_scan(head, spread_landmarks(head, 16), {.triangles = 40000, .seed = 4});

@@ -65,10 +65,15 @@ class Picker extends ProgramPage {
             button('Roll', 'Turn the scan a quarter', () => view.roll()),
             button('Front is here', 'The scan’s face looks at you now', () => view.takeAsFront())) : null));
     }
+    const { scans, number } = this.job;
+    const walk = (way, text, title) => button(text, title, () => this.open(number + way), { disabled: !scans[number + way] });
+    this.folder = scans.length < 2 ? null : el('span', { class: 'group', role: 'group', 'aria-label': 'Scans' },
+      walk(-1, '‹', 'Save, and the scan before'), el('span', { class: 'muted' }, `Scan ${number + 1} of ${scans.length}`),
+      walk(1, 'Next scan', 'Save, and the next scan (])'));
     this.node = el('div', { class: 'picker' },
       el('header', { class: 'toolbar', role: 'toolbar', 'aria-label': 'Commands' },
         el('h1', { title: this.job.file }, this.job.file.split('/').pop()),
-        el('span', { class: 'group' }, this.undoButton, this.redoButton),
+        this.folder, el('span', { class: 'group' }, this.undoButton, this.redoButton),
         el('span', { class: 'group', role: 'group', 'aria-label': 'Standard views' },
           standardViews.map(([name, text]) => button(text, `Both from ${text.toLowerCase()}`, () => this.view(name)))),
         this.linkButton, el('span', { class: 'grow' }), this.count, this.saveButton,
@@ -278,6 +283,14 @@ class Picker extends ProgramPage {
     this.say(`Saved: ${file}, ${pairs} pairs${pairs < fewest ? `; wrapping takes at least ${fewest}` : ''}`);
   }
 
+  /// Another scan of the folder, this one saved.
+  async open(scan) {
+    if (!this.job.scans[scan]) return;
+    if (this.isChanged()) await this.save();
+    await post('open', { scan });
+    location.reload();
+  }
+
   // -- what is shown --
 
   align() {
@@ -354,7 +367,7 @@ class Picker extends ProgramPage {
     showKeys([['↑ ↓', 'the name before, the next; on a view: turn it'], ['Enter', 'take what is suggested for the name'],
       ['Delete', 'take the name’s places off both'], ['Space', 'on a view: pick what is in its middle'], ['N', 'another name'],
       ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['Ctrl+S', 'save'], ['F, Q, P', 'front, three-quarter, profile'],
-      [', . + −', 'turn, come near, go far'], ['L', 'link the views'], ['Tab', 'from control to control'], ['Esc', 'leave a field']]);
+      [', . + −', 'turn, come near, go far'], ['L', 'link the views'], ['[ ]', 'of a folder: the scan before, the next'], ['Tab', 'from control to control'], ['Esc', 'leave a field']]);
   }
 
   key(event) {
@@ -392,7 +405,7 @@ class Picker extends ProgramPage {
       delete: () => this.remove(), backspace: () => this.remove(), n: () => this.list.field.focus(),
       f: () => this.view('front'), q: () => this.view('three_quarter'), p: () => this.view('profile'),
       ',': () => view.turn(-10), '.': () => view.turn(10), '+': () => view.nearer(0.85), '=': () => view.nearer(0.85),
-      '-': () => view.nearer(1 / 0.85), l: () => this.link(!this.linked), '?': () => this.help(),
+      '-': () => view.nearer(1 / 0.85), '[': () => this.open(this.job.number - 1), ']': () => this.open(this.job.number + 1), l: () => this.link(!this.linked), '?': () => this.help(),
       ...(side ? { ' ': () => this.pick(side, view.middleRay()) } : {}),
     }[letter];
   }

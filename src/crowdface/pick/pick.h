@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "crowdface/pick/pick_session.h"
+#include "crowdface/pick/pick_scans.h"
 
 namespace crowdface {
 
@@ -20,7 +20,7 @@ struct PickOptions {
 /// Serves the page on which landmarks are picked until a signal asks to end.
 /// \param started  is given the address once the page can be opened
 /// \throws Error
-void pick_landmarks(PickInputs inputs, const PickOptions& options,
+void pick_landmarks(PickScans& scans, const PickOptions& options,
                     const std::function<void(const std::string&)>& started);
 
 }  // namespace crowdface

@@ -53,7 +53,7 @@ Eigen::Vector3d vector_of(const Json& json, const std::string& key) {
   return v;
 }
 
-std::uint32_t vertex_of(const Json& json, Index count, const std::string& key) {
+std::uint32_t number_of(const Json& json, Index count, const std::string& key) {
   if (!json.is_number_unsigned() ||
       json.get<std::uint64_t>() >= static_cast<std::uint64_t>(count)) {
     throw UsageError(concat(key, ": expected a vertex from 0 to ", count - 1));
@@ -85,68 +85,19 @@ Json landmark_json(const PickedLandmark& landmark, const PickSession& session) {
   return json;
 }
 
-}  // namespace
-
-PickApi::PickApi(PickSession& session, std::optional<std::filesystem::path> pages,
-                 std::size_t most_triangles)
-    : session_(session), page_(std::move(pages), "pick"), most_triangles_(most_triangles) {}
-
-HttpAnswer PickApi::answer(const HttpRequest& request) {
-  return answer_or_refuse(request, [this](const HttpRequest& asked) {
-    const auto is = [&](const char* method, const char* path) {
-      return asked.method == method && asked.path == path;
-    };
-    if (is("GET", "api/job")) return job();
-    if (is("GET", "api/mesh/template")) return mesh(session_.of_template(), template_);
-    if (is("GET", "api/mesh/scan")) return mesh(session_.of_scan(), scan_);
-    if (is("POST", "api/pick")) return pick(body_of(asked));
-    if (is("POST", "api/suggest")) return suggest(body_of(asked));
-    if (is("PUT", "api/landmarks")) return save(body_of(asked));
-    return page_answer(page_, asked);
-  });
-}
-
-HttpAnswer PickApi::mesh(const PickableMesh& whole, Shown& shown) const {
-  std::call_once(shown.once, [&] { shown.bytes = whole.preview(most_triangles_); });
-  return binary_answer(shown.bytes);
-}
-
-HttpAnswer PickApi::job() const {
-  const PickInputs& inputs = session_.inputs();
-  const HeadAxes& axes = inputs.shape.axes;
-  Json names = Json::array(), landmarks = Json::array();
-  for (const LandmarkName& known : suggested_landmarks()) {
-    names.push_back({{"name", known.name}, {"where", known.where}});
-  }
-  for (const PickedLandmark& landmark : session_.landmarks()) {
-    landmarks.push_back(landmark_json(landmark, session_));
-  }
-  const auto file_name = [](const std::filesystem::path& path) { return path.filename().string(); };
-  return json_answer(
-      {{"template",
-        {{"name", file_name(inputs.template_file)}, {"stands", stands_json(axes.up, axes.front)}}},
-       {"scan",
-        {{"name", file_name(inputs.scan_file)},
-         {"stands", stands_json(session_.scan_stands().up, session_.scan_stands().front)}}},
-       {"file", inputs.landmarks.string()},
-       {"loses_comments", session_.loses_comments()},
-       {"names", names},
-       {"landmarks", landmarks}});
-}
-
-HttpAnswer PickApi::pick(const Json& body) const {
+HttpAnswer pick(const PickSession& session, const Json& body) {
   const std::string mesh = text_in(body, "mesh");
   const bool on_template = mesh == "template";
   if (!on_template && mesh != "scan") throw UsageError("mesh: expected template or scan");
   const Eigen::Vector3d origin = vector_of(body.value("origin", Json()), "origin");
   const Eigen::Vector3d direction = vector_of(body.value("direction", Json()), "direction");
   if (direction.isZero()) throw UsageError("direction: expected one");
-  const auto place = on_template ? session_.pick_on_template(origin, direction)
-                                 : session_.pick_on_scan(origin, direction);
+  const auto place = on_template ? session.pick_on_template(origin, direction)
+                                 : session.pick_on_scan(origin, direction);
   return json_answer({{"place", place ? place_json(*place, on_template) : Json()}});
 }
 
-std::vector<PickedLandmark> PickApi::landmarks_in(const Json& body) const {
+std::vector<PickedLandmark> landmarks_in(const PickSession& session, const Json& body) {
   const Json list = body.value("landmarks", Json());
   if (!list.is_array() || list.size() > kMostLandmarks) {
     throw UsageError(concat("landmarks: expected a list of at most ", kMostLandmarks));
@@ -163,11 +114,11 @@ std::vector<PickedLandmark> PickApi::landmarks_in(const Json& body) const {
     }
     const Json vertex = item.value("template", Json()), place = item.value("scan", Json());
     if (!vertex.is_null()) {
-      landmark.vertex = vertex_of(vertex, session_.of_template().positions().rows(), landmark.name);
+      landmark.vertex = number_of(vertex, session.of_template().positions().rows(), landmark.name);
     }
-    const Positions& scan = session_.of_scan().positions();
+    const Positions& scan = session.of_scan().positions();
     if (place.is_number()) {
-      landmark.scan_vertex = vertex_of(place, scan.rows(), landmark.name);
+      landmark.scan_vertex = number_of(place, scan.rows(), landmark.name);
       landmark.point = scan.row(*landmark.scan_vertex).transpose();
     } else if (!place.is_null()) {
       landmark.point = vector_of(place, landmark.name);
@@ -177,8 +128,8 @@ std::vector<PickedLandmark> PickApi::landmarks_in(const Json& body) const {
   return landmarks;
 }
 
-HttpAnswer PickApi::suggest(const Json& body) const {
-  const SuggestedPlaces places = session_.suggest(landmarks_in(body));
+HttpAnswer suggest(const PickSession& session, const Json& body) {
+  const SuggestedPlaces places = session.suggest(landmarks_in(session, body));
   Json of_template = Json::object(), of_scan = Json::object(), residuals = Json::object();
   for (const auto& [name, place] : places.of_template) of_template[name] = place_json(place, true);
   for (const auto& [name, place] : places.of_scan) of_scan[name] = place_json(place, false);
@@ -193,14 +144,78 @@ HttpAnswer PickApi::suggest(const Json& body) const {
       {{"template", of_template}, {"scan", of_scan}, {"residuals", residuals}, {"pose", pose}});
 }
 
-HttpAnswer PickApi::save(const Json& body) {
-  const std::vector<PickedLandmark> landmarks = landmarks_in(body);
-  session_.save(landmarks);
+HttpAnswer save(PickSession& session, const Json& body) {
+  const std::vector<PickedLandmark> landmarks = landmarks_in(session, body);
+  session.save(landmarks);
   std::size_t pairs = 0;
   for (const PickedLandmark& landmark : landmarks) {
     if (landmark.vertex && landmark.point) ++pairs;
   }
-  return json_answer({{"file", session_.inputs().landmarks.string()}, {"pairs", pairs}});
+  return json_answer({{"file", session.inputs().landmarks.string()}, {"pairs", pairs}});
+}
+
+}  // namespace
+
+PickApi::PickApi(PickScans& scans, std::optional<std::filesystem::path> pages,
+                 std::size_t most_triangles)
+    : scans_(scans), page_(std::move(pages), "pick"), most_triangles_(most_triangles) {}
+
+HttpAnswer PickApi::answer(const HttpRequest& request) {
+  return answer_or_refuse(request, [this](const HttpRequest& asked) {
+    const auto is = [&](const char* method, const char* path) {
+      return asked.method == method && asked.path == path;
+    };
+    const std::shared_ptr<OpenScan> now = scans_.current();
+    if (is("GET", "api/job")) return job(now->session);
+    if (is("GET", "api/mesh/template")) return mesh(now->session.of_template(), now->of_template);
+    if (is("GET", "api/mesh/scan")) return mesh(now->session.of_scan(), now->of_scan);
+    if (is("POST", "api/pick")) return pick(now->session, body_of(asked));
+    if (is("POST", "api/suggest")) return suggest(now->session, body_of(asked));
+    if (is("PUT", "api/landmarks")) return save(now->session, body_of(asked));
+    if (is("POST", "api/open")) return open(body_of(asked));
+    return page_answer(page_, asked);
+  });
+}
+
+HttpAnswer PickApi::mesh(const PickableMesh& whole, ShownMesh& shown) const {
+  std::call_once(shown.once, [&] { shown.bytes = whole.preview(most_triangles_); });
+  return binary_answer(shown.bytes);
+}
+
+HttpAnswer PickApi::open(const Json& body) {
+  scans_.open(
+      number_of(body.value("scan", Json()), static_cast<Index>(scans_.entries().size()), "scan"));
+  return json_answer({{"scan", scans_.number()}});
+}
+
+HttpAnswer PickApi::job(const PickSession& session) const {
+  const PickInputs& inputs = session.inputs();
+  const HeadAxes& axes = inputs.shape.axes;
+  Json names = Json::array(), landmarks = Json::array();
+  for (const LandmarkName& known : suggested_landmarks()) {
+    names.push_back({{"name", known.name}, {"where", known.where}});
+  }
+  for (const PickedLandmark& landmark : session.landmarks()) {
+    landmarks.push_back(landmark_json(landmark, session));
+  }
+  Json scans = Json::array();
+  for (std::size_t i = 0; i < scans_.entries().size(); ++i) {
+    scans.push_back(
+        {{"name", scans_.entries()[i].scan.filename().string()}, {"picked", scans_.is_picked(i)}});
+  }
+  const auto file_name = [](const std::filesystem::path& path) { return path.filename().string(); };
+  return json_answer(
+      {{"template",
+        {{"name", file_name(inputs.template_file)}, {"stands", stands_json(axes.up, axes.front)}}},
+       {"scan",
+        {{"name", file_name(inputs.scan_file)},
+         {"stands", stands_json(session.scan_stands().up, session.scan_stands().front)}}},
+       {"scans", scans},
+       {"number", scans_.number()},
+       {"file", inputs.landmarks.string()},
+       {"loses_comments", session.loses_comments()},
+       {"names", names},
+       {"landmarks", landmarks}});
 }
 
 }  // namespace crowdface

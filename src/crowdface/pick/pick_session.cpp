@@ -90,9 +90,17 @@ PickSession::PickSession(PickInputs inputs)
       proposals_(propose_landmarks(inputs_.shape, template_)),
       stands_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
       known_(text_on_disk()) {
+  LandmarkFile file;
   std::error_code ignored;
-  if (!std::filesystem::exists(inputs_.landmarks, ignored)) return;
-  landmarks_ = landmarks_of(read_landmarks(inputs_.landmarks), inputs_);
+  if (!inputs_.of_template.empty()) {
+    file.of_template = read_landmarks(inputs_.of_template).of_template;
+  }
+  if (std::filesystem::exists(inputs_.landmarks, ignored)) {
+    const LandmarkFile own = read_landmarks(inputs_.landmarks);
+    for (const auto& [name, place] : own.of_template) file.of_template[name] = place;
+    file.of_scan = own.of_scan;
+  }
+  landmarks_ = landmarks_of(file, inputs_);
 }
 
 std::vector<PickedLandmark> PickSession::landmarks() const {

@@ -24,6 +24,8 @@ struct PickInputs {
   Scan scan;
   std::optional<PoseHint> hint;  ///< how the scan stands; found if nothing is said
   std::filesystem::path template_file, scan_file, landmarks;
+  /// A file whose landmarks of the template hold where `landmarks` has none; may be empty.
+  std::filesystem::path of_template = {};
 };
 
 /// A template and a scan, ready to be pointed at; the landmarks' file.

@@ -15,6 +15,9 @@ constexpr double kLeastCosine = 0.7;  // of the scan's normal with the skin's, s
 constexpr double kLeastOpenness = 0.15;
 constexpr double kUnasked = 1e-4;  ///< weight of staying where the scan says nothing
 constexpr int kSteps = 30;
+constexpr int kMostEvenings = 60, kEvenOnly = 3, kSweeps = 8;
+constexpr double kKept = 0.98;       ///< of an offset in each sweep
+constexpr double kLeastLeft = 0.05;  ///< of a triangle's area, seen as it faced before
 
 constexpr std::ptrdiff_t kBlock = 8192;
 
@@ -99,6 +102,52 @@ Asked ask_scan(const SkinMesh& skin, const Positions& positions, const Positions
   return asked;
 }
 
+bool turns_over(const Positions& before, const Positions& normals, const Eigen::VectorXd& along,
+                const Triangle& t) {
+  const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
+    return row3(before, v) + along(v) * row3(normals, v);
+  };
+  const Eigen::Vector3d was = area_vector(before, t), first = moved(t[0]);
+  const Eigen::Vector3d is = cross3(moved(t[1]) - first, moved(t[2]) - first);
+  return dot3(was, is) <= kLeastLeft * dot3(was, was);
+}
+
+/// Neighbours that found different sheets of the scan would turn the triangles between them over: there,
+/// and as far around as it takes, offsets go between those beside.
+void even_out_folds(const SkinMesh& skin, const Positions& before, const Positions& normals,
+                    Eigen::VectorXd& along) {
+  std::vector<char> uneven(skin.vertices.size(), 0);
+  for (int round = 0; round < kMostEvenings; ++round) {
+    std::vector<char> folds(skin.triangles.size(), 0);
+    parallel_for_each(skin.triangles.size(), kBlock, [&](std::size_t i) {
+      const Triangle& t = skin.triangles[i];
+      if (round > 0 && uneven[t[0]] + uneven[t[1]] + uneven[t[2]] == 0) return;
+      folds[i] = turns_over(before, normals, along, t) ? 1 : 0;
+    });
+    bool any = false;
+    for (std::size_t i = 0; i < folds.size(); ++i) {
+      if (folds[i] == 0) continue;
+      any = true;
+      for (const std::uint32_t v : skin.triangles[i]) {
+        uneven[v] = 1;
+        for (const std::uint32_t n : skin.adjacency.of(v)) uneven[n] = 1;
+      }
+    }
+    if (!any) return;
+    // In a crease even like offsets cross: less and less is asked there.
+    const double kept = round < kEvenOnly ? 1 : kKept;
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      for (std::uint32_t v = 0; v < uneven.size(); ++v) {
+        if (uneven[v] == 0) continue;
+        const auto around = skin.adjacency.of(v);
+        double sum = 0;
+        for (const std::uint32_t n : around) sum += along(n);
+        along(v) = kept * sum / static_cast<double>(around.size());
+      }
+    }
+  }
+}
+
 void move_along(const Positions& normals, const Eigen::VectorXd& along, Positions& positions) {
   for (Index v = 0; v < positions.rows(); ++v) positions.row(v) += along(v) * normals.row(v);
 }
@@ -118,14 +167,18 @@ Positions follow_detail(const SkinMesh& skin, const Positions& positions, const 
     Columns sums(result.rows(), 2);
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;
     sums = iterate(lazy, sums, times);
-    move_along(normals, sums.col(0).cwiseQuotient(sums.col(1)), result);
+    Eigen::VectorXd along = sums.col(0).cwiseQuotient(sums.col(1));
+    even_out_folds(skin, result, normals, along);
+    move_along(normals, along, result);
   }
   // On a regular mesh of edges h the mean of the neighbours is h²/4 times the Laplacian away.
   const SmoothFit fit(skin.adjacency, 16 * std::pow(options.stiffness_edges, 4));
   for (int round = 0; round < options.rounds; ++round) {
     if (options.smoothings == 0) normals = vertex_normals(skin.triangles, result);
     const Asked asked = ask_scan(skin, result, normals, scan, options.reach_mm);
-    move_along(normals, fit.solve(asked.weights, asked.values), result);
+    Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
+    even_out_folds(skin, result, normals, along);
+    move_along(normals, along, result);
   }
   return result;
 }

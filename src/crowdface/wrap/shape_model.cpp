@@ -51,32 +51,14 @@ ShapeModel make_model(const std::vector<Positions>& heads) {
   return model;
 }
 
-ShapeModel localised(const ShapeModel& model, const std::vector<std::uint32_t>& places,
-                     const LocalOptions& options) {
-  const auto count = static_cast<Index>(places.size());
-  const double twice = 2 * options.reach_mm * options.reach_mm;
-  Eigen::MatrixXd tapers(model.mean.rows(), count);
-  for (Index p = 0; p < count; ++p) {
-    const Eigen::RowVector3d place = model.mean.row(places[static_cast<std::size_t>(p)]);
-    tapers.col(p) = -(model.mean.rowwise() - place).rowwise().squaredNorm() / twice;
-  }
-  // Far from all places the nearest one counts: exponents are taken against its.
-  const Eigen::VectorXd greatest = tapers.rowwise().maxCoeff();
-  tapers = (tapers.colwise() - greatest).array().exp();
-  // Their squares add up to one: variances stay what they are.
-  tapers.array().colwise() /= tapers.rowwise().norm().array();
-  ShapeModel result{model.mean, {}};
+ShapeModel with_mirror_images(const ShapeModel& model, const MirrorMap& map) {
+  ShapeModel both{model.mean, {}};
+  const Positions image = mirrored(map, model.mean);
   for (const Positions& mode : model.modes) {
-    result.modes.emplace_back(std::sqrt(1 - options.share) * mode);
+    both.modes.emplace_back(mode / std::sqrt(2.0));
+    both.modes.emplace_back((mirrored(map, model.mean + mode) - image) / std::sqrt(2.0));
   }
-  for (Index p = 0; p < count; ++p) {
-    for (const Positions& mode : model.modes) {
-      Positions local = std::sqrt(options.share) * mode;
-      local.array().colwise() *= tapers.col(p).array();
-      result.modes.push_back(std::move(local));
-    }
-  }
-  return result;
+  return both;
 }
 
 }  // namespace crowdface

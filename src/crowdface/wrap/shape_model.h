@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "crowdface/mesh/mirror_map.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -21,15 +21,7 @@ struct ShapeModel {
 /// Source: Blanz & Vetter 1999, "A morphable model for the synthesis of 3D faces".
 ShapeModel make_model(const std::vector<Positions>& heads);
 
-struct LocalOptions {
-  double reach_mm = 60;  ///< how far around a place what differs there goes together
-  double share = 0.4;    ///< of the variance that is local; the other goes together everywhere
-};
-/// The same model with tapered covariances: about each place heads vary more or less on their own, so that
-/// few heads say much. Has (places + 1) times the modes.
-/// Source: Lüthi et al. 2018, "Gaussian process morphable models".
-/// \param places  rows of the model, at least one
-ShapeModel localised(const ShapeModel& model, const std::vector<std::uint32_t>& places,
-                     const LocalOptions& options = {});
+/// The same model, and of each of its heads the mirror image: has twice the modes.
+ShapeModel with_mirror_images(const ShapeModel& model, const MirrorMap& map);
 
 }  // namespace crowdface

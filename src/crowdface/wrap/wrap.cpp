@@ -8,6 +8,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/find_mirror.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/unfold.h"
@@ -16,8 +17,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kFewestLandmarks = 4;
-constexpr std::size_t kPlaces = 8;  ///< about which heads vary on their own
-constexpr double kSeen = 0.12;      ///< openness from which a vertex counts as visible
+constexpr double kMirroredShare = 0.9;  ///< of the vertices: with fewer a head is no mirror image
 constexpr double kLeastOutlierMm = 4, kOutlier = 3.5;  ///< the latter in medians
 
 /// Landmarks by rows of the skin.
@@ -96,25 +96,6 @@ void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& resu
   result.without_data.assign(on_rim.begin(), on_rim.end());
 }
 
-/// Vertices of the visible skin that are far from each other.
-std::vector<std::uint32_t> spread_places(const SkinMesh& skin, const Positions& positions) {
-  std::vector<std::uint32_t> visible, places;
-  for (std::uint32_t v = 0; v < skin.openness.size(); ++v) {
-    if (skin.openness[v] > kSeen) visible.push_back(v);
-  }
-  std::vector<double> distance(visible.size(), 1e300);
-  for (std::size_t next = 0; places.size() < std::min(kPlaces, visible.size());) {
-    places.push_back(visible[next]);
-    for (std::size_t i = 0; i < visible.size(); ++i) {
-      distance[i] = std::min(distance[i],
-                             length3(row3(positions, visible[i]) - row3(positions, places.back())));
-    }
-    const auto farthest = std::max_element(distance.begin(), distance.end());
-    next = static_cast<std::size_t>(farthest - distance.begin());
-  }
-  return places;
-}
-
 /// A large skin, its model and its landmarks, as its reduced skin has them.
 struct Small {
   Positions rest;
@@ -156,6 +137,16 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
 
 }  // namespace
 
+ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
+  const FoundMirror mirror =
+      find_mirror(shape.topology, shape.components, heads.mean, shape.axes.side());
+  const ShapeModel both =
+      mirror.share() < kMirroredShare ? heads : with_mirror_images(heads, mirror.map);
+  ShapeModel of_skin{shape.skin.of(both.mean), {}};
+  for (const Positions& mode : both.modes) of_skin.modes.push_back(shape.skin.of(mode));
+  return of_skin;
+}
+
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& all_landmarks, const std::optional<PoseHint>& hint,
                 const WrapOptions& options) {
@@ -166,7 +157,7 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   WrapResult result;
   ShapeFit fit;
   std::optional<Small> small;
-  std::optional<ShapeModel> used;
+  const ShapeModel* used = nullptr;
   {
     const ScanSurface surface(scan);
     fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint);
@@ -176,9 +167,8 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
     fit = fit_shape(bent, alone, surface, marks, fit, options.pose);
     result.pose_residual_mm = fit.residual;
     result.landmarks = residuals_of(rest, fit.pose, landmarks);
-    used = model == nullptr ? alone : small ? *small->model : *model;
     if (model != nullptr) {
-      used = localised(*used, spread_places(bent, used->mean), options.local);
+      used = small ? &*small->model : model;
       fit = fit_shape(bent, *used, surface, marks, fit, options.person);
     }
   }
@@ -187,10 +177,18 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   const ScanSurface surface(moved(scan, back));
   move(landmarks, back);
   if (small) move(small->landmarks, back);
-  Positions wrapped =
-      bend_skin(bent, used->shape(fit.coefficients), surface, small ? small->landmarks : landmarks,
-                model == nullptr ? options.bend : options.bend_with_model);
-  if (small) wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
+  const auto& marks = small ? small->landmarks : landmarks;
+  Positions wrapped = small ? small->rest : rest;
+  if (used != nullptr) {
+    wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks,
+                            options.regression);
+  }
+  wrapped = bend_skin(bent, wrapped, surface, marks,
+                      used == nullptr ? options.bend : options.bend_with_model);
+  if (small) {
+    unfold(bent, small->rest, wrapped);
+    wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
+  }
   DetailOptions detail = options.detail;
   if (small) detail.smoothings = shape.reduced->smoothings;
   wrapped = follow_detail(skin, wrapped, surface, detail);

@@ -10,6 +10,7 @@
 #include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/shape_fit.h"
 #include "crowdface/wrap/shape_model.h"
+#include "crowdface/wrap/shape_regression.h"
 #include "crowdface/wrap/wrap_template.h"
 
 namespace crowdface {
@@ -18,14 +19,15 @@ struct WrapOptions {
   ShapeFitOptions pose;
   ShapeFitOptions person = {
       .reach_mm = {20, 16, 12, 8, 6, 4}, .measurements = 6, .landmark_weight = 0.1};
-  LocalOptions local;
+  RegressionOptions regression;
   BendOptions bend;
   /// Once a model has found the person: what is left is smaller, and places lie so near to theirs that
   /// what holds them along the surface would rather keep them off.
-  BendOptions bend_with_model = {.stiffness_mm = {16, 10, 7, 5, 3.5, 2.5},
-                                 .tangential_first = 0.05,
-                                 .tangential_last = 0.3,
-                                 .landmarks_last = 0.6};
+  BendOptions bend_with_model = {.stiffness_mm = {10, 5, 2.5},
+                                 .tangential_first = 0,
+                                 .tangential_last = 0.05,
+                                 .landmarks_first = 2,
+                                 .landmarks_last = 1.5};
   DetailOptions detail;
 };
 
@@ -46,6 +48,10 @@ struct WrapResult {
   std::vector<bool> without_data;  ///< #skin: nothing of the scan is near, or only its rim
   Index flipped = 0;               ///< triangles of the skin
 };
+
+/// The model of whole heads at the rows of the template that are skin; where the template is nearly its own
+/// mirror image, with the heads' mirror images.
+ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
 
 /// Bends the template's skin onto the scan; eyes, teeth and lashes follow.
 /// \param model      of the template's skin, in its frame and in millimetres; or nullptr.

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/shape_regression.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kLeastCosine = 0.5;
+constexpr double kOpenEnough = 0.3;
+constexpr double kLeastSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
+constexpr double kTurn = 0.05, kShiftMm = 5, kGrowth = 0.02;  ///< by which the pose may be off
+constexpr Index kPose = 7;
+
+/// How far a vertex is displaced along a direction, as the scan or a landmark has it.
+struct Asked {
+  std::uint32_t vertex;
+  Eigen::Vector3d direction;
+  double value, variance;
+};
+
+/// Visible vertices as far from each other as so many can be.
+std::vector<std::uint32_t> spread_places(const SkinMesh& skin, const Positions& positions,
+                                         std::size_t most) {
+  std::vector<std::uint32_t> visible, places;
+  for (std::uint32_t v = 0; v < skin.openness.size(); ++v) {
+    if (skin.openness[v] > kOpenEnough) visible.push_back(v);
+  }
+  most = std::min(most, visible.size());
+  std::vector<double> squared(visible.size(), 1e300);
+  for (std::size_t next = 0; places.size() < most;) {
+    places.push_back(visible[next]);
+    const Eigen::RowVector3d last = positions.row(places.back());
+    next = 0;
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+      squared[i] = std::min(squared[i], (positions.row(visible[i]) - last).squaredNorm());
+      if (squared[i] > squared[next]) next = i;
+    }
+  }
+  return places;
+}
+
+class Regression {
+ public:
+  Regression(const ShapeModel& model, const RegressionOptions& options)
+      : model_(model), options_(options), middle_(model.mean.colwise().mean().transpose()) {}
+
+  /// #V by 3: the likely displacements from the mean.
+  Positions displacements(const std::vector<Asked>& asked) const {
+    const auto count = static_cast<Index>(asked.size()),
+               modes = static_cast<Index>(model_.modes.size());
+    Eigen::MatrixXd along(modes, count), pose(kPose, count), directions(3, count), places(3, count);
+    Eigen::VectorXd values(count), variances(count);
+    for (Index i = 0; i < count; ++i) {
+      const Asked& one = asked[static_cast<std::size_t>(i)];
+      for (Index k = 0; k < modes; ++k) {
+        along(k, i) =
+            dot3(row3(model_.modes[static_cast<std::size_t>(k)], one.vertex), one.direction);
+      }
+      pose.col(i) = pose_modes(one.vertex) * one.direction;
+      directions.col(i) = one.direction;
+      places.col(i) = row3(model_.mean, one.vertex);
+      values(i) = one.value;
+      variances(i) = one.variance;
+    }
+    const double local = options_.local_share, smooth = options_.smooth_mm * options_.smooth_mm;
+    const Eigen::MatrixXd heads = along.transpose() * along;
+    Eigen::MatrixXd covariance = (1 - local) * heads + pose.transpose() * pose;
+    for (Index i = 0; i < count; ++i) {
+      covariance.col(i).array() +=
+          nearness(places, places.col(i)).array() *
+          (local * heads.col(i) + smooth * directions.transpose() * directions.col(i)).array();
+    }
+    covariance.diagonal() += variances;
+    const Eigen::VectorXd weights = covariance.llt().solve(values);
+
+    const Eigen::VectorXd of_heads = (1 - local) * along * weights, of_pose = pose * weights;
+    Eigen::MatrixXd local_weights(modes + 3, count);
+    local_weights << local * along * weights.asDiagonal(),
+        smooth * directions * weights.asDiagonal();
+    Positions result(model_.mean.rows(), 3);
+    parallel_blocks(result.rows(), 64, [&](Index begin, Index end) {
+      Eigen::MatrixXd near(count, end - begin);
+      for (Index v = begin; v < end; ++v)
+        near.col(v - begin) = nearness(places, row3(model_.mean, v));
+      const Eigen::MatrixXd there = local_weights * near;
+      for (Index v = begin; v < end; ++v) {
+        Eigen::Vector3d sum = pose_modes(v).transpose() * of_pose + there.col(v - begin).tail<3>();
+        for (Index k = 0; k < modes; ++k) {
+          sum += (of_heads(k) + there(k, v - begin)) *
+                 row3(model_.modes[static_cast<std::size_t>(k)], v);
+        }
+        result.row(v) = sum.transpose();
+      }
+    });
+    return result;
+  }
+
+ private:
+  /// How a vertex moves when the whole head is turned, moved or grows.
+  Eigen::Matrix<double, kPose, 3> pose_modes(Index vertex) const {
+    const Eigen::Vector3d arm = row3(model_.mean, vertex) - middle_;
+    Eigen::Matrix<double, kPose, 3> modes;
+    modes.topRows<3>() = kShiftMm * Eigen::Matrix3d::Identity();
+    for (Index k = 0; k < 3; ++k) {
+      modes.row(3 + k) = kTurn * cross3(Eigen::Vector3d::Unit(k), arm).transpose();
+    }
+    modes.row(6) = kGrowth * arm.transpose();
+    return modes;
+  }
+
+  Eigen::VectorXd nearness(const Eigen::MatrixXd& places, const Eigen::Vector3d& place) const {
+    return ((places.colwise() - place).colwise().squaredNorm() /
+            (-2 * options_.reach_mm * options_.reach_mm))
+        .array()
+        .exp()
+        .transpose();
+  }
+
+  const ShapeModel& model_;
+  const RegressionOptions& options_;
+  Eigen::Vector3d middle_;
+};
+
+/// What the scan asks of places of the skin where it is now.
+std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
+                            const Positions& positions, const ScanSurface& scan,
+                            const std::vector<std::uint32_t>& places, double reach,
+                            double noise_mm) {
+  const Positions normals = vertex_normals(skin.triangles, positions);
+  std::vector<Asked> asked(places.size());
+  std::vector<char> found(places.size(), 0);
+  parallel_for_each(places.size(), 64, [&](std::size_t i) {
+    const std::uint32_t v = places[i];
+    const auto place = scan.nearest(row3(positions, v), row3(normals, v), kLeastCosine, reach);
+    if (!place.found) return;
+    found[i] = 1;
+    const double off = dot3(place.normal, place.point - row3(positions, v));
+    asked[i] = {v, place.normal, dot3(place.normal, place.point - row3(model.mean, v)), off};
+  });
+  std::size_t kept = 0;
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (found[i] == 0) continue;
+    distances.push_back(std::abs(asked[i].variance));
+    asked[kept++] = asked[i];
+  }
+  asked.resize(kept);
+  if (asked.empty()) return asked;
+  const double spread =
+      std::max(kLeastSpread * reach, 4.5 * value_of_rank(distances, distances.size() / 2));
+  for (Asked& one : asked) {  // what is far off the others counts little
+    const double share = 1 + one.variance * one.variance / (spread * spread);
+    one.variance = noise_mm * noise_mm * share * share;
+  }
+  return asked;
+}
+
+}  // namespace
+
+Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Positions& positions,
+                        const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
+                        const RegressionOptions& options) {
+  const Regression regression(model, options);
+  const std::vector<std::uint32_t> places = spread_places(skin, model.mean, options.places);
+  Positions current = positions;
+  for (const double reach : options.search_mm) {
+    throw_if_interrupted();
+    std::vector<Asked> asked =
+        ask_scan(skin, model, current, scan, places, reach, options.noise_mm);
+    for (const WrapLandmark& landmark : landmarks) {
+      for (Index k = 0; k < 3; ++k) {
+        asked.push_back({landmark.vertex, Eigen::Vector3d::Unit(k),
+                         landmark.place(k) - model.mean(landmark.vertex, k),
+                         options.landmark_mm * options.landmark_mm});
+      }
+    }
+    current = model.mean + regression.displacements(asked);
+  }
+  return current;
+}
+
+}  // namespace crowdface
