@@ -55,8 +55,8 @@ TEST(FloatKernelsSquares, OfSixteenLanesEndOnlyWhereAllAreBeyond) {
   EXPECT_TRUE(add_squares(query.data(), rows.data(), kDimensions, least, sums.data()));
   EXPECT_EQ(sums, plain);
   sums.assign(kLanes, 1);
-  EXPECT_FALSE(add_squares(query.data(), rows.data(), kDimensions, std::nextafter(least, 0.F),
-                           sums.data()));
+  EXPECT_FALSE(
+      add_squares(query.data(), rows.data(), kDimensions, std::nextafter(least, 0.F), sums.data()));
 }
 
 }  // namespace
