@@ -35,9 +35,9 @@ Inputs three_tiles() {
   }
   faces.topology.vertex_count = 12;
   constexpr std::uint32_t kNone = TextureCoat::kNone;
-  inputs.textures.coats = {{{plain(kRed), plain(kGreen), plain(kBlue)}, {0, 1, 2}},
-                           {{plain(kGreen)}, {kNone, 0, 0}},
-                           {{}, {kNone, kNone, kNone}}};
+  inputs.textures.coats = {{{{plain(kRed), plain(kGreen), plain(kBlue)}, {0, 1, 2}}},
+                           {{{plain(kGreen)}, {kNone, 0, 0}}},
+                           {{{}, {kNone, kNone, kNone}}}};
   return inputs;
 }
 
@@ -85,7 +85,7 @@ TEST_F(TextureAtlasTest, AHeadWithoutTexturesHasNoPicture) {
 }
 
 TEST_F(TextureAtlasTest, OnePictureStaysAsItIs) {
-  inputs_.textures.coats = {{{plain(kBlue)}, {0, 0, 0}}};
+  inputs_.textures.coats = {{{{plain(kBlue)}, {0, 0, 0}}}};
   EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.faces.uvs);
   inputs_.textures.coats.clear();
   EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.faces.uvs);
