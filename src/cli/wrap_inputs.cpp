@@ -112,7 +112,7 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
 }
 
 std::vector<fs::path> scans_in(const fs::path& folder) {
-  const std::vector<fs::path> scans = files_of(folder, {".obj", ".ply", ".stl", ".glb"});
+  std::vector<fs::path> scans = files_of(folder, {".obj", ".ply", ".stl", ".glb"});
   if (scans.empty()) {
     throw InvalidInput(
         concat(folder.string(), ": expected scans (.obj, .ply, .stl, .glb), found none"));

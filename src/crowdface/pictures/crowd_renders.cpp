@@ -24,10 +24,10 @@ std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const Fa
   for (const Attachment& item : attachments.items) {
     const Positions& points = item.file.positions;
     if (points.rows() == 0) continue;
-    for (int i = 0; i < 27; ++i) {
-      const Eigen::Vector3d towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    for (int i = 0; i < 27; ++i) {  // to the sides, edges and corners of a cube
+      const Eigen::Vector3i towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       Index best = 0;
-      (points * towards).maxCoeff(&best);
+      (points * towards.cast<double>()).maxCoeff(&best);
       farthest.emplace_back(points.row(best));
     }
   }
