@@ -98,9 +98,10 @@ TEST_F(Wrap, WhatCannotBePickedOnIsRefusedBeforeThePageOpens) {
   };
   const std::string file = (folder_ / "new.yaml").string();
   crowdface(64, pick(head(2), {}), {"--pick", "--landmarks FILE.yaml"});
-  crowdface(64, pick(head(2), {"--landmarks", file, "-o", "x.obj"}), {"--pick takes"});
+  crowdface(64, pick(head(2), {"--landmarks", file, "-o", "x.obj"}),
+            {"--pick wraps nothing", "--output"});
   crowdface(64, {"wrap", "--pick", "--batch", scans_.string(), "--landmarks", file},
-            {"--pick takes"});
+            {"--batch", "--template TEMPLATE.obj"});
   crowdface(64, pick(head(2), {"--landmarks", head(2).string()}), {"name.yaml"});
   crowdface(64, pick(head(2), {"--landmarks", file, "--port", "99999"}), {"--port", "99999"});
   crowdface(66, pick(folder_ / "none.ply", {"--landmarks", file}), {"none.ply"});
