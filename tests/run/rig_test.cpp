@@ -92,7 +92,7 @@ class RigOfACrowd : public ::testing::Test {
     EXPECT_LE(turn.size(), end - at);
     turn.resize(end - at, ' ');
     bytes.replace(at, end - at, turn);
-    const fs::path opened = folder_.folder() / "opened.glb";
+    fs::path opened = folder_.folder() / "opened.glb";
     write_file(opened, bytes);
     return opened;
   }
