@@ -154,6 +154,8 @@ int run_program(int argc, char** argv) {
   // A file beyond the limit and a closed pipe are failed writes, with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  // What the image library brings may be OpenBLAS, which raises SIGINT where it gets no threads. Nothing uses any.
+  ::setenv("OPENBLAS_NUM_THREADS", "1", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
   give_back_large_blocks();
   watch_for_lack_of_memory();
   CLI::App program(kDescription, "crowdface");
