@@ -78,6 +78,12 @@ TEST(FacePointIndex, FindsTheNearestOfMany) {
       const auto found = index.nearest(query, HUGE_VAL, begin, end);
       EXPECT_EQ(found.face, expected.face) << begin << ' ' << end;
       EXPECT_EQ(found.mm, expected.mm);
+      EXPECT_EQ(index.nearest(query, HUGE_VAL, begin, end, 0.999 * expected.mm).face, expected.face)
+          << "none is nearer";
+      const auto any = index.nearest(query, HUGE_VAL, begin, end, 2 * expected.mm);
+      EXPECT_GE(any.mm, expected.mm);
+      EXPECT_LE(any.mm, 2 * expected.mm) << "near enough";
+      EXPECT_TRUE(any.face >= begin && any.face < end);
       EXPECT_EQ(index.nearest(query, expected.mm * 0.999, begin, end).face, -1);
     }
   }

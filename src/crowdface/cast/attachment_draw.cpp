@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crowdface/cast/quotas.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
 
@@ -13,10 +14,6 @@ namespace crowdface {
 namespace {
 
 using Items = std::vector<const AttachmentItem*>;
-
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 template <class Wanted>
 Items those(const Items& items, const Wanted& wanted) {
@@ -85,6 +82,7 @@ class Drawing {
   }
 
   std::vector<std::string> of(const CastFace& face) {
+    heads_[face.id] = typical_head(face.recipe, draw_.tags);
     Items worn;
     for (const std::string& kind : kinds_) {
       const AttachmentItem* one = draw_one(kind, face, worn);
@@ -92,7 +90,6 @@ class Drawing {
     }
     std::vector<std::string> names = without_excluded(worn);
     worn_[face.id] = those(worn, [&](const auto& item) { return contains(names, item.name); });
-    heads_[face.id] = typical_head(face.recipe, draw_.tags);
     if (face.family) {
       for (const AttachmentItem* item : worn_[face.id]) {
         if (!item->colour.empty()) families_.try_emplace({*face.family, item->kind}, item->colour);
@@ -121,7 +118,7 @@ class Drawing {
 
   const AttachmentItem* draw_one(const std::string& kind, const CastFace& face,
                                  const Items& worn) const {
-    Items items = wearable(kind, typical_head(face.recipe, draw_.tags));
+    Items items = wearable(kind, heads_.at(face.id));
     if (items.empty()) return nullptr;
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
@@ -173,7 +170,7 @@ class Drawing {
       if (found != families_.end()) take(found->second);
       return;
     }
-    const Index head = typical_head(face.recipe, draw_.tags);
+    const Index head = heads_.at(face.id);
     std::vector<std::string> parents = face.parents;
     const std::string purpose = concat("attachment/", kind, "/parent/", face.id);
     if (random_unit({draw_.seed, 0, purpose}) < 0.5) std::reverse(parents.begin(), parents.end());

@@ -7,6 +7,7 @@
 
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
@@ -39,10 +40,6 @@ BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const Level
   band.iterations = iterations_of(band.smoothness, scale);
   band.extrapolation = (1 - t) * a.extrapolation + t * b.extrapolation;
   return band;
-}
-
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 /// What a parent is drawn from: where a crowd's faces stand on no head of the parent's sex, all others.
@@ -92,7 +89,7 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
     know(p, found->id, *found, crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
     if (found->family) relatives_.push_back(*found->family);
   }
-  if (to_draw_.empty()) know_group();
+  if (to_draw_.empty()) meet_parents();
   const auto is_parent = [&](const std::string& name) {
     return std::any_of(parents_.begin(), parents_.end(),
                        [&](const KnownParent& one) { return !name.empty() && one.name == name; });
@@ -115,8 +112,10 @@ void FamilyDraws::know(std::size_t parent, std::string name, CastFace face,
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
-/// Once the parents are known: who stands for those of their heads that are not of the family's group.
-void FamilyDraws::know_group() {
+/// Once the parents are known: who lends what comes from neither, and who stands for those of their heads that
+/// are not of the family's group.
+void FamilyDraws::meet_parents() {
+  others_ = somebody_else();
   if (!family_.group || parents_.empty()) return;
   const FaceKind kind = kind_of_group(casting_, family_.group);
   std::vector<Index> taken, targets;
@@ -195,7 +194,7 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
     know(p, found->face.id, found->face, found->point);
     drawn_.push_back(std::move(*found));
   }
-  know_group();
+  meet_parents();
   return true;
 }
 
@@ -228,7 +227,7 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
   open.target = family_.target;
   open.age = Range{0, 0};
   CastFace face =
-      draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)}, somebody_else());
+      draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)}, others_);
   if (parents_.empty()) return face;
   if (!family_.target) {
     set_target(face.recipe, mixed_weights(form_of(0), form_of(1), 0.5));
@@ -321,7 +320,7 @@ FamilyDraws::Draft FamilyDraws::draft(const FamilyCast& cast, int member,
   if (parents_.empty()) open.target = cast.founder.recipe.target;
   open.age = Range{0, 0};
   Draft draft;
-  draft.to = draw_recipe(casting_, open, key, somebody_else());
+  draft.to = draw_recipe(casting_, open, key, others_);
   draft.to.family = family_.name;
   if (!parents_.empty()) inherit(draft.to, key);
   const std::string purpose = concat(key.who, "/how");

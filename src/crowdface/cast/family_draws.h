@@ -73,7 +73,7 @@ class FamilyDraws {
   };
 
   void know(std::size_t parent, std::string name, CastFace face, FaceSpace::Point point);
-  void know_group();
+  void meet_parents();
   std::vector<SourceWeight> form_of(std::size_t parent) const;
   FaceKind somebody_else() const;
   const SamplingOptions& sampling_of(const CastFace& face) const;
@@ -96,6 +96,7 @@ class FamilyDraws {
   std::vector<KnownParent> parents_;  ///< #parents; empty ones are still to be drawn
   std::vector<std::size_t> to_draw_;  ///< parents who were not in the crowd
   std::vector<FaceSearch::Found> drawn_;
+  FaceKind others_;                     ///< from whom members have what is no parent's
   StandIns form_;                       ///< of parents, among the targets of the family's group
   std::vector<StandIns> detail_;        ///< by bands, among who lends to these; empty: no group
   std::vector<std::string> relatives_;  ///< families of parents, and families that share one

@@ -8,22 +8,22 @@
 namespace crowdface {
 
 PointBlocks::PointBlocks(Index dimensions)
-    : dimensions_((dimensions + kChunk - 1) / kChunk * kChunk) {}
+    : dimensions_((dimensions + kChunk - 1) / kChunk * kChunk),
+      chunks_(static_cast<std::size_t>(dimensions_ / kChunk)) {}
 
 void PointBlocks::add(Index number, const float* values) {
-  const Index lane = size() % kLanes;
-  if (lane == 0) {
-    leading_.resize(leading_.size() + static_cast<std::size_t>(kChunk * kLanes));
-    others_.resize(others_.size() + static_cast<std::size_t>((dimensions_ - kChunk) * kLanes));
+  if (size() % kLanes == 0) {
+    for (auto& chunk : chunks_) chunk.resize(chunk.size() + kChunk * kLanes);
   }
-  for (Index d = 0; d < dimensions_; ++d) row(size() / kLanes, d)[lane] = values[d];
+  for (Index d = 0; d < dimensions_; ++d) {
+    chunks_[static_cast<std::size_t>(d / kChunk)][place(size(), d)] = values[d];
+  }
   numbers_.push_back(number);
 }
 
 void PointBlocks::clear() {
   numbers_.clear();
-  leading_.clear();
-  others_.clear();
+  for (auto& chunk : chunks_) chunk.clear();
 }
 
 std::vector<float> PointBlocks::padded(const Eigen::VectorXf& query) const {
@@ -37,7 +37,8 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
   Lanes sums = {};
   for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
     // Sums only grow.
-    if (!add_squares(query.data() + chunk, row(block, chunk), kChunk, bound, sums.data())) {
+    if (!add_squares(query.data() + chunk, &chunk_of(chunk)[place(block * kLanes, chunk)], kChunk,
+                     bound, sums.data())) {
       sums.fill(HUGE_VALF);
       return sums;
     }

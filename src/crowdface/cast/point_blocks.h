@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,7 +38,7 @@ class PointBlocks {
   Index padded_dimensions() const { return dimensions_; }
   /// Those of the points, in the order in which they were added.
   Index number(Index at) const { return numbers_[static_cast<std::size_t>(at)]; }
-  float value(Index at, Index dimension) const { return row(at / kLanes, dimension)[at % kLanes]; }
+  float value(Index at, Index dimension) const { return chunk_of(dimension)[place(at, dimension)]; }
 
   /// Blocks are searched for a query that is as long as theirs.
   std::vector<float> padded(const Eigen::VectorXf& query) const;
@@ -55,21 +54,20 @@ class PointBlocks {
  private:
   static constexpr Index kChunk = 16;  ///< coordinates between two looks at the sums
 
-  /// One coordinate of a block's points.
-  const float* row(Index block, Index dimension) const {
-    return dimension < kChunk
-               ? leading_.data() + (block * kChunk + dimension) * kLanes
-               : others_.data() + (block * (dimensions_ - kChunk) + dimension - kChunk) * kLanes;
+  /// In the chunk of that coordinate.
+  static std::size_t place(Index at, Index dimension) {
+    return static_cast<std::size_t>((at / kLanes * kChunk + dimension % kChunk) * kLanes +
+                                    at % kLanes);
   }
-  float* row(Index block, Index dimension) {
-    return const_cast<float*>(std::as_const(*this).row(block, dimension));
+  const std::vector<float>& chunk_of(Index dimension) const {
+    return chunks_[static_cast<std::size_t>(dimension / kChunk)];
   }
 
   Index dimensions_;  ///< a multiple of kChunk
   std::vector<Index> numbers_;
-  /// Block, coordinate, lane: the leading coordinates, at which nearly all searches of a block end, are
-  /// apart from the others, so that they lie close to each other.
-  std::vector<float> leading_, others_;
+  /// By kChunk coordinates each: block, coordinate, lane. Nearly all searches of a block end at the leading ones,
+  /// which so lie close to each other.
+  std::vector<std::vector<float>> chunks_;
 };
 
 }  // namespace crowdface

@@ -57,7 +57,7 @@ class PointTrees {
   Index size() const { return size_; }
   /// The nearest of points [begin, end) whose squared distance is below `limit`; of equally near
   /// ones the first. The bits do not depend on what else is stored.
-  /// \param enough  a squared distance: the search ends with any point that is nearer.
+  /// \param enough  a squared distance, not above the limit: the search ends with any point that is nearer.
   NearestPoint nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
                        double enough = 0) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
 
@@ -11,10 +12,6 @@ namespace crowdface {
 namespace {
 
 constexpr double kRounding = 1e-9;  // 0.3 · 10 is 3, whatever doubles make of it
-
-bool contains(const std::vector<Eigen::Index>& heads, Eigen::Index head) {
-  return std::find(heads.begin(), heads.end(), head) != heads.end();
-}
 
 std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));

@@ -5,12 +5,10 @@
 #include <map>
 #include <tuple>
 
+#include "crowdface/core/contains.h"
+
 namespace crowdface {
 namespace {
-
-bool contains(const std::vector<Index>& heads, Index head) {
-  return std::find(heads.begin(), heads.end(), head) != heads.end();
-}
 
 /// The mean place of the heads of a group, or of all others.
 Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
@@ -28,9 +26,8 @@ Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& gro
 
 std::size_t common_tags(const std::vector<std::string>& one,
                         const std::vector<std::string>& other) {
-  return static_cast<std::size_t>(std::count_if(one.begin(), one.end(), [&](const auto& tag) {
-    return std::find(other.begin(), other.end(), tag) != other.end();
-  }));
+  return static_cast<std::size_t>(
+      std::count_if(one.begin(), one.end(), [&](const auto& tag) { return contains(other, tag); }));
 }
 
 StandIns::StandIns(const std::vector<Index>& group, const HeadTags& tags,

@@ -5,6 +5,7 @@
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/head_lists.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/name.h"
 
 namespace crowdface {
@@ -15,10 +16,6 @@ constexpr std::uint64_t kMostSources = 50;
 
 using Names = std::vector<std::string>;
 using Kind = PositionDistribution::Kind;
-
-bool contains(const Names& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
 
 /// A value that may differ from region to region.
 struct PerRegion {

@@ -105,7 +105,7 @@ std::vector<std::vector<std::uint32_t>> rows_in_pictures(const WornTextures& wor
 
 /// A texture file as it is needed: at some size.
 struct NeededMap {
-  fs::path path;
+  fs::path path = {};
   int width = 0, height = 0;
   MapContent content = MapContent::kColours;
   int channels = 3;

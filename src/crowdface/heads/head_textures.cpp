@@ -90,7 +90,7 @@ void add_layers(const std::vector<HeadTextures>& maps, TextureCoat& coat,
     const TextureKind kind = of_kind.names.front().kind;
     const TextureLayout& layout = of_kind.blended.layout;
     const std::size_t begin = std::exchange(first, first + layout.pictures.size());
-    if (kind != TextureKind::kNormal && kind != TextureKind::kRoughness) continue;
+    if (!is_shown(kind)) continue;
     TextureLayer& layer = kind == TextureKind::kNormal ? coat.slopes : coat.roughness;
     layer.of_face = layout.of_face;
     for (std::size_t p = 0; p < layout.pictures.size(); ++p) {

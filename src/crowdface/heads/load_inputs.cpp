@@ -237,11 +237,6 @@ void warn(Inputs& inputs, std::string text) {
   inputs.warnings.push_back(std::move(text));
 }
 
-/// Whether pictures show maps of this kind.
-bool shows(TextureKind kind) {
-  return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
-}
-
 /// What to say of heads without a map where all others have one and the same: it is not blended.
 std::optional<std::string> told_of_single(const HeadsTextures& textures, const FaceSet& faces) {
   std::vector<std::string> with, without;
@@ -284,7 +279,7 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
     }
     for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
     for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
-      const bool pictured = shown && shows(kinds[k].kind);
+      const bool pictured = shown && is_shown(kinds[k].kind);
       if (!pictured && config.output.meshes.empty()) continue;
       for (std::string& text : leave_out_unreadable(kinds[k])) warn(inputs, std::move(text));
       if (!kinds[k].differ()) {

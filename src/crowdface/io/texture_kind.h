@@ -26,6 +26,11 @@ inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kDisplacement, "disp", "displacement"},
     TextureStatement{TextureKind::kBump, "map_Bump", "bump"}};
 
+/// Whether pictures show it beside colours.
+constexpr bool is_shown(TextureKind kind) {
+  return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
+}
+
 constexpr const TextureStatement& statement_of(TextureKind kind) {
   return kTextureStatements[static_cast<std::size_t>(kind)];
 }

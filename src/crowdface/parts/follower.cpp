@@ -75,19 +75,6 @@ struct SkinOfMean {
   double extent;                        ///< of the largest component
 };
 
-std::vector<std::uint32_t> skin_vertices(const PartList& parts, const FacesAround& around,
-                                         Index vertex_count) {
-  std::vector<bool> is_skin(static_cast<std::size_t>(vertex_count), true);
-  for (const Part& part : parts.parts) {
-    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
-  }
-  std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
-    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
-  }
-  return skin;
-}
-
 /// The skin around a rigid part: reached farther for until there is enough, as a part that floats
 /// far from the skin follows what is nearest to it.
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
@@ -144,7 +131,7 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
     state->extent = std::max(state->extent, component.extent);
   }
   const Positions mean = mean_head(faces);
-  const auto skin_rows = skin_vertices(parts, state->around, faces.topology.vertex_count);
+  const auto skin_rows = skin_of(parts, state->around);
   const SkinOfMean skin{faces,
                         state->around,
                         axes,

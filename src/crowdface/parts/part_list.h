@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "crowdface/mesh/topology.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/head_axes.h"
 
@@ -56,5 +57,8 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
 /// The same components with all skin joined into one, whose number is that of its first; for
 /// whoever asks which vertices are skin. Sizes of those joined away are 0.
 Components join_skin(const Components& components, const PartList& parts);
+
+/// Vertices that are of no part and of some face, ascending.
+std::vector<std::uint32_t> skin_of(const PartList& parts, const FacesAround& around);
 
 }  // namespace crowdface

@@ -50,19 +50,6 @@ Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& sh
   return rows;
 }
 
-std::vector<std::uint32_t> skin_of(const FaceSet& faces, const PartList& parts,
-                                   const FacesAround& around) {
-  std::vector<bool> is_skin(static_cast<std::size_t>(faces.topology.vertex_count), true);
-  for (const Part& part : parts.parts) {
-    for (const std::uint32_t v : part.vertices) is_skin[v] = false;
-  }
-  std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
-    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
-  }
-  return skin;
-}
-
 }  // namespace
 
 PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjacency,
@@ -72,7 +59,7 @@ PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjace
       set(shape_set),
       axes(head_axes),
       around(faces.topology),
-      skin(skin_of(faces, parts, around)),
+      skin(skin_of(parts, around)),
       used(used_vertices(set)),
       contacts(faces, adjacency, skin),
       extent(extent_of(set.neutral, skin)),
