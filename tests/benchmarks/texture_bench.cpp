@@ -39,7 +39,7 @@ void blend_four_textures(benchmark::State& state) {
   const testing::TwoCharts sheet = heads_of(size);
   const TextureBlender blender = sheet.blender();
   const Recipe recipe = recipe_of_all();
-  for (auto _ : state) benchmark::DoNotOptimize(blender.blend(recipe));
+  for (auto _ : state) benchmark::DoNotOptimize(blender.blend(recipe, 0));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(sheet.texels().covered()));
 }
 BENCHMARK(blend_four_textures)->Unit(benchmark::kMillisecond)->UseRealTime();

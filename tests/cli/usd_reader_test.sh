@@ -25,3 +25,12 @@ for lods in '[]' '[40 %, 10 %]'; do
     --cache "$folder/cache" --force --quiet
   node "$root/tests/cli/read_usd.mjs" "$folder/out" "$modules"
 done
+
+# What faces wear stands in their layers, too.
+"$program" synth -o "$folder/dressed" --count 4 --vertices 5000 --textures 64 --hair --quiet
+"$program" init "$folder/dressed" -o "$folder/dressed.yaml" --quiet
+"$program" generate "$folder/dressed.yaml" --set "output.meshes=[usd, points]" --set crowd.count=4 \
+  --set "shapes={neutral: dressed/synth_01.obj, directory: dressed}" \
+  --set output.contact_sheet=none --out "$folder/worn" --cache "$folder/cache" --quiet
+grep -q '_materials"' "$folder"/worn/meshes/*.usda
+node "$root/tests/cli/read_usd.mjs" "$folder/worn" "$modules"

@@ -102,6 +102,20 @@ TEST(MakeDirectories, RefusesWhereAFileStands) {
 }
 
 // The process died of SIGBUS.
+TEST(MappedFile, ScratchBytesLieInAFileOfNoName) {
+  const TemporaryFolder folder;
+  const std::filesystem::path scratch = folder.path() / "new" / "scratch";
+  std::string bytes(70'000, 'a');
+  bytes[69'999] = 'z';
+  const MappedFile file = MappedFile::of_scratch(bytes, scratch);
+  EXPECT_EQ(file.bytes(), bytes);
+  EXPECT_TRUE(std::filesystem::is_empty(scratch));
+  EXPECT_TRUE(MappedFile::of_scratch("", scratch).bytes().empty());
+  folder.write("file", "x");
+  expect_error(ExitCode::kCannotCreate, {"file"},
+               [&] { MappedFile::of_scratch("x", folder.path() / "file"); });
+}
+
 TEST(MappedFile, CutWhileItIsMappedItReadsAsZerosAndTellsOrEndsWithAWord) {
   const testing::TemporaryFolder folder;
   const std::string bytes(20'000, 'x');

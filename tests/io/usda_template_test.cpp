@@ -151,6 +151,36 @@ TEST(UsdaTemplate, HoldsShapesUnderTheirNames) {
   EXPECT_THAT(numbers_of(text, "float[] blendShapeWeights"), ElementsAre(0, 0));
 }
 
+TEST(UsdaTemplate, HoldsFurtherMeshesWithMaterialsOfTheirOwn) {
+  const Scene scene;
+  Topology triangle;
+  triangle.vertex_count = 3;
+  triangle.add_face(std::vector<std::uint32_t>{0, 1, 2});
+  UsdaSurface surface;
+  surface.picture = "./strands.png";
+  surface.holes = "./holes.png";
+  const UsdaPart part("hair", triangle, {}, {{"a b", surface}}, {0}, {"smile-L", "smile.L"});
+  const Positions positions = testing::random_positions(3, 5);
+  const std::vector<Displacements> moves = {{{2}, testing::random_positions(1, 6)}, {{}, {}}};
+  const PlacedUsdaPart placed{&part, &positions, moves};
+  const std::string text =
+      UsdaTemplate(scene.topology, scene.uvs, scene.options, Subdivision::kNone)
+          .encode(scene.positions, scene.normals, "x", scene.moves, {}, {}, {&placed, 1})
+          .text();
+  expect_rows(text, "point3f[] points", scene.positions);
+  const std::string hair = text.substr(text.find("def Mesh \"hair\""));
+  expect_rows(hair, "point3f[] points", positions);
+  EXPECT_THAT(hair, HasSubstr("skel:blendShapeTargets = [</x/face/hair/smile_L>, "
+                              "</x/face/hair/smile_L_2>]"));
+  EXPECT_THAT(hair, HasSubstr("skel:skeleton = </x/face/skeleton>"));
+  EXPECT_THAT(numbers_of(hair, "uniform int[] pointIndices"), ElementsAre(2));
+  EXPECT_THAT(hair, HasSubstr("rel material:binding = </x/hair_materials/a_b>"));
+  const std::string materials = hair.substr(hair.find("def Scope \"hair_materials\""));
+  EXPECT_THAT(materials, HasSubstr("inputs:opacity.connect = </x/hair_materials/a_b/holes.outputs:r>"));
+  EXPECT_THAT(materials, HasSubstr("inputs:opacityThreshold = 0.5"));
+  EXPECT_THAT(materials, HasSubstr("asset inputs:file = @./holes.png@"));
+}
+
 TEST(UsdaTemplate, SaysHowItIsSubdivided) {
   const std::string text = Scene().text(Subdivision::kCatmullClark);
   EXPECT_THAT(text, HasSubstr("subdivisionScheme = \"catmullClark\""));

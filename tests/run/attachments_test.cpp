@@ -6,6 +6,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/verify.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/generate.h"
@@ -123,6 +124,34 @@ TEST_F(AttachmentsOfACrowd, AreNodesBelowTheFaceInGlbFiles) {
     EXPECT_EQ(below, line.at("attachments").get<std::vector<std::string>>()) << id;
     EXPECT_EQ(scene.at("materials").back().value("name", ""), below.back() == "cap" ? "hair" : "");
   }
+}
+
+TEST_F(AttachmentsOfACrowd, AreMeshesBesideTheFacesInUsdLayers) {
+  folder_.folder().write(
+      "wear/maps/hair.png",
+      encode_png(2, 2, 4, std::vector<std::uint8_t>(std::size_t{4} * 4, 128), PngEffort::kFast));
+  run({"output.meshes=[usd]"});
+  EXPECT_FALSE(fs::exists(mesh("herself+cap.obj")));
+  EXPECT_TRUE(fs::exists(mesh("attachments/cap/maps/hair.png")));
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const std::string id = line.at("id");
+    const bool has_rod = line.at("attachments").size() == 2;
+    const std::string text = testing::read_text(mesh(id + ".usda"));
+    EXPECT_EQ(text.find("def Mesh \"rod\"") != text.npos, has_rod) << id;
+    const std::string cap = text.substr(text.find("def Mesh \"cap\""));
+    EXPECT_THAT(cap, HasSubstr(concat("rel material:binding = </", id, "/cap_materials/hair>")));
+    EXPECT_THAT(cap, HasSubstr("inputs:file = @./attachments/cap/maps/hair.png@"));
+    EXPECT_THAT(cap, HasSubstr(concat("float inputs:opacity.connect = </", id,
+                                      "/cap_materials/hair/holes.outputs:a>")));
+  }
+}
+
+TEST_F(AttachmentsOfACrowd, LieBesidePlyFilesAsObj) {
+  run({"output.meshes=[ply]"});
+  EXPECT_TRUE(fs::exists(mesh("herself.ply")));
+  EXPECT_TRUE(fs::exists(mesh("herself+cap.obj")));
+  EXPECT_TRUE(fs::exists(mesh("attachments/cap/cap.mtl")));
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
 }
 
 TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {

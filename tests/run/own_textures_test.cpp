@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/input_limits.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/verify.h"
@@ -125,6 +126,18 @@ TEST_F(OwnTextures, AreTheSameOnAnyNumberOfThreads) {
   fs::remove_all(folder_.out());
   const ThreadLimit limit(5);
   run(folder_, {"output.contact_sheet={cell: 32}"});
+  EXPECT_THAT(testing::differing_files(first, testing::crowd_files(folder_.out())),
+              ::testing::IsEmpty());
+}
+
+TEST_F(OwnTextures, AreTheSameWhereTheHeadsMapsLieOnTheDisk) {
+  run(folder_, {"output.contact_sheet={cell: 32}"});
+  const auto first = testing::crowd_files(folder_.out());
+  fs::remove_all(folder_.out());
+  const std::uint64_t before = input_limits().image_bytes;
+  set_input_limit("image_bytes=40000");  // the four maps take 24,576
+  run(folder_, {"output.contact_sheet={cell: 32}"});
+  set_input_limit(concat("image_bytes=", before));
   EXPECT_THAT(testing::differing_files(first, testing::crowd_files(folder_.out())),
               ::testing::IsEmpty());
 }

@@ -86,15 +86,14 @@ TEST(TextureBlender, AHeadAloneKeepsItsColoursToTheByte) {
       return Eigen::Array3f(slope, 0.8F * slope, 0.5F * slope) * (1 + 0.8F * noise(h, column, row));
     });
   }
-  const std::vector<BlendedPicture> pictures = sheet.blender().blend(alone(1));
-  ASSERT_EQ(pictures.size(), 1U);
+  const BlendedPicture picture = sheet.blender().blend(alone(1), 0);
   const std::vector<std::uint8_t> expected = srgb8_of(*sheet.textures.maps[0][1]);
   const SurfaceTexels texels = sheet.texels();
   for (int y = 0; y < kSize; ++y) {
     for (const SurfaceTexels::Span& span : texels.row(y)) {
       for (std::size_t i = 3 * (static_cast<std::size_t>(y) * kSize + span.begin);
            i < 3 * (static_cast<std::size_t>(y) * kSize + span.end); ++i) {
-        ASSERT_EQ(pictures[0].srgb[i], expected[i]) << y;
+        ASSERT_EQ(picture.srgb[i], expected[i]) << y;
       }
     }
   }
@@ -108,7 +107,7 @@ TEST(TextureBlender, DetailThatDoesNotAgreeKeepsItsContrast) {
         return Eigen::Array3f::Constant(0.35F * (1 + 0.5F * noise(h, column, row, block)));
       });
     }
-    const auto blended = densities(sheet.blender().blend(evenly(4))[0].srgb);
+    const auto blended = densities(sheet.blender().blend(evenly(4), 0).srgb);
     std::vector<double> plain(blended.size(), 0.0);
     for (const auto& map : sheet.textures.maps[0]) {
       for (std::size_t i = 0; i < plain.size(); ++i) {
@@ -133,7 +132,7 @@ TEST(TextureBlender, DetailThatAgreesIsNotMadeStronger) {
       return Eigen::Array3f::Constant(tone * (1 + 0.5F * noise(9, column, row, 3)));
     });
   }
-  const auto blended = densities(sheet.blender().blend(evenly(4))[0].srgb);
+  const auto blended = densities(sheet.blender().blend(evenly(4), 0).srgb);
   EXPECT_NEAR(contrast(blended, 4) / contrast_of_heads(sheet, 4), 1, 0.05);
 }
 
@@ -157,7 +156,7 @@ TEST(TextureBlender, NormalsKeepTheirReliefAndUnitLength) {
         MapCoding::slopes());
   }
   const TextureBlender blender = sheet.blender();
-  const BlendedPicture one = blender.blend(alone(2))[0], mixed = blender.blend(evenly(4))[0];
+  const BlendedPicture one = blender.blend(alone(2), 0), mixed = blender.blend(evenly(4), 0);
   ASSERT_EQ(mixed.channels, 3);
   const TextureMap& own = *sheet.textures.maps[0][2];
   const SurfaceTexels texels = sheet.texels();
@@ -194,7 +193,7 @@ TEST(TextureBlender, HeightsOfDifferentRangesAreBlendedAsNumbers) {
         },
         MapCoding::values(1, h == 0 ? -1.0F : 39.0F, h == 0 ? 3.0F : 44.0F));
   }
-  const BlendedPicture mixed = sheet.blender().blend(evenly(2))[0];
+  const BlendedPicture mixed = sheet.blender().blend(evenly(2), 0);
   ASSERT_EQ(mixed.channels, 1);
   const std::vector<double> values = first_numbers(mixed);
   const SurfaceTexels texels = sheet.texels();
@@ -253,7 +252,7 @@ TEST(TextureBlender, NoSeamShows) {
   Recipe recipe = alone(0, 2);
   recipe.regions[0].weights = {{0, 0.5}, {1, 0.25}, {2, 0.25}};
   recipe.regions[1].weights = {{1, 0.2}, {2, 0.2}, {3, 0.6}};
-  const BlendedPicture picture = sheet.blender().blend(recipe)[0];
+  const BlendedPicture picture = sheet.blender().blend(recipe, 0);
   double squares = 0, most = 0;
   for (int i = 20; i < 380; ++i) {
     const double y = i / 400.0;
@@ -277,7 +276,7 @@ TEST(TextureBlender, TheSameBytesOnAnyNumberOfThreads) {
   }
   const auto bytes = [&](int threads) {
     const ThreadLimit limit(threads);
-    return sheet.blender().blend(evenly(3))[0].srgb;
+    return sheet.blender().blend(evenly(3), 0).srgb;
   };
   EXPECT_EQ(bytes(1), bytes(3));
 }
@@ -289,9 +288,9 @@ TEST(TextureBlender, OtherHeadsHaveTheWeightOfOneWithoutATexture) {
   });
   sheet.add_bare_head();
   const TextureBlender blender = sheet.blender();
-  const auto expected = blender.blend(alone(0))[0].srgb;
-  EXPECT_EQ(blender.blend(evenly(2))[0].srgb, expected);
-  EXPECT_EQ(blender.blend(alone(1))[0].srgb, expected) << "nobody else takes part";
+  const auto expected = blender.blend(alone(0), 0).srgb;
+  EXPECT_EQ(blender.blend(evenly(2), 0).srgb, expected);
+  EXPECT_EQ(blender.blend(alone(1), 0).srgb, expected) << "nobody else takes part";
 }
 
 TEST(TextureBlender, PartsHaveTheColoursOfTheirTarget) {
@@ -305,7 +304,7 @@ TEST(TextureBlender, PartsHaveTheColoursOfTheirTarget) {
   Recipe recipe = evenly(2);
   recipe.mixture = {};
   recipe.target = 1;
-  const auto blended = sheet.blender().blend(recipe)[0].srgb;
+  const auto blended = sheet.blender().blend(recipe, 0).srgb;
   EXPECT_EQ(blended[3 * (64 * 128 + 30)], srgb8_of(*sheet.textures.maps[0][1])[0]);
 }
 

@@ -47,6 +47,10 @@ class MappedFile {
   MappedFile() = default;
   /// \throws MissingInput if the file cannot be opened or is no regular file; IoError.
   explicit MappedFile(const std::filesystem::path& path, WhenCut when_cut = WhenCut::kEnd);
+  /// Puts bytes into a file without a name, which goes with the process however that ends, and maps it: from
+  /// then on they lie on the disk, and in memory as far as the system has room.
+  /// \param folder  where; it is made if it is not there. \throws CannotCreate, IoError.
+  static MappedFile of_scratch(std::string_view bytes, const std::filesystem::path& folder);
   ~MappedFile();
   MappedFile(MappedFile&& other) noexcept;
   MappedFile& operator=(MappedFile&& other) noexcept;
@@ -55,6 +59,9 @@ class MappedFile {
   bool was_cut() const;
 
  private:
+  /// \param name  for messages
+  void map(int descriptor, std::size_t size, WhenCut when_cut, const std::filesystem::path& name);
+
   const char* data_ = nullptr;
   std::size_t size_ = 0;
   int watch_ = -1;       ///< see mapped_file.cpp

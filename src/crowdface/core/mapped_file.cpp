@@ -4,17 +4,22 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <string>
 #include <utility>
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/opened_file.h"
+#include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -91,17 +96,47 @@ void end_watch(int number) {
   watch.taken = false;
 }
 
+/// \throws CannotCreate.
+Descriptor nameless_file(const fs::path& folder) {
+  make_directories(folder);
+  Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (file.valid()) return file;
+  // Not every file system makes files without a name.
+  std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
+  file = Descriptor(::mkstemps(name.data(), 4));
+  if (!file.valid()) {
+    throw CannotCreate(concat(folder.string(), ": no file can be made there: ", reason()));
+  }
+  ::unlink(name.c_str());
+  return file;
+}
+
 }  // namespace
 
 MappedFile::MappedFile(const fs::path& path, WhenCut when_cut) {
   OpenedFile file = open_for_reading(path);
-  if (file.size == 0) return;
-  void* data = ::mmap(nullptr, file.size, PROT_READ, MAP_PRIVATE, file.descriptor.get(), 0);
-  if (data == MAP_FAILED) throw IoError(concat(path.string(), ": cannot be mapped: ", reason()));
-  watch_ = begin_watch(static_cast<char*>(data), file.size, when_cut, path);
+  map(file.descriptor.get(), file.size, when_cut, path);
+  if (size_ > 0 && when_cut == WhenCut::kFill) descriptor_ = file.descriptor.release();
+}
+
+MappedFile MappedFile::of_scratch(std::string_view bytes, const fs::path& folder) {
+  const Descriptor file = nameless_file(folder);
+  if (!write_all(file.get(), bytes)) {
+    throw IoError(concat(folder.string(), ": a temporary file of ", format_bytes(bytes.size()),
+                         " cannot be written: ", reason()));
+  }
+  MappedFile mapped;
+  mapped.map(file.get(), bytes.size(), WhenCut::kEnd, folder / "a temporary file");
+  return mapped;
+}
+
+void MappedFile::map(int descriptor, std::size_t size, WhenCut when_cut, const fs::path& name) {
+  if (size == 0) return;
+  void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  if (data == MAP_FAILED) throw IoError(concat(name.string(), ": cannot be mapped: ", reason()));
+  watch_ = begin_watch(static_cast<char*>(data), size, when_cut, name);
   data_ = static_cast<const char*>(data);
-  size_ = file.size;
-  if (when_cut == WhenCut::kFill) descriptor_ = file.descriptor.release();
+  size_ = size;
 }
 
 MappedFile::~MappedFile() {

@@ -36,9 +36,7 @@ const FaceTextures& EditPictures::textures() {
 std::string EditPictures::picture(const Recipe& recipe, const Positions& positions, View view,
                                   int size) {
   const CrowdRenders renders(job_.config, one_picture(view, size), job_.inputs);
-  const TextureBlender* own = textures().colours();
-  return own != nullptr ? renders.render_png(positions, own->blend(recipe))
-                        : renders.render_png(positions, recipe.target);
+  return renders.render_png(positions, textures(), recipe);
 }
 
 }  // namespace crowdface

@@ -13,6 +13,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/heads/light_of_image.h"
+#include "crowdface/io/image_memory.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -154,33 +155,44 @@ TextureMap map_of(const Image& image, const NeededMap& needed) {
   throw BrokenPrecondition("map_of: an unknown content");
 }
 
-std::shared_ptr<const TextureMap> read_map(const NeededMap& needed) {
+std::uint64_t bytes_of(const NeededMap& needed) {
+  return sizeof(Density) * static_cast<std::uint64_t>(needed.width) *
+         static_cast<std::uint64_t>(needed.height) * static_cast<std::uint64_t>(needed.channels);
+}
+
+/// \param scratch  the folder where it is to lie; empty: in memory.
+std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::path& scratch) {
   struct Kept {
     ImageMemory memory;
     TextureMap map;
   };
   throw_if_interrupted();
-  const std::uint64_t values = static_cast<std::uint64_t>(needed.width) *
-                               static_cast<std::uint64_t>(needed.height) *
-                               static_cast<std::uint64_t>(needed.channels);
-  ImageMemory memory = take_image_memory(needed.path, sizeof(Density) * values);
-  const Image image = read_image(needed.path, {.jpeg = true});
-  const auto kept = std::make_shared<const Kept>(Kept{std::move(memory), map_of(image, needed)});
+  Kept read{take_image_memory(needed.path, bytes_of(needed)),
+            map_of(read_image(needed.path, {.jpeg = true}), needed)};
+  if (!scratch.empty()) {
+    move_to_disk(read.map, scratch);
+    read.memory.reset();
+  }
+  const auto kept = std::make_shared<const Kept>(std::move(read));
   return {kept, &kept->map};
 }
 
-void read_maps(LoadedMaps& maps) {
+void read_maps(LoadedMaps& maps, const fs::path& scratch) {
   std::vector<LoadedMaps::value_type*> all;
   for (auto& map : maps) all.push_back(&map);
-  parallel_for_each(all.size(), [&](std::size_t i) { all[i]->second = read_map(all[i]->first); });
+  parallel_for_each(all.size(), [&](std::size_t i) { all[i]->second = read_map(all[i]->first, scratch); });
 }
 
 /// One map of several, each of which covers some of the picture's faces.
 std::shared_ptr<const TextureMap> compose(
     const FaceSet& faces, const TextureLayout& layout, std::uint32_t picture,
     const std::vector<std::uint32_t>& of_face,
-    const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps) {
-  auto composed = std::make_shared<TextureMap>(*maps.begin()->second);
+    const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps,
+    const fs::path& scratch) {
+  const TextureMap& first = *maps.begin()->second;
+  const std::span<const Density> stored = first.stored();
+  auto composed = std::make_shared<TextureMap>(
+      TextureMap{first.width, first.height, {stored.begin(), stored.end()}, first.coding});
   MapCoding& coding = composed->coding;
   if (coding.content == MapContent::kValues) {
     float high = coding.low;
@@ -201,6 +213,7 @@ std::shared_ptr<const TextureMap> compose(
       }
     }
   }
+  if (!scratch.empty()) move_to_disk(*composed, scratch);
   return composed;
 }
 
@@ -251,7 +264,8 @@ NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
 }  // namespace
 
 HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& materials,
-                                   HeadsTextures found, std::optional<std::uint64_t> size) {
+                                   HeadsTextures found, std::optional<std::uint64_t> size,
+                                   const fs::path& scratch) {
   HeadTextures result;
   TextureLayout& layout = result.blended.layout;
   const std::vector<FirstWorn> pictures = lay_out(found, layout);
@@ -304,7 +318,10 @@ HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) maps[needed(h, row, p)];
     }
   }
-  read_maps(maps);
+  std::uint64_t bytes = 0;
+  for (const auto& [map, unread] : maps) bytes += bytes_of(map);
+  const fs::path out_of_memory = bytes > free_image_memory() / 2 ? scratch : fs::path();
+  read_maps(maps, out_of_memory);
 
   result.blended.maps.resize(pictures.size());
   for (std::size_t p = 0; p < pictures.size(); ++p) {
@@ -315,7 +332,7 @@ HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) of_row[row] = maps.at(needed(h, row, p));
       if (of_row.size() == 1) map = of_row.begin()->second;
       if (of_row.size() > 1) {
-        map = compose(faces, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row);
+        map = compose(faces, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row, out_of_memory);
       }
       if (map) continue;
       const PictureName& name = result.names[p];

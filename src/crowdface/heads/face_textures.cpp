@@ -27,8 +27,7 @@ std::vector<PictureName> own_pictures(const Inputs& inputs) {
   return pictures;
 }
 
-FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
-    : has_colours_(inputs.textures.blend()) {
+FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
   if (!has_own_textures(inputs)) return;
   const Topology& topology = inputs.faces.topology;
   TextureBlending options;
@@ -46,21 +45,16 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
   const auto add = [&](const HeadTextures& textures) {
     blenders_.push_back(std::make_unique<TextureBlender>(
         topology, inputs.faces.uvs, inputs.adjacency, inputs.regions, textures.blended, options));
+    for (std::size_t p = 0; p < textures.names.size(); ++p) {
+      pictures_.push_back({blenders_.back().get(), p});
+    }
   };
-  if (has_colours_) add(inputs.textures);
+  if (inputs.textures.blend()) add(inputs.textures);
   for (const HeadTextures& maps : inputs.maps) add(maps);
 }
 
-const TextureBlender* FaceTextures::colours() const {
-  return has_colours_ ? blenders_.front().get() : nullptr;
-}
-
-std::vector<BlendedPicture> FaceTextures::blend(const Recipe& recipe) const {
-  std::vector<BlendedPicture> pictures;
-  for (const auto& blender : blenders_) {
-    for (BlendedPicture& picture : blender->blend(recipe)) pictures.push_back(std::move(picture));
-  }
-  return pictures;
+BlendedPicture FaceTextures::blend(const Recipe& recipe, std::size_t picture) const {
+  return pictures_[picture].blender->blend(recipe, pictures_[picture].number);
 }
 
 std::uint64_t FaceTextures::memory_bytes() const {
@@ -70,9 +64,9 @@ std::uint64_t FaceTextures::memory_bytes() const {
 }
 
 std::uint64_t FaceTextures::blend_bytes() const {
-  std::uint64_t bytes = 0;
-  for (const auto& blender : blenders_) bytes += blender->blend_bytes();
-  return bytes;
+  std::uint64_t most = 0;
+  for (const auto& blender : blenders_) most = std::max(most, blender->blend_bytes());
+  return most;
 }
 
 std::uint64_t texture_bytes(const Inputs& inputs) {

@@ -20,19 +20,23 @@ class FaceTextures {
  public:
   /// \param inputs  must outlive this object.
   FaceTextures(const Config& config, const Inputs& inputs);
-  bool any() const { return !blenders_.empty(); }
-  /// What blends the colours; null if faces get none of their own.
-  const TextureBlender* colours() const;
-  /// Pictures as own_pictures has them. Any thread may ask.
-  std::vector<BlendedPicture> blend(const Recipe& recipe) const;
+  bool any() const { return !pictures_.empty(); }
+  /// Of own_pictures.
+  std::size_t picture_count() const { return pictures_.size(); }
+  /// \param picture  as own_pictures has them: no more than one need be in memory. Any thread may ask.
+  BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// What this object itself takes, and what the blending of one face takes.
+  /// What this object itself takes, and what the blending of the largest picture takes.
   std::uint64_t memory_bytes() const;
   std::uint64_t blend_bytes() const;
 
  private:
-  bool has_colours_;
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
+  struct Picture {
+    const TextureBlender* blender;
+    std::size_t number;  ///< of the blender's
+  };
+  std::vector<Picture> pictures_;
 };
 
 /// What the heads' maps take that lie in memory.

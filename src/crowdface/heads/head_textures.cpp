@@ -81,26 +81,10 @@ Texture finish_of(const TextureMap& map, int most_px) {
   });
 }
 
-/// \param texture  of picture p of a kind's layout; null: there is none.
-template <class OfPicture>
-void add_layers(const std::vector<HeadTextures>& maps, TextureCoat& coat,
-                const OfPicture& texture) {
-  std::size_t first = 0;
-  for (const HeadTextures& of_kind : maps) {
-    const TextureKind kind = of_kind.names.front().kind;
-    const TextureLayout& layout = of_kind.blended.layout;
-    const std::size_t begin = std::exchange(first, first + layout.pictures.size());
-    if (!is_shown(kind)) continue;
-    TextureLayer& layer = kind == TextureKind::kNormal ? coat.slopes : coat.roughness;
-    layer.of_face = layout.of_face;
-    for (std::size_t p = 0; p < layout.pictures.size(); ++p) {
-      layer.textures.push_back(texture(of_kind, begin, p));
-      if (layer.textures.back() != nullptr) continue;
-      for (std::uint32_t& picture : layer.of_face) {
-        if (picture == p) picture = TextureLayer::kNone;
-      }
-    }
-  }
+/// Where a coat holds a kind that is shown.
+TextureLayer& layer_of(TextureKind kind, TextureCoat& coat) {
+  if (kind == TextureKind::kColour) return coat;
+  return kind == TextureKind::kNormal ? coat.slopes : coat.roughness;
 }
 
 }  // namespace
@@ -110,35 +94,47 @@ int shown_texels(const Config::ContactSheet& sheet) {
   return std::max(kLeast, 2 * sheet.cell);
 }
 
-TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPicture>& pictures,
-                    int most_px) {
-  TextureCoat coat;
-  coat.of_face = layout.of_face;
-  for (std::size_t p = 0; p < layout.pictures.size(); ++p) {
-    const BlendedPicture& picture = pictures[p];
-    coat.textures.push_back(std::make_shared<const Texture>(
-        texture_of(picture.width, picture.height, picture.srgb, most_px)));
-  }
-  return coat;
+OwnCoat::OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, int most_px)
+    : most_px_(most_px) {
+  const auto add_kind = [&](const HeadTextures& textures) {
+    const TextureLayout& layout = textures.blended.layout;
+    const TextureKind kind = textures.names.front().kind;
+    for (std::size_t p = 0; p < layout.pictures.size(); ++p) places_.push_back({kind, p});
+    if (kind != TextureKind::kColour && !is_shown(kind)) return;
+    TextureLayer& layer = layer_of(kind, coat_);
+    layer.of_face = layout.of_face;
+    layer.textures.resize(layout.pictures.size());
+  };
+  add_kind(colours);
+  for (const HeadTextures& of_kind : maps) add_kind(of_kind);
 }
 
-void add_finish(const std::vector<HeadTextures>& maps, std::span<const BlendedPicture> pictures,
-                int most_px, TextureCoat& coat) {
-  add_layers(maps, coat, [&](const HeadTextures& of_kind, std::size_t first, std::size_t p) {
-    const bool normals = of_kind.names.front().kind == TextureKind::kNormal;
-    return std::make_shared<const Texture>(
-        finish_of(pictures[first + p], normals, finish_texels(most_px)));
-  });
+void OwnCoat::add(std::size_t picture, const BlendedPicture& blended) {
+  const auto [kind, number] = places_[picture];
+  const bool is_colour = kind == TextureKind::kColour;
+  if (!is_colour && !is_shown(kind)) return;
+  layer_of(kind, coat_).textures[number] = std::make_shared<const Texture>(
+      is_colour ? texture_of(blended.width, blended.height, blended.srgb, most_px_)
+                : finish_of(blended, kind == TextureKind::kNormal, finish_texels(most_px_)));
 }
 
 void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
                         TextureCoat& coat) {
-  add_layers(maps, coat, [&](const HeadTextures& of_kind, std::size_t, std::size_t p) {
-    const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
-    return map == nullptr
-               ? nullptr
-               : std::make_shared<const Texture>(finish_of(*map, finish_texels(most_px)));
-  });
+  for (const HeadTextures& of_kind : maps) {
+    const TextureKind kind = of_kind.names.front().kind;
+    if (!is_shown(kind)) continue;
+    TextureLayer& layer = layer_of(kind, coat);
+    layer.of_face = of_kind.blended.layout.of_face;
+    for (std::size_t p = 0; p < of_kind.names.size(); ++p) {
+      const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
+      layer.textures.push_back(
+          map == nullptr
+              ? nullptr
+              : std::make_shared<const Texture>(finish_of(*map, finish_texels(most_px))));
+      if (map != nullptr) continue;
+      std::ranges::replace(layer.of_face, static_cast<std::uint32_t>(p), TextureLayer::kNone);
+    }
+  }
 }
 
 std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px) {

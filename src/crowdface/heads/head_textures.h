@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,16 +42,30 @@ struct HeadTextures {
 /// Pixels a side that textures keep in pictures, if they have them: more no sheet shows.
 int shown_texels(const Config::ContactSheet& sheet);
 
-/// Colours a surface with pictures of a layout, in linear light.
-/// \param pictures  those of the layout; more may follow.
-/// \param most_px  larger ones are made smaller: more than this no picture shows.
-TextureCoat coat_of(const TextureLayout& layout, const std::vector<BlendedPicture>& pictures,
-                    int most_px);
-/// Has the coat reflect as a face's own maps say: its normals and its roughness.
-/// \param maps      of all kinds but colours. \param pictures  theirs, one kind after the other.
-void add_finish(const std::vector<HeadTextures>& maps, std::span<const BlendedPicture> pictures,
-                int most_px, TextureCoat& coat);
-/// The same of what a head has itself.
+/// What pictures show of a face's own textures: colours in linear light, and how its normals and its
+/// roughness have it reflect.
+class OwnCoat {
+ public:
+  /// \param colours  of which faces have pictures of their own. \param maps  all other kinds.
+  /// \param most_px  larger ones are made smaller: more than this no picture shows.
+  OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, int most_px);
+
+  /// \param picture  the colours' come first, then those of one kind after the other. All must come, from
+  /// any thread, before the coat is used.
+  void add(std::size_t picture, const BlendedPicture& blended);
+  const TextureCoat& coat() const { return coat_; }
+
+ private:
+  struct Place {
+    TextureKind kind = TextureKind::kColour;
+    std::size_t number = 0;  ///< among the pictures of its kind
+  };
+  TextureCoat coat_;
+  std::vector<Place> places_;  ///< of all pictures
+  int most_px_;
+};
+
+/// Has the coat of a head reflect as its own maps say.
 void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
                         TextureCoat& coat);
 
@@ -66,8 +81,10 @@ HeadTextures load_coats(HeadsTextures found, int most_px);
 /// Textures of one kind to be blended, all brought to one layout, that of the first head that has any. Head by head the
 /// files of a picture are made one, of the size of the largest or of `size`.
 /// \param size     texels of the longer side; nothing: that of the largest, at most 4,096.
+/// \param scratch  a folder for maps of which all would take more than half of the memory that images have left.
 /// \throws InvalidInput as above, or if a file cannot be what it is named as, such as a grey one a normal map.
 HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& materials,
-                                   HeadsTextures found, std::optional<std::uint64_t> size);
+                                   HeadsTextures found, std::optional<std::uint64_t> size,
+                                   const std::filesystem::path& scratch);
 
 }  // namespace crowdface

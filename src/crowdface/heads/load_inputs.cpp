@@ -249,7 +249,8 @@ std::optional<std::string> told_of_single(const HeadsTextures& textures, const F
                 "): only faces with such a target get it, as it is");
 }
 
-void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
+void read_textures(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+                   Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
   const bool shown = sheet && sheet->texture != SheetTexture::kNo;
   const bool blend =
@@ -273,7 +274,7 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
       for (std::string& text : found.warnings) warn(inputs, std::move(text));
     } else if (blend && found.differ()) {
       inputs.textures = load_blended_textures(inputs.faces, inputs.materials, std::move(found),
-                                              config.textures.size);
+                                              config.textures.size, cache);
     } else if (shown) {
       inputs.textures = load_coats(std::move(found), shown_texels(*sheet));
     }
@@ -287,7 +288,7 @@ void read_textures(const Config& config, Inputs& inputs, Problems& problems) {
         continue;
       }
       inputs.maps.push_back(load_blended_textures(inputs.faces, inputs.materials,
-                                                  std::move(kinds[k]), config.textures.size));
+                                                  std::move(kinds[k]), config.textures.size, cache));
       for (const std::string& text : inputs.maps.back().warnings) warn(inputs, text);
     }
   } catch (const Error& error) {
@@ -381,7 +382,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
                         config.region_names().back()));
   }
   compute_digests(inputs);
-  read_textures(config, inputs, problems);
+  read_textures(config, cache, inputs, problems);
   load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);
   load_rig(config, inputs, problems);

@@ -22,12 +22,17 @@ Taken& taken() {
   return instance;
 }
 
+/// \pre  the mutex is held.
+std::uint64_t free_of(std::uint64_t most) {
+  return most - std::min(taken().bytes, most);
+}
+
 class Share {
  public:
   Share(const std::filesystem::path& file, std::uint64_t bytes) : bytes_(bytes) {
     const std::uint64_t most = input_limits().image_bytes;
     const std::lock_guard lock(taken().mutex);
-    const std::uint64_t free = most - std::min(taken().bytes, most);
+    const std::uint64_t free = free_of(most);
     if (bytes > free) {
       throw InvalidInput(concat(file.string(), ": its pixels take ", format_bytes(bytes), ", and ",
                                 format_bytes(free), " of the ", format_bytes(most),
@@ -50,6 +55,11 @@ class Share {
 
 ImageMemory take_image_memory(const std::filesystem::path& file, std::uint64_t bytes) {
   return std::make_shared<const Share>(file, bytes);
+}
+
+std::uint64_t free_image_memory() {
+  const std::lock_guard lock(taken().mutex);
+  return free_of(input_limits().image_bytes);
 }
 
 }  // namespace crowdface

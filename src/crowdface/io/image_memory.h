@@ -14,4 +14,7 @@ using ImageMemory = std::shared_ptr<const void>;
 /// Any thread may ask. \throws InvalidInput, naming the file, if all images would take too much.
 ImageMemory take_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
+/// What of it nobody holds at present.
+std::uint64_t free_image_memory();
+
 }  // namespace crowdface

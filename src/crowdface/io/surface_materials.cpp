@@ -74,4 +74,15 @@ std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) 
   return materials;
 }
 
+std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
+                                                  const MaterialFiles& files) {
+  const std::vector<SurfaceMaterial> known = read_surface_materials(files);
+  std::vector<SurfaceMaterial> materials;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name, &SurfaceMaterial::name);
+    materials.push_back(found != known.end() ? *found : SurfaceMaterial{.name = name});
+  }
+  return materials;
+}
+
 }  // namespace crowdface

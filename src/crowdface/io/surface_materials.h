@@ -24,4 +24,8 @@ struct SurfaceMaterial {
 /// \param files  as find_material_files gives them.
 std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files);
 
+/// Of each of these names the first such material; one that no file describes has but its name.
+std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
+                                                  const MaterialFiles& files);
+
 }  // namespace crowdface

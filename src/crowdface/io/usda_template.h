@@ -8,7 +8,8 @@
 
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_options.h"
-#include "crowdface/io/usda_text.h"
+#include "crowdface/io/usda_mesh.h"
+#include "crowdface/io/usda_part.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
@@ -31,38 +32,28 @@ class UsdaTemplate {
   /// \param moves    #targets: of their vertices, from `positions`.
   /// \param points   #points by 3, in the positions' unit: prims below the face's.
   /// \param images   the options' images, relative to the layer.
+  /// \param parts    further meshes, with the same targets.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
-                     std::span<const std::string> images = {}, const Positions& points = {}) const;
+                     std::span<const std::string> images = {}, const Positions& points = {},
+                     std::span<const PlacedUsdaPart> parts = {}) const;
 
   /// What this object itself takes, and what one encode takes.
-  std::size_t memory_bytes() const;
-  std::size_t encode_bytes() const;
+  std::size_t memory_bytes() const { return mesh_.memory_bytes(); }
+  std::size_t encode_bytes() const { return mesh_.encode_bytes(); }
 
  private:
-  void add_mesh(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options);
-  void add_shapes(EncodedFile& file, const std::string& root, std::span<const Displacements> moves,
-                  const std::string& what) const;
   void add_points(EncodedFile& file, const Positions& points, const std::string& what) const;
-  void add_subsets(EncodedFile& file, const std::string& root) const;
   void add_materials(EncodedFile& file, const std::string& root,
                      std::span<const std::string> images) const;
 
-  Index vertices_;
-  Subdivision subdivision_;
+  UsdaMesh mesh_;
   std::string frame_;  ///< of the layer: unit and axis
   std::string turn_;   ///< of the mesh, where the stage's axes are others
-  std::string faces_;  ///< what describes the mesh beside its vectors
   std::vector<GlbMaterial> surfaces_;
-  std::string shared_;                  ///< see GlbOptions
-  std::vector<std::string> materials_;  ///< prims' names of these; of no face: empty
-  std::vector<std::string> subsets_;    ///< their faces
-  std::vector<std::string> shapes_;     ///< prims' names of the targets …
-  std::vector<std::string> tokens_;     ///< … their own, quoted …
-  std::vector<std::string> indices_;    ///< … and their vertices
-  std::vector<std::string> points_;     ///< prims' names of the points
-  std::size_t target_rows_ = 0;         ///< of all targets
+  std::string shared_;               ///< see GlbOptions
+  std::vector<std::string> points_;  ///< prims' names of the points
 };
 
 /// The positions of a file that UsdaTemplate made. \throws InvalidInput if it is any other.

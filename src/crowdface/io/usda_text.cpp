@@ -80,6 +80,22 @@ std::string usda_rows(const Positions& rows) {
   return blocks.size() == 1 ? std::move(blocks.front()) : join(blocks, "");
 }
 
+std::string usda_uvs(const TextureCoordinates& uvs) {
+  std::string text = "[";
+  for (Index i = 0; i < uvs.rows(); ++i) {
+    char buffer[2 * kSingleRoom];
+    char* at = buffer;
+    if (i > 0) *at++ = ',';
+    *at++ = '(';
+    at = write_single(at, uvs(i, 0));
+    *at++ = ',';
+    at = write_single(at, uvs(i, 1));
+    *at++ = ')';
+    text.append(buffer, at);
+  }
+  return text + ']';
+}
+
 std::string usda_frame(LengthUnit unit, Axis up) {
   constexpr double kMmPerMetre = 1000;
   const bool is_z = up.index == 2 && up.sign > 0;

@@ -37,6 +37,9 @@ std::string usda_string(std::string_view text);
 inline constexpr std::size_t kLongestUsdaRow = 50;
 std::string usda_rows(const Positions& rows);
 
+/// "[(0.5,1),(0,0.25)]". \param uvs  #T by 2
+std::string usda_uvs(const TextureCoordinates& uvs);
+
 /// The layer's metadata that say which unit and axis up all else is in; the axis is Y for heads whose is
 /// neither Y nor Z.
 std::string usda_frame(LengthUnit unit, Axis up);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/pictures/surfaces.h"
@@ -84,12 +85,12 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory,
 
 FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
                                 std::span<const Displacements> moves,
-                                const std::vector<BlendedPicture>* textures,
+                                const OwnCoat* own,
                                 const std::vector<WornAttachment>& worn) const {
   const Positions single = as_written(positions);
-  const std::optional<TextureCoat> coat =
-      textures != nullptr ? own_coat(*textures) : coat_of(target);
-  const TextureCoat* painted = coat ? &*coat : nullptr;
+  std::optional<TextureCoat> of_target;
+  if (own == nullptr) of_target = coat_of(target);
+  const TextureCoat* painted = own != nullptr ? &own->coat() : of_target ? &*of_target : nullptr;
   FacePictures pictures{render_png(single, nullptr, painted, worn), std::nullopt};
   if (gallery_ != nullptr) {
     pictures.preview = gallery_->face_script(id, single, moves, painted, worn);
@@ -102,15 +103,17 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
   return renderer_.render(positions, cameras_.front(), colours);
 }
 
-std::optional<TextureCoat> CrowdRenders::own_coat(
-    const std::vector<BlendedPicture>& textures) const {
-  if (!textured_) return std::nullopt;
-  const HeadTextures& colours = inputs_.textures;
-  TextureCoat coat = crowdface::coat_of(colours.blended.layout, textures, most_texels_);
-  const std::size_t others = colours.names.size();
-  if (textures.size() > others) {
-    add_finish(inputs_.maps, std::span(textures).subspan(others), most_texels_, coat);
-  }
+std::optional<OwnCoat> CrowdRenders::own_coat() const {
+  if (!textured_ || !inputs_.textures.blend()) return std::nullopt;
+  return OwnCoat(inputs_.textures, inputs_.maps, most_texels_);
+}
+
+std::optional<OwnCoat> CrowdRenders::own_coat(const FaceTextures& textures,
+                                              const Recipe& recipe) const {
+  std::optional<OwnCoat> coat = own_coat();
+  if (!coat) return coat;
+  parallel_for_each(textures.picture_count(),
+                    [&](std::size_t p) { coat->add(p, textures.blend(recipe, p)); });
   return coat;
 }
 
@@ -132,10 +135,11 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
   return to_png(side_by_side(views));
 }
 
-std::string CrowdRenders::render_png(const Positions& positions,
-                                     const std::vector<BlendedPicture>& textures) const {
-  const std::optional<TextureCoat> coat = own_coat(textures);
-  return render_png(positions, nullptr, coat ? &*coat : nullptr);
+std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
+                                     const Recipe& recipe) const {
+  const std::optional<OwnCoat> own = own_coat(textures, recipe);
+  return own ? render_png(positions, nullptr, &own->coat())
+             : render_png(positions, recipe.target);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {

@@ -9,6 +9,7 @@
 #include "crowdface/config/config.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/gallery.h"
 #include "crowdface/pictures/worn_surfaces.h"
@@ -40,17 +41,20 @@ class CrowdRenders {
   void make_folders(const CrowdDirectory& directory, const std::vector<CastFace>& faces) const;
   /// A face's picture, and what the gallery shows of it.
   /// \param moves     its displacements in each shape, if they are shown.
-  /// \param textures  of its own, or null: it bears its target's, if there are any.
+  /// \param own       of own_coat, or null: it bears its target's textures, if there are any.
   /// \param worn      its attachments.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
                     std::span<const Displacements> moves,
-                    const std::vector<BlendedPicture>* textures,
-                    const std::vector<WornAttachment>& worn = {}) const;
+                    const OwnCoat* own, const std::vector<WornAttachment>& worn = {}) const;
+
+  /// To be given a face's own pictures; nothing if none are shown.
+  std::optional<OwnCoat> own_coat() const;
+  /// The same with the pictures of a face.
+  std::optional<OwnCoat> own_coat(const FaceTextures& textures, const Recipe& recipe) const;
 
   /// All views of a face side by side, as a PNG file's bytes.
-  /// \param textures  of its own.
-  std::string render_png(const Positions& positions,
-                         const std::vector<BlendedPicture>& textures) const;
+  std::string render_png(const Positions& positions, const FaceTextures& textures,
+                         const Recipe& recipe) const;
   /// \param head  whose texture it bears, if there are textures.
   std::string render_png(const Positions& positions, Index head) const;
   /// The same in colours of the vertices.
@@ -62,8 +66,6 @@ class CrowdRenders {
   std::string render_png(const Positions& positions, const VertexColours* colours,
                          const TextureCoat* coat,
                          const std::vector<WornAttachment>& worn = {}) const;
-  /// What pictures show of a face's own textures, or of a head's, if they show any.
-  std::optional<TextureCoat> own_coat(const std::vector<BlendedPicture>& textures) const;
   std::optional<TextureCoat> coat_of(Index head) const;
 
   std::vector<Camera> cameras_;

@@ -62,9 +62,7 @@ void CrowdPictures::write_founder(const std::string& family, const Positions& po
                                   const Recipe& recipe) const {
   const std::filesystem::path path = directory_.founder_render(family);
   make_directories(path.parent_path());
-  write_file(path, textures_.colours() != nullptr
-                       ? renders_.render_png(positions, textures_.blend(recipe))
-                       : renders_.render_png(positions, recipe.target));
+  write_file(path, renders_.render_png(positions, textures_, recipe));
 }
 
 void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
@@ -74,15 +72,14 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
   parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
     throw_if_interrupted();
     const CastFace& face = crowd[static_cast<std::size_t>(i)];
-    std::vector<BlendedPicture> textures;
-    if (textures_.colours() != nullptr) textures = textures_.blend(face.recipe);
+    const std::optional<OwnCoat> own = renders_.own_coat(textures_, face.recipe);
     const Positions positions =
         read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count);
     std::vector<Displacements> moves;
     if (renders_.show_shapes()) moves = shapes_.of_face(face.recipe, positions);
     const FacePictures pictures =
         renders_.draw(face.id, face.recipe.target, positions, moves,
-                      textures.empty() ? nullptr : &textures, attachments.worn_by(face, positions));
+                      own ? &*own : nullptr, attachments.worn_by(face, positions));
     std::vector<FileToWrite> files = {{directory_.render(face.id), {pictures.picture}}};
     if (pictures.preview) files.push_back({directory_.gallery_face(face.id), {*pictures.preview}});
     write_files(files);

@@ -81,15 +81,11 @@ WornMaterial material_of(const SurfaceMaterial& made_of, int most_px, bool textu
 
 std::unique_ptr<const WornSurface> surface_of(const Attachment& item, int most_px, bool textured) {
   const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
-  const std::vector<SurfaceMaterial> known = read_surface_materials(item.materials);
   std::vector<WornMaterial> materials;
-  for (const std::string& name : named.names) {
-    const auto found = std::find_if(known.begin(), known.end(),
-                                    [&](const SurfaceMaterial& m) { return m.name == name; });
+  for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     materials.emplace_back();
-    if (found == known.end()) continue;
     try {
-      materials.back() = material_of(*found, most_px, textured);
+      materials.back() = material_of(material, most_px, textured);
     } catch (const InvalidInput& error) {
       log_warning(concat(error.what(), "; pictures do without"));
     }

@@ -10,7 +10,9 @@
 namespace crowdface {
 
 bool attachments_have_files(std::span<const MeshFormat> formats) {
-  return std::find(formats.begin(), formats.end(), MeshFormat::kObj) != formats.end();
+  return std::ranges::any_of(formats, [](MeshFormat format) {
+    return format == MeshFormat::kObj || format == MeshFormat::kPly;
+  });
 }
 
 std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<MeshFormat>& formats,

@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// Whether attachments have OBJ files of their own beside faces in these formats.
+/// Whether attachments have OBJ files of their own beside faces in these formats: those that hold one mesh.
 bool attachments_have_files(std::span<const MeshFormat> formats);
 
 /// The files that a face has in these formats: see mesh_names, and after those its attachments'.

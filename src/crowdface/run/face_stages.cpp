@@ -141,11 +141,7 @@ class FaceOutput {
   FaceFiles make(const CastFace& face, const Positions& positions) {
     throw_if_interrupted();
     MadeFace made{&face, {}};
-    std::vector<BlendedPicture> pictures;
-    if (textures_.any()) {
-      const Busy busy(blend_);
-      pictures = textures_.blend(face.recipe);
-    }
+    const Skin skin = paint(face.recipe);
     std::vector<Displacements> moves;
     if (writers_.holds_shapes() || (renders_ != nullptr && renders_->show_shapes())) {
       const Busy busy(encode_);
@@ -156,12 +152,11 @@ class FaceOutput {
       const Busy busy(blend_);
       worn = attachments_->worn_by(face, positions, moves);
     }
-    std::vector<ReadyFile> ready = encode(face, positions, moves, worn, pictures, made.files);
+    std::vector<ReadyFile> ready = encode(face, positions, moves, worn, skin.files, made.files);
     if (renders_ != nullptr) {
       const Busy busy(render_);
-      FacePictures drawn =
-          renders_->draw(face.id, face.recipe.target, positions, moves,
-                         textures_.colours() != nullptr ? &pictures : nullptr, worn);
+      FacePictures drawn = renders_->draw(face.id, face.recipe.target, positions, moves,
+                                          skin.coat ? &*skin.coat : nullptr, worn);
       made.files.picture =
           add(directory_.render(face.id), EncodedFile(std::move(drawn.picture)), ready);
       if (drawn.preview) {
@@ -193,20 +188,47 @@ class FaceOutput {
     return content;
   }
 
+  /// A face's own textures: in their files' bytes, if it has files, and as pictures show them.
+  struct Skin {
+    std::shared_ptr<OwnTextures::Encoded> files = std::make_shared<OwnTextures::Encoded>();
+    std::optional<OwnCoat> coat;
+  };
+
+  /// One texture after the other is blended, encoded and forgotten.
+  Skin paint(const Recipe& recipe) {
+    Skin skin;
+    if (renders_ != nullptr) skin.coat = renders_->own_coat();
+    const bool written = own_ != nullptr && !formats_.empty();
+    if (!written && !skin.coat) return skin;
+    skin.files->resize(textures_.picture_count());
+    parallel_for_each(textures_.picture_count(), [&](std::size_t p) {
+      const BlendedPicture picture = [&] {
+        const Busy busy(blend_);
+        return textures_.blend(recipe, p);
+      }();
+      if (written) {
+        const Busy busy(encode_);
+        (*skin.files)[p] = own_->encode(p, picture);
+      }
+      if (skin.coat) {
+        const Busy busy(render_);
+        skin.coat->add(p, picture);
+      }
+    });
+    return skin;
+  }
+
   /// The face's meshes, what it wears and its textures. \param files  of which they are noted.
   std::vector<ReadyFile> encode(const CastFace& face, const Positions& positions,
                                 std::span<const Displacements> moves,
                                 const std::vector<WornAttachment>& worn,
-                                const std::vector<BlendedPicture>& pictures, FaceFiles& files) {
+                                const std::shared_ptr<const OwnTextures::Encoded>& textures,
+                                FaceFiles& files) {
     std::vector<ReadyFile> ready;
     if (formats_.empty()) return ready;
     const Busy busy(encode_);
-    auto textures = std::make_shared<const std::vector<std::string>>();
     std::vector<std::string_view> of_mesh;
-    if (own_ != nullptr) {
-      textures = std::make_shared<const std::vector<std::string>>(own_->encode(pictures));
-      of_mesh = own_->of_mesh(*textures);
-    }
+    if (own_ != nullptr) of_mesh = own_->of_mesh(*textures);
     std::vector<EncodedMesh> meshes = writers_.encode(face, positions, moves, of_mesh, worn);
     if (attachments_have_files(formats_)) attachment_writers_.add_to(meshes, face.id, worn);
     for (EncodedMesh& mesh : meshes) {
@@ -216,9 +238,9 @@ class FaceOutput {
       files.meshes.push_back({mesh.name, content.digest, content.bytes});
     }
     if (own_ == nullptr) return ready;
-    for (OwnFile& file : own_->files(face, formats_, *textures)) {
-      files.own.push_back(add(directory_.meshes_of(face.id) / file.name,
-                              EncodedFile(std::move(file.bytes)), ready));
+    for (OwnFile& file : own_->files(face, formats_, textures)) {
+      files.own.push_back(
+          add(directory_.meshes_of(face.id) / file.name, std::move(file.file), ready));
     }
     return ready;
   }

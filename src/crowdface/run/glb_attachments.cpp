@@ -109,17 +109,13 @@ Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
 
 GlbPart part_of(const Attachment& item, const Inputs& inputs) {
   const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
-  const std::vector<SurfaceMaterial> known = read_surface_materials(item.materials);
   std::vector<GlbPartMaterial> materials;
   std::vector<GlbImage> images;
-  for (const std::string& name : named.names) {
+  for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     materials.emplace_back();
-    materials.back().name = name;
-    const auto found = std::find_if(known.begin(), known.end(),
-                                    [&](const SurfaceMaterial& m) { return m.name == name; });
-    if (found == known.end()) continue;
+    materials.back().name = material.name;
     try {
-      materials.back() = material_of(*found, images);
+      materials.back() = material_of(material, images);
     } catch (const InvalidInput& error) {
       log_warning(concat(error.what(), "; GLB files do without"));
     }

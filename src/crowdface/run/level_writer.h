@@ -29,7 +29,8 @@ struct WholeFace {
   std::span<const std::string_view> textures;  ///< files of its own pictures, or none …
   std::span<const std::string> texture_names;  ///< … and where they lie, from its mesh
   const Positions& points;                     ///< that follow it, or none
-  std::span<const PlacedGlbPart> parts;        ///< what it wears, as GLB files have it
+  std::span<const PlacedGlbPart> parts;        ///< what it wears, as GLB files have it …
+  std::span<const PlacedUsdaPart> usd_parts;   ///< … and as USD layers
   const Positions& joints;                     ///< of its rig, or none
 };
 

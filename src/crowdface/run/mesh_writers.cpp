@@ -116,6 +116,9 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   if (has(MeshFormat::kUsd)) {
     usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs, shared),
                  config.output.subdivision);
+    if (!inputs.attachments.empty()) {
+      usd_attachments_.emplace(inputs, shared.empty() ? "." : shared);
+    }
   }
   if (need_normals) fans_.emplace(faces.topology);
   if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
@@ -172,14 +175,14 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
   const Positions moved = in_shape(face, mesh.shape);
   const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
   const WholeFace acting{face.id,       face.target,        moved,       normals, face.moves,
-                         face.textures, face.texture_names, face.points, {},      face.joints};
+                         face.textures, face.texture_names, face.points, {}, {},     face.joints};
   return level.encode(mesh, acting, had_normals(face.target));
 }
 
 EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) const {
   if (mesh.level > 0) return encode_level(mesh, face);
   const auto& [id, target, positions, normals, moves, textures, texture_names, points, parts,
-               joints] = face;
+               usd_parts, joints] = face;
   switch (mesh.format) {
     case MeshFormat::kObj: {
       if (mesh.shape.empty()) return obj_.at(target).encode(positions, id);
@@ -190,7 +193,7 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) con
     case MeshFormat::kGlb:
       return glb_->encode(positions, normals, id, moves, textures, points, parts, joints);
     case MeshFormat::kUsd:
-      return usd_->encode(positions, normals, id, moves, texture_names, points);
+      return usd_->encode(positions, normals, id, moves, texture_names, points, usd_parts);
     case MeshFormat::kPoints:
       if (mesh.shape == kFollowingPoints) return encode_points(inputs_.points.names, points, id);
       return mesh.shape.empty() ? encode_npy(positions, id) : encode_npy(moves, id);
@@ -213,8 +216,10 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   const std::vector<std::string> texture_names = own_texture_names(config_, inputs_, face.id);
   std::vector<PlacedGlbPart> parts;
   if (glb_attachments_) parts = glb_attachments_->parts(worn);
+  std::vector<PlacedUsdaPart> usd_parts;
+  if (usd_attachments_) usd_parts = usd_attachments_->parts(worn);
   const WholeFace whole{face.id,  face.recipe.target, positions, normals, moves,
-                        textures, texture_names,      points,    parts,   joints};
+                        textures, texture_names,      points,    parts,   usd_parts, joints};
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
     meshes.push_back({name, encode(name, whole)});
@@ -236,6 +241,7 @@ std::size_t MeshWriters::memory_bytes() const {
   if (glb_) bytes += glb_->memory_bytes();
   if (glb_attachments_) bytes += glb_attachments_->memory_bytes();
   if (usd_) bytes += usd_->memory_bytes();
+  if (usd_attachments_) bytes += usd_attachments_->memory_bytes();
   for (const LevelWriter& level : levels_) bytes += level.memory_bytes();
   return bytes;
 }
@@ -249,6 +255,7 @@ std::size_t MeshWriters::encode_bytes() const {
   if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
   if (glb_) bytes += glb_->encode_bytes();
   if (usd_) bytes += usd_->encode_bytes();
+  if (usd_attachments_) bytes += usd_attachments_->encode_bytes();
   for (const LevelWriter& level : levels_) bytes += level.encode_bytes();
   if (has(MeshFormat::kPoints)) bytes += npy_encode_bytes(inputs_.faces.topology.vertex_count);
   return bytes;

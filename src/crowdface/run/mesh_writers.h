@@ -25,6 +25,7 @@
 #include "crowdface/run/face_files.h"
 #include "crowdface/run/glb_attachments.h"
 #include "crowdface/run/level_writer.h"
+#include "crowdface/run/usd_attachments.h"
 #include "crowdface/shapes/point_carrier.h"
 
 namespace crowdface {
@@ -88,6 +89,7 @@ class MeshWriters {
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
   std::optional<GlbAttachments> glb_attachments_;  ///< if there are any
+  std::optional<UsdAttachments> usd_attachments_;  ///< likewise
   std::optional<UsdaTemplate> usd_;
   std::vector<MeshName> names_;
   std::optional<PointCarrier> points_, joints_;  ///< if there are any

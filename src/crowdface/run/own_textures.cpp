@@ -76,6 +76,14 @@ std::string encode_picture(const BlendedPicture& picture, const PictureName& nam
              : encode_png(picture.width, picture.height, 3, picture.srgb, PngEffort::kFast);
 }
 
+constexpr std::uint64_t kChannels = 3;  // at most
+
+/// At most, of an encoded picture.
+std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) {
+  if (format == TextureFormat::kExr) return sizeof(float);
+  return picture.of_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);
+}
+
 bool has(std::span<const MeshFormat> meshes, MeshFormat format) {
   return std::find(meshes.begin(), meshes.end(), format) != meshes.end();
 }
@@ -181,44 +189,39 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
   }
 }
 
-std::vector<std::string> OwnTextures::encode(const std::vector<BlendedPicture>& pictures) const {
-  std::vector<std::pair<std::size_t, TextureFormat>> files;
-  for (std::size_t p = 0; p < pictures.size(); ++p) {
-    for (const TextureFormat format : formats_of(config_, pictures_[p])) {
-      files.emplace_back(p, format);
-    }
+std::vector<std::string> OwnTextures::encode(std::size_t number,
+                                             const BlendedPicture& picture) const {
+  std::vector<std::string> encoded;
+  for (const TextureFormat format : formats_of(config_, pictures_[number])) {
+    encoded.push_back(encode_picture(picture, pictures_[number], format));
   }
-  std::vector<std::string> encoded(files.size());
-  parallel_for_each(encoded.size(), [&](std::size_t i) {
-    const auto [picture, format] = files[i];
-    encoded[i] = encode_picture(pictures[picture], pictures_[picture], format);
-  });
   return encoded;
 }
 
-std::vector<std::string_view> OwnTextures::of_mesh(const std::vector<std::string>& encoded) const {
+std::vector<std::string_view> OwnTextures::of_mesh(const Encoded& encoded) const {
   std::vector<std::string_view> held;
-  const std::vector<GlbPicture> wanted = glb_pictures(config_, inputs_);
-  std::size_t file = 0;
-  for (std::size_t p = 0; p < pictures_.size(); ++p) {
-    for (const TextureFormat format : formats_of(config_, pictures_[p])) {
-      const bool is_held = held.size() < wanted.size() && wanted[held.size()].picture == p &&
-                           wanted[held.size()].format == format;
-      if (is_held) held.emplace_back(encoded[file]);
-      ++file;
-    }
+  for (const auto& [picture, format] : glb_pictures(config_, inputs_)) {
+    const std::vector<TextureFormat> formats = formats_of(config_, pictures_[picture]);
+    const auto at = std::find(formats.begin(), formats.end(), format) - formats.begin();
+    held.emplace_back(encoded[picture][static_cast<std::size_t>(at)]);
   }
   return held;
 }
 
 std::vector<OwnFile> OwnTextures::files(const CastFace& face, std::span<const MeshFormat> meshes,
-                                        std::vector<std::string> encoded) const {
+                                        const std::shared_ptr<const Encoded>& encoded) const {
   std::vector<OwnFile> files;
   for (std::string& name : own_file_names(config_, inputs_, meshes, face.id)) {
     files.push_back({std::move(name), {}});
   }
   if (files.empty()) return files;
-  for (std::size_t i = 0; i < encoded.size(); ++i) files[i].bytes = std::move(encoded[i]);
+  auto file = files.begin();
+  for (const std::vector<std::string>& picture : *encoded) {
+    for (const std::string& bytes : picture) {
+      file->file.refer_to(bytes);
+      (file++)->file.keep(encoded);
+    }
+  }
   if (!has(meshes, MeshFormat::kObj)) return files;
   const Materials& materials = of_target_.at(face.recipe.target);
   OwnMaterials::Replacements textures;
@@ -229,21 +232,27 @@ std::vector<OwnFile> OwnTextures::files(const CastFace& face, std::span<const Me
                                            formats_of(config_, picture).front());
     }
   }
-  files.back().bytes = materials.file.text(textures);
+  files.back().file.add(materials.file.text(textures));
   return files;
 }
 
 std::uint64_t OwnTextures::encode_bytes() const {
-  std::uint64_t texels = 0;
+  std::uint64_t bytes = 0, largest = 0;
+  std::size_t picture = 0;
   const auto add = [&](const HeadTextures& textures) {
-    for (const TextureLayout::Picture& picture : textures.blended.layout.pictures) {
-      texels +=
-          static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height);
+    for (const TextureLayout::Picture& size : textures.blended.layout.pictures) {
+      const std::uint64_t texels =
+          static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+      const PictureName& name = pictures_[picture++];
+      for (const TextureFormat format : formats_of(config_, name)) {
+        bytes += kChannels * texels * bytes_a_channel(name, format);
+      }
+      largest = std::max(largest, texels);
     }
   };
   add(inputs_.textures);
   for (const HeadTextures& maps : inputs_.maps) add(maps);
-  return 12 * texels;  // files and their copies, then what is rendered
+  return bytes + kChannels * sizeof(float) * largest;
 }
 
 }  // namespace crowdface

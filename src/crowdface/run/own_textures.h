@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "crowdface/config/config.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/io/encoded_file.h"
 #include "crowdface/io/own_materials.h"
 
 namespace crowdface {
@@ -19,7 +21,7 @@ namespace crowdface {
 /// A file of a face beside its mesh, ready to be written.
 struct OwnFile {
   std::string name;  ///< below the folder of the face's meshes
-  std::string bytes;
+  EncodedFile file;
 };
 
 /// The names of all such files of a face: its textures, unless a GLB file alone holds them, and its
@@ -55,15 +57,19 @@ class OwnTextures {
   OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd,
               const std::string& shared = {});
 
-  /// The pictures as own_pictures has them in each of their formats, picture by picture.
-  std::vector<std::string> encode(const std::vector<BlendedPicture>& pictures) const;
-  /// Of those in all formats, the ones that a GLB file holds: see glb_pictures.
-  std::vector<std::string_view> of_mesh(const std::vector<std::string>& encoded) const;
-  /// Those of own_file_names.
-  std::vector<OwnFile> files(const CastFace& face, std::span<const MeshFormat> meshes,
-                             std::vector<std::string> encoded) const;
+  /// The bytes of all pictures as own_pictures has them, each in all of its formats.
+  using Encoded = std::vector<std::vector<std::string>>;
 
-  /// About what encoding the pictures of one face takes.
+  /// \param number  of own_pictures. \return  it in each of its formats. Any thread may ask.
+  std::vector<std::string> encode(std::size_t number, const BlendedPicture& picture) const;
+  /// The ones that a GLB file holds: see glb_pictures.
+  std::vector<std::string_view> of_mesh(const Encoded& encoded) const;
+  /// Those of own_file_names.
+  /// \param encoded  they refer to it.
+  std::vector<OwnFile> files(const CastFace& face, std::span<const MeshFormat> meshes,
+                             const std::shared_ptr<const Encoded>& encoded) const;
+
+  /// About what the encoded pictures of one face take, and the encoding of the largest.
   std::uint64_t encode_bytes() const;
 
  private:

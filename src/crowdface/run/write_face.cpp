@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/io/single_precision.h"
@@ -23,10 +24,11 @@ namespace fs = std::filesystem;
 /// What a face wears, beside its mesh, and the materials of that.
 void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
                        std::span<const WornAttachment> worn, const fs::path& file) {
-  if (worn.empty() || !attachments_have_files(std::span(&format, 1))) return;
+  const bool has_files = attachments_have_files(std::span(&format, 1));
+  if (worn.empty() || !(has_files || format == MeshFormat::kUsd)) return;
   std::vector<EncodedMesh> meshes;
   const AttachmentWriters writers(job.inputs);
-  writers.add_to(meshes, face.id, worn);
+  if (has_files) writers.add_to(meshes, face.id, worn);
   for (const EncodedMesh& mesh : meshes) {
     write_mesh(mesh, file.parent_path() / (file.stem().string() + file_end(mesh.name)));
   }
@@ -69,13 +71,16 @@ void write_face(const Job& job, const FaceTextures& textures, const CastFace& fa
     return;
   }
   const OwnTextures own(job.config, job.inputs, {&face, 1});
-  std::vector<std::string> encoded = own.encode(textures.blend(face.recipe));
-  const std::vector<std::string_view> of_mesh = own.of_mesh(encoded);
+  const auto encoded = std::make_shared<OwnTextures::Encoded>(textures.picture_count());
+  parallel_for_each(encoded->size(), [&](std::size_t p) {
+    (*encoded)[p] = own.encode(p, textures.blend(face.recipe, p));
+  });
+  const std::vector<std::string_view> of_mesh = own.of_mesh(*encoded);
   write_mesh(writers.encode(face, positions, moves, of_mesh, worn).front(), file);
-  for (const OwnFile& beside : own.files(face, std::span(&format, 1), std::move(encoded))) {
+  for (const OwnFile& beside : own.files(face, std::span(&format, 1), encoded)) {
     const std::filesystem::path path = file.parent_path() / beside.name;
     make_directories(path.parent_path());
-    write_file(path, beside.bytes);
+    beside.file.write(path);
   }
 }
 

@@ -29,10 +29,10 @@ struct Sample {
 /// The numbers of a texel, 0 where the map has less than three.
 Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   const auto channels = static_cast<std::size_t>(map.coding.channels);
-  const std::size_t plane = map.planes.size() / channels;
+  const std::span<const Density> stored = map.stored();
   Eigen::Array3f numbers = Eigen::Array3f::Zero();
   for (std::size_t c = 0; c < channels; ++c) {
-    numbers[static_cast<Index>(c)] = map.number(map.planes[c * plane + texel]);
+    numbers[static_cast<Index>(c)] = map.number(stored[c * map.texels() + texel]);
   }
   return numbers;
 }

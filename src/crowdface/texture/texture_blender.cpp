@@ -10,21 +10,12 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "crowdface/texture/paint_picture.h"
 
 namespace crowdface {
 
-/// What a picture is computed from for one face, at the vertices that it shows: numbers to begin with, and
-/// the factor of what each head has stored. Between vertices all of it runs straight.
-struct TextureBlender::Fields {
-  std::size_t channels = 3;
-  std::vector<std::size_t> heads;  ///< those that lend anything, ascending
-  std::vector<float> values;       ///< #vertices by #channels + #heads
-  std::size_t width() const { return channels + heads.size(); }
-};
-
 namespace {
 
-constexpr int kRowsPerBlock = 16;
 constexpr Index kVerticesPerBlock = 1024;
 
 using HeadWeights = std::vector<double>;  ///< #heads, summing to one or all zero
@@ -104,125 +95,6 @@ double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
                                                        : 1 / std::sqrt(squares);
 }
 
-/// Texels of a row while they are computed.
-struct RowBuffer {
-  RowBuffer(int width, std::size_t fields) : width_(static_cast<std::size_t>(width)) {
-    values_.resize(width_ * fields);
-  }
-  float* of(std::size_t field) { return values_.data() + field * width_; }
-
- private:
-  std::size_t width_;
-  std::vector<float> values_;
-};
-
-/// Writes the fields of a row's covered texels.
-void interpolate(const SurfaceTexels& texels, int y, const std::vector<float>& values,
-                 std::size_t fields, RowBuffer& buffer) {
-  const auto row = static_cast<float>(y);
-  for (const SurfaceTexels::Span& span : texels.row(y)) {
-    const SurfaceTexels::Triangle& triangle = texels.triangle(span.triangle);
-    const float* first = values.data() + fields * triangle.corners[0];
-    const float* second = values.data() + fields * triangle.corners[1];
-    const float* third = values.data() + fields * triangle.corners[2];
-    const auto begin = static_cast<float>(span.begin);
-    const float b = triangle.second[0] + row * triangle.second[2] + begin * triangle.second[1];
-    const float c = triangle.third[0] + row * triangle.third[2] + begin * triangle.third[1];
-    const int count = span.end - span.begin;
-    for (std::size_t f = 0; f < fields; ++f) {
-      const float to_second = second[f] - first[f], to_third = third[f] - first[f];
-      const float start = first[f] + b * to_second + c * to_third;
-      const float step = triangle.second[1] * to_second + triangle.third[1] * to_third;
-      float* out = buffer.of(f) + span.begin;
-      for (int i = 0; i < count; ++i) out[i] = start + static_cast<float>(i) * step;
-    }
-  }
-}
-
-void add_products(const Density* densities, const float* factors, int begin, int end, float* sum) {
-  for (int x = begin; x < end; ++x) sum[x] += factors[x] * static_cast<float>(densities[x]);
-}
-
-/// The mean of the covered texels is what all beyond the gutter have.
-/// \param values  height · width · `channels`
-template <class Value>
-void fill_rest(const SurfaceTexels& texels, std::size_t channels, std::vector<Value>& values) {
-  std::vector<std::uint64_t> sums(channels);
-  for (int y = 0; y < texels.height(); ++y) {
-    for (const SurfaceTexels::Span& span : texels.row(y)) {
-      const std::size_t row =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.width());
-      for (std::size_t i = row + span.begin; i < row + span.end; ++i) {
-        for (std::size_t c = 0; c < channels; ++c) sums[c] += values[channels * i + c];
-      }
-    }
-  }
-  const std::uint64_t count = std::max<std::size_t>(1, texels.covered());
-  std::vector<Value> fill;
-  for (const std::uint64_t sum : sums) fill.push_back(static_cast<Value>(sum / count));
-  for (int y = 0; y < texels.height(); ++y) {
-    std::size_t x = static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.width());
-    const std::size_t row = x, end = x + static_cast<std::size_t>(texels.width());
-    const auto fill_to = [&](std::size_t stop) {
-      for (; x < stop; ++x) std::ranges::copy(fill, values.data() + channels * x);
-    };
-    for (const SurfaceTexels::Span& span : texels.row(y)) {
-      fill_to(row + span.begin);
-      x = row + span.end;
-    }
-    fill_to(end);
-  }
-  for (const SurfaceTexels::Gutter& texel : texels.gutter()) {
-    for (std::size_t c = 0; c < channels; ++c) {
-      values[channels * std::size_t{texel.to} + c] = values[channels * std::size_t{texel.from} + c];
-    }
-  }
-}
-
-std::uint16_t word_of(float share) {
-  return static_cast<std::uint16_t>(std::clamp(65535 * share + 0.5F, 0.0F, 65535.0F));
-}
-
-/// A row's colours. \param sum  the densities of a channel, a texel each.
-void write_colours(std::span<const SurfaceTexels::Span> spans, RowBuffer& sums, std::uint8_t* out) {
-  const std::vector<std::uint8_t>& srgb8 = srgb8_of_densities();
-  for (const SurfaceTexels::Span& span : spans) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float* sum = sums.of(c);
-      for (std::size_t x = span.begin; x < span.end; ++x) {
-        const float density = std::clamp(sum[x] + 0.5F, 0.0F, kMostDensity);
-        out[3 * x + c] = srgb8[static_cast<std::size_t>(static_cast<int>(density))];
-      }
-    }
-  }
-}
-
-/// Slopes become unit normals.
-void write_normals(std::span<const SurfaceTexels::Span> spans, RowBuffer& sums,
-                   std::uint16_t* out) {
-  for (const SurfaceTexels::Span& span : spans) {
-    for (std::size_t x = span.begin; x < span.end; ++x) {
-      const Eigen::Vector3f normal = Eigen::Vector3f(sums.of(0)[x], sums.of(1)[x], 1).normalized();
-      for (Index c = 0; c < 3; ++c) {
-        out[3 * x + static_cast<std::size_t>(c)] = word_of((normal[c] + 1) / 2);
-      }
-    }
-  }
-}
-
-void write_values(std::span<const SurfaceTexels::Span> spans, RowBuffer& sums,
-                  const BlendedPicture& picture, std::uint16_t* out) {
-  const auto channels = static_cast<std::size_t>(picture.channels);
-  for (const SurfaceTexels::Span& span : spans) {
-    for (std::size_t c = 0; c < channels; ++c) {
-      const float* sum = sums.of(c);
-      for (std::size_t x = span.begin; x < span.end; ++x) {
-        out[channels * x + c] = word_of((sum[x] - picture.low) / (65535 * picture.step));
-      }
-    }
-  }
-}
-
 /// What all maps of a picture have in common, and the numbers that a blend of them can have: an overshoot
 /// of detail beyond those of all heads is cut.
 MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& maps) {
@@ -300,10 +172,10 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
   for (double& share : region_shares_) share /= total;
 }
 
-TextureBlender::Fields TextureBlender::fields(std::size_t picture, const Recipe& recipe) const {
+PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) const {
   const auto& maps = textures_.maps[picture];
   const FaceWeights weights = face_weights(recipe, maps, region_shares_);
-  Fields fields;
+  PictureFields fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
     double most = options_.of_target.empty() ? 0.0 : weights.of_target[h];
@@ -355,61 +227,9 @@ TextureBlender::Fields TextureBlender::fields(std::size_t picture, const Recipe&
   return fields;
 }
 
-BlendedPicture TextureBlender::paint(std::size_t picture, const Fields& fields) const {
-  const SurfaceTexels& texels = texels_[picture];
-  const MapCoding& coding = codings_[picture];
-  BlendedPicture result{texels.width(), texels.height(), {}};
-  const auto width = static_cast<std::size_t>(texels.width());
-  const std::size_t count = width * static_cast<std::size_t>(texels.height());
-  if (coding.content == MapContent::kColours) {
-    result.srgb.resize(3 * count);
-  } else {
-    if (coding.content == MapContent::kValues) {
-      result.channels = coding.channels;
-      result.low = coding.low;
-      result.step = coding.step;
-    }
-    result.words.resize(static_cast<std::size_t>(result.channels) * count);
-  }
-  const auto channels = static_cast<std::size_t>(result.channels);
-  parallel_blocks(texels.height(), kRowsPerBlock, [&](int begin, int end) {
-    RowBuffer buffer(texels.width(), fields.width());
-    for (int y = begin; y < end; ++y) {
-      const auto spans = texels.row(y);
-      if (spans.empty()) continue;
-      interpolate(texels, y, fields.values, fields.width(), buffer);
-      const int first = spans.front().begin, last = spans.back().end;
-      for (std::size_t s = 0; s < fields.heads.size(); ++s) {
-        const TextureMap& map = *textures_.maps[picture][fields.heads[s]];
-        for (std::size_t c = 0; c < fields.channels; ++c) {
-          add_products(map.row(static_cast<int>(c), y), buffer.of(fields.channels + s), first, last,
-                       buffer.of(c));
-        }
-      }
-      const std::size_t row = channels * width * static_cast<std::size_t>(y);
-      if (coding.content == MapContent::kColours) {
-        write_colours(spans, buffer, result.srgb.data() + row);
-      } else if (coding.content == MapContent::kSlopes) {
-        write_normals(spans, buffer, result.words.data() + row);
-      } else {
-        write_values(spans, buffer, result, result.words.data() + row);
-      }
-    }
-  });
-  if (result.words.empty()) {
-    fill_rest(texels, channels, result.srgb);
-  } else {
-    fill_rest(texels, channels, result.words);
-  }
-  return result;
-}
-
-std::vector<BlendedPicture> TextureBlender::blend(const Recipe& recipe) const {
-  std::vector<BlendedPicture> pictures;
-  for (std::size_t p = 0; p < texels_.size(); ++p) {
-    pictures.push_back(paint(p, fields(p, recipe)));
-  }
-  return pictures;
+BlendedPicture TextureBlender::blend(const Recipe& recipe, std::size_t picture) const {
+  return paint_picture(texels_[picture], codings_[picture], textures_.maps[picture],
+                       fields(picture, recipe));
 }
 
 std::size_t TextureBlender::memory_bytes() const {
@@ -424,15 +244,17 @@ std::size_t TextureBlender::memory_bytes() const {
 
 std::size_t TextureBlender::blend_bytes() const {
   constexpr std::size_t kBytesATexel = 3, kBytesAWord = 2;
-  std::size_t bytes = 0, most_vertices = 0;
+  std::size_t most = 0;
   for (std::size_t p = 0; p < texels_.size(); ++p) {
     const SurfaceTexels& texels = texels_[p];
     const bool is_colour = codings_[p].content == MapContent::kColours;
-    bytes += kBytesATexel * (is_colour ? 1 : kBytesAWord) *
-             static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(texels.height());
-    most_vertices = std::max(most_vertices, texels.vertices().size());
+    const std::size_t bytes =
+        kBytesATexel * (is_colour ? 1 : kBytesAWord) * static_cast<std::size_t>(texels.width()) *
+            static_cast<std::size_t>(texels.height()) +
+        texels.vertices().size() * (3 + statistics_.coarse.size()) * sizeof(float);
+    most = std::max(most, bytes);
   }
-  return bytes + most_vertices * (3 + statistics_.coarse.size()) * sizeof(float);
+  return most;
 }
 
 }  // namespace crowdface

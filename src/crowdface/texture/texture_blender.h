@@ -7,6 +7,7 @@
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/region/region_weights.h"
 #include "crowdface/texture/crowd_textures.h"
+#include "crowdface/texture/paint_picture.h"
 #include "crowdface/texture/surface_statistics.h"
 
 namespace crowdface {
@@ -36,18 +37,16 @@ class TextureBlender {
                  const Adjacency& adjacency, const RegionWeights& regions,
                  const CrowdTextures& textures, TextureBlending options);
 
-  /// One picture for each of the layout's. Any thread may ask.
-  std::vector<BlendedPicture> blend(const Recipe& recipe) const;
+  /// \param picture  of the layout's. Any thread may ask.
+  BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// What this object itself takes, and what the blending of one face takes.
+  /// What this object itself takes, and what the blending of the largest picture takes.
   std::size_t memory_bytes() const;
   std::size_t blend_bytes() const;
 
  private:
-  struct Fields;
+  PictureFields fields(std::size_t picture, const Recipe& recipe) const;
 
-  Fields fields(std::size_t picture, const Recipe& recipe) const;
-  BlendedPicture paint(std::size_t picture, const Fields& fields) const;
   const RegionWeights& regions_;
   const CrowdTextures& textures_;
   TextureBlending options_;

@@ -86,12 +86,20 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
 
 std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
   const std::vector<std::uint8_t>& table = srgb8_of_densities();
-  const std::size_t texels = map.planes.size() / 3;
-  std::vector<std::uint8_t> bytes(map.planes.size());
+  const std::span<const Density> stored = map.stored();
+  const std::size_t texels = map.texels();
+  std::vector<std::uint8_t> bytes(stored.size());
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = 0; i < texels; ++i) bytes[3 * i + c] = table[map.planes[c * texels + i]];
+    for (std::size_t i = 0; i < texels; ++i) bytes[3 * i + c] = table[stored[c * texels + i]];
   }
   return bytes;
+}
+
+void move_to_disk(TextureMap& map, const std::filesystem::path& folder) {
+  const std::string_view bytes(reinterpret_cast<const char*>(map.planes.data()),
+                               map.planes.size() * sizeof(Density));
+  map.scratch = std::make_shared<const MappedFile>(MappedFile::of_scratch(bytes, folder));
+  map.planes = {};
 }
 
 }  // namespace crowdface

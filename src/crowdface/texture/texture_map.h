@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "crowdface/core/file.h"
 #include "crowdface/texture/optical_density.h"
 
 namespace crowdface {
@@ -43,17 +47,33 @@ struct TextureMap {
   int height = 0;
   std::vector<Density> planes;  ///< a channel each: height · width, first row on top: v = 1
   MapCoding coding = {};
+  std::shared_ptr<const MappedFile> scratch = {};  ///< where the planes lie instead, see move_to_disk
 
   float number(Density stored) const { return coding.number(stored); }
-  const Density* row(int channel, int y) const {
-    return planes.data() + (static_cast<std::size_t>(channel) * static_cast<std::size_t>(height) +
-                            static_cast<std::size_t>(y)) *
-                               static_cast<std::size_t>(width);
+  std::size_t texels() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
-  Density* row(int channel, int y) {
-    return const_cast<Density*>(static_cast<const TextureMap*>(this)->row(channel, y));
+  /// All planes, wherever they lie.
+  std::span<const Density> stored() const {
+    if (scratch == nullptr) return planes;
+    const std::string_view bytes = scratch->bytes();
+    return {reinterpret_cast<const Density*>(bytes.data()), bytes.size() / sizeof(Density)};
+  }
+  const Density* row(int channel, int y) const { return stored().data() + first_of(channel, y); }
+  /// Of a map that lies in memory.
+  Density* row(int channel, int y) { return planes.data() + first_of(channel, y); }
+
+ private:
+  std::size_t first_of(int channel, int y) const {
+    return (static_cast<std::size_t>(channel) * static_cast<std::size_t>(height) +
+            static_cast<std::size_t>(y)) *
+           static_cast<std::size_t>(width);
   }
 };
+
+/// Moves a map's planes out of memory into a nameless file of that folder, from which the system reads what
+/// is asked for. \throws CannotCreate, IoError.
+void move_to_disk(TextureMap& map, const std::filesystem::path& folder);
 
 /// A picture that is read row by row, by any thread: linear light, or the first numbers of each texel as a
 /// coding has them.

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/usda_material.h"
+
+#include <cmath>
+#include <string_view>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+const std::string kInner = "            ";
+const std::string kDeep = kInner + "    ";
+
+/// "(0.8, 0.6, 0.5)".
+std::string colour_text(const std::array<float, 4>& colour) {
+  const auto tidy = [](float value) { return std::round(static_cast<double>(value) * 1e4) / 1e4; };
+  return concat('(', tidy(colour[0]), ", ", tidy(colour[1]), ", ",
+                tidy(colour[2]), ')');
+}
+
+/// A texture as a shader of its own. \param more  lines of its inputs.
+std::string texture_text(const std::string& path, std::string_view name, const std::string& file,
+                         std::string_view wrap, bool is_colour, std::string_view more,
+                         std::string_view output) {
+  return concat('\n', kInner, "def Shader \"", name, "\"\n", kInner, "{\n", kDeep,
+                "uniform token info:id = \"UsdUVTexture\"\n", kDeep, "asset inputs:file = @", file,
+                "@\n", more, kDeep, "token inputs:sourceColorSpace = \"",
+                is_colour ? "sRGB" : "raw", "\"\n", kDeep, "float2 inputs:st.connect = <", path,
+                "/st.outputs:result>\n", kDeep, "token inputs:wrapS = \"", wrap, "\"\n", kDeep,
+                "token inputs:wrapT = \"", wrap, "\"\n", kDeep, output, '\n', kInner, "}\n");
+}
+
+}  // namespace
+
+std::string usda_material(const std::string& path, const std::string& name,
+                          const UsdaSurface& surface) {
+  const auto input = [&](const std::string& file, std::string_view shader, std::string_view output,
+                         const std::string& value) {
+    if (file.empty()) return concat(" = ", value, '\n');
+    return concat(".connect = <", path, '/', shader, ".outputs:", output, ">\n");
+  };
+  const std::string_view holes = surface.holes_in_alpha ? "a" : "r";
+  std::string text = concat("        def Material \"", name, "\"\n        {\n", kInner,
+                            "token outputs:surface.connect = <", path,
+                            "/surface.outputs:surface>\n\n", kInner, "def Shader \"surface\"\n",
+                            kInner, "{\n", kDeep, "uniform token info:id = \"UsdPreviewSurface\"\n",
+                            kDeep, "color3f inputs:diffuseColor",
+                            input(surface.picture, "colour", "rgb", colour_text(surface.colour)),
+                            kDeep, "float inputs:metallic = 0\n");
+  if (!surface.normals.empty()) {
+    text += concat(kDeep, "normal3f inputs:normal", input(surface.normals, "normal", "rgb", ""));
+  }
+  text += concat(kDeep, "float inputs:opacity",
+                 input(surface.holes, "holes", holes,
+                       concat(static_cast<double>(surface.colour[3]))));
+  if (!surface.holes.empty()) text += concat(kDeep, "float inputs:opacityThreshold = 0.5\n");
+  text += concat(kDeep, "float inputs:roughness",
+                 input(surface.roughness, "roughness", "r", "0.6"), kDeep,
+                 "token outputs:surface\n", kInner, "}\n");
+  const std::string_view wrap = surface.overlay ? "clamp" : "repeat";
+  const auto add_texture = [&](const std::string& file, std::string_view shader, bool is_colour,
+                               std::string_view more, std::string_view output) {
+    if (!file.empty()) text += texture_text(path, shader, file, wrap, is_colour, more, output);
+  };
+  add_texture(surface.picture, "colour", true, "", "float3 outputs:rgb");
+  add_texture(surface.normals, "normal", false,
+              concat(kDeep, "float4 inputs:bias = (-1, -1, -1, 0)\n", kDeep,
+                     "float4 inputs:scale = (2, 2, 2, 1)\n"),
+              "float3 outputs:rgb");
+  add_texture(surface.roughness, "roughness", false, "", "float outputs:r");
+  add_texture(surface.holes, "holes", false, "", concat("float outputs:", holes));
+  if (!(surface.picture + surface.normals + surface.roughness + surface.holes).empty()) {
+    text += concat('\n', kInner, "def Shader \"st\"\n", kInner, "{\n", kDeep,
+                   "uniform token info:id = \"UsdPrimvarReader_float2\"\n", kDeep,
+                   "string inputs:varname = \"", surface.overlay ? "st1" : "st", "\"\n", kDeep,
+                   "float2 outputs:result\n", kInner, "}\n");
+  }
+  return text + "        }\n";
+}
+
+}  // namespace crowdface

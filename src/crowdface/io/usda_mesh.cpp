@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/usda_mesh.h"
+
+#include <algorithm>
+
+#include "crowdface/core/require.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/single_precision.h"
+
+namespace crowdface {
+namespace {
+
+/// The values of the primvar, and for each corner which of them: one that has none gets zeros.
+std::string uv_lines(const Topology& topology, const TextureCoordinates& uvs) {
+  TextureCoordinates all = uvs;
+  std::vector<std::uint32_t> corners = topology.corner_uvs;
+  if (std::ranges::find(corners, kNoIndex) != corners.end()) {
+    all.conservativeResize(uvs.rows() + 1, Eigen::NoChange);
+    all.row(uvs.rows()).setZero();
+    std::replace(corners.begin(), corners.end(), kNoIndex, static_cast<std::uint32_t>(uvs.rows()));
+  }
+  return concat("            texCoord2f[] primvars:st = ", usda_uvs(all),
+                " (\n                interpolation = \"faceVarying\"\n            )\n"
+                "            int[] primvars:st:indices = ",
+                usda_list(corners), '\n');
+}
+
+std::string corner_counts(const Topology& topology) {
+  std::vector<std::uint32_t> counts;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto [begin, end] = topology.corners(f);
+    counts.push_back(end - begin);
+  }
+  return usda_list(counts);
+}
+
+std::string extent_of_points(const Positions& positions) {
+  Positions box(2, 3);
+  box.row(0) = positions.colwise().minCoeff();
+  box.row(1) = positions.colwise().maxCoeff();
+  return usda_rows(box);
+}
+
+}  // namespace
+
+UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Form& form)
+    : vertices_(topology.vertex_count), subdivision_(form.subdivision) {
+  faces_ =
+      concat("            uniform bool doubleSided = 1\n            int[] faceVertexCounts = ",
+             corner_counts(topology),
+             "\n            int[] faceVertexIndices = ", usda_list(topology.corner_vertices), '\n');
+  if (!topology.corner_uvs.empty()) faces_ += uv_lines(topology, uvs);
+  faces_ += concat(form.lines, "            uniform token subdivisionScheme = \"",
+                   subdivision_ == Subdivision::kNone ? "none" : "catmullClark", "\"\n");
+  std::vector<std::vector<std::uint32_t>> of_material(form.materials.size());
+  for (Index f = 0; f < topology.face_count() && !of_material.empty(); ++f) {
+    const std::size_t material =
+        form.face_materials.empty() ? 0 : form.face_materials[static_cast<std::size_t>(f)];
+    of_material[material].push_back(static_cast<std::uint32_t>(f));
+  }
+  UsdaNames names, beside;  // subsets lie beside the shapes
+  for (std::size_t m = 0; m < of_material.size(); ++m) {
+    const std::string& name = form.materials[m];
+    const bool is_used = !of_material[m].empty();
+    materials_.push_back(is_used ? names.add(name.empty() ? "material" : name) : "");
+    subsets_.push_back(is_used ? usda_list(of_material[m]) : "");
+    if (is_used) beside.add(concat(materials_.back(), "_faces"));
+  }
+  for (const GlbTarget& target : form.targets) {
+    shapes_.push_back(beside.add(target.name));
+    tokens_.push_back(usda_string(target.name));
+    indices_.push_back(target.vertices.empty() ? "" : usda_list(target.vertices));
+    target_rows_ += target.vertices.size();
+  }
+}
+
+void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& positions,
+                   const Positions& normals, std::span<const Displacements> moves,
+                   const std::string& what) const {
+  require(moves.size() == shapes_.size(), "UsdaMesh: displacements of each target");
+  require_finite(positions, vertices_, what);
+  file.add(concat("        def Mesh \"", place.name,
+                  "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"",
+                  shapes_.empty() ? "" : ", \"SkelBindingAPI\"", "]\n        )\n        {\n",
+                  "            float3[] extent = [", extent_of_points(positions), "]\n            ",
+                  kUsdaPoints));
+  file.add(usda_rows(positions));
+  file.add("]\n");
+  if (subdivision_ == Subdivision::kNone) {  // a subdivided surface has its own
+    require_finite(normals, vertices_, what);
+    file.add("            normal3f[] normals = [");
+    file.add(usda_rows(normals));
+    file.add("] (\n                interpolation = \"vertex\"\n            )\n");
+  }
+  file.refer_to(faces_);
+  add_shapes(file, place, moves, what);
+  add_subsets(file, place);
+  file.add("        }\n");
+}
+
+void UsdaMesh::add_shapes(EncodedFile& file, const Place& place,
+                          std::span<const Displacements> moves, const std::string& what) const {
+  if (shapes_.empty()) return;
+  std::vector<std::string> targets;
+  for (const std::string& shape : shapes_) {
+    targets.push_back(concat('<', place.face, '/', place.name, '/', shape, '>'));
+  }
+  file.add(concat("            uniform token[] skel:blendShapes = ", usda_list(tokens_),
+                  "\n            rel skel:blendShapeTargets = ", usda_list(targets),
+                  "\n            rel skel:skeleton = <", place.face, "/skeleton>\n"));
+  for (std::size_t s = 0; s < shapes_.size(); ++s) {
+    require_finite(moves[s].moves, moves[s].moves.rows(), what);
+    file.add(concat("\n            def BlendShape \"", shapes_[s],
+                    "\"\n            {\n                uniform vector3f[] offsets = ["));
+    file.add(usda_rows(moves[s].moves));
+    file.add("]\n                uniform int[] pointIndices = ");
+    if (indices_[s].empty()) {
+      file.add(usda_list(moves[s].vertices));
+    } else {
+      file.refer_to(indices_[s]);
+    }
+    file.add("\n            }\n");
+  }
+}
+
+void UsdaMesh::add_subsets(EncodedFile& file, const Place& place) const {
+  const auto used =
+      std::ranges::count_if(materials_, [](const std::string& name) { return !name.empty(); });
+  for (std::size_t m = 0; m < materials_.size(); ++m) {
+    const std::string& name = materials_[m];
+    if (name.empty()) continue;
+    const std::string binding =
+        concat("rel material:binding = <", place.materials, '/', name, ">\n");
+    if (used == 1) {
+      file.add("            " + binding);
+      return;
+    }
+    file.add(concat("\n            def GeomSubset \"", name,
+                    "_faces\" (\n                prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
+                    "            )\n            {\n                uniform token elementType = "
+                    "\"face\"\n                uniform token familyName = \"materialBind\"\n"
+                    "                int[] indices = "));
+    file.refer_to(subsets_[m]);
+    file.add(concat("\n                ", binding, "            }\n"));
+  }
+}
+
+std::size_t UsdaMesh::memory_bytes() const {
+  std::size_t bytes = faces_.size();
+  for (const auto* texts : {&subsets_, &indices_}) {
+    for (const std::string& text : *texts) bytes += text.size();
+  }
+  return bytes;
+}
+
+std::size_t UsdaMesh::encode_bytes() const {
+  // The text of each array, and its copy in the file.
+  return 2 * kLongestUsdaRow * (2 * static_cast<std::size_t>(vertices_) + target_rows_);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/usda_part.h"
+
+#include <utility>
+
+#include "crowdface/core/text.h"
+#include "crowdface/io/single_precision.h"
+
+namespace crowdface {
+namespace {
+
+UsdaMesh::Form form_of(const std::vector<UsdaPart::Material>& materials,
+                       std::vector<std::uint32_t> face_materials,
+                       const std::vector<std::string>& targets) {
+  UsdaMesh::Form form{.face_materials = std::move(face_materials)};
+  for (const UsdaPart::Material& material : materials) form.materials.push_back(material.name);
+  for (const std::string& target : targets) form.targets.push_back({target, {}});
+  return form;
+}
+
+}  // namespace
+
+UsdaPart::UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
+                   std::vector<Material> materials, std::vector<std::uint32_t> face_materials,
+                   const std::vector<std::string>& targets)
+    : name_(std::move(name)),
+      topology_(topology),
+      fans_(topology_),
+      mesh_(topology_, uvs, form_of(materials, std::move(face_materials), targets)),
+      materials_(std::move(materials)) {}
+
+void UsdaPart::add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
+                        std::span<const Displacements> moves, const std::string& what) const {
+  file.add("\n");
+  require_finite(positions, topology_.vertex_count, what);
+  mesh_.add(file, {root + "/face", name_, concat(root, '/', name_, "_materials")}, positions,
+            vertex_normals(fans_, topology_, positions), moves, what);
+}
+
+void UsdaPart::add_materials(EncodedFile& file, const std::string& root) const {
+  const std::string scope = name_ + "_materials";
+  file.add(concat("\n    def Scope \"", scope, "\"\n    {\n"));
+  const std::vector<std::string>& names = mesh_.materials();
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    if (names[m].empty()) continue;
+    file.add(usda_material(concat(root, '/', scope, '/', names[m]), names[m],
+                           materials_[m].surface));
+  }
+  file.add("    }\n");
+}
+
+}  // namespace crowdface

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crowdface/io/usda_material.h"
+#include "crowdface/io/usda_mesh.h"
+#include "crowdface/mesh/normals.h"
+
+namespace crowdface {
+
+/// A mesh of another topology that stands in the USD layers of faces, beside the face's mesh and moved by the
+/// same targets, with materials of its own. Like UsdaTemplate it is made once.
+class UsdaPart {
+ public:
+  struct Material {
+    std::string name;
+    UsdaSurface surface;
+  };
+
+  /// \param name            a prim's, no other part's.
+  /// \param uvs             #T by 2; may be empty.
+  /// \param materials       at least one.
+  /// \param face_materials  #F rows of `materials`.
+  /// \param targets         the names of the faces' targets.
+  UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
+           std::vector<Material> materials, std::vector<std::uint32_t> face_materials,
+           const std::vector<std::string>& targets);
+
+  /// Adds the mesh below the prim `face`; the file refers to this object.
+  /// \param root  path of the face's root prim. \param moves  #targets. \param what  for messages.
+  /// \throws InvalidInput if positions are not #V by 3 or not finite.
+  void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
+                std::span<const Displacements> moves, const std::string& what) const;
+  /// Adds its materials, below the root prim.
+  void add_materials(EncodedFile& file, const std::string& root) const;
+
+  std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }
+  std::size_t encode_bytes() const { return mesh_.encode_bytes(); }
+
+ private:
+  std::string name_;
+  Topology topology_;
+  NormalFans fans_;
+  UsdaMesh mesh_;
+  std::vector<Material> materials_;
+};
+
+/// One in the layer of a face.
+struct PlacedUsdaPart {
+  const UsdaPart* part;
+  const Positions* positions;
+  std::span<const Displacements> moves = {};
+};
+
+}  // namespace crowdface

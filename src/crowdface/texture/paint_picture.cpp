@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/texture/paint_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/texture/row_kernels.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kRowsPerBlock = 16;
+constexpr std::size_t kGutterPerBlock = 1 << 14;
+
+/// Sums of the covered texels of a row, a channel each.
+using RowSums = std::array<std::uint64_t, 3>;
+
+/// Texels of a row while they are computed: a float for each field.
+class RowBuffer {
+ public:
+  RowBuffer(int width, std::size_t fields)
+      : stride_(static_cast<std::size_t>(width) + kRowSlack), values_(stride_ * fields) {
+    for (std::size_t f = 0; f < fields; ++f) rows_.push_back(values_.data() + f * stride_);
+  }
+  std::span<float* const> rows() const { return rows_; }
+
+ private:
+  std::size_t stride_;
+  std::vector<float> values_;
+  std::vector<float*> rows_;
+};
+
+/// Writes the fields of a row's covered texels. What is written beyond a triangle's is written over by the next.
+void interpolate(const SurfaceTexels& texels, int y, const PictureFields& fields,
+                 const RowBuffer& buffer) {
+  const auto row = static_cast<float>(y);
+  const std::size_t width = fields.width();
+  std::vector<Ramp> ramps(width);
+  std::vector<float*> out(width);
+  for (const SurfaceTexels::Span& span : texels.row(y)) {
+    const SurfaceTexels::Triangle& triangle = texels.triangle(span.triangle);
+    const float* first = fields.values.data() + width * triangle.corners[0];
+    const float* second = fields.values.data() + width * triangle.corners[1];
+    const float* third = fields.values.data() + width * triangle.corners[2];
+    const auto begin = static_cast<float>(span.begin);
+    const float b = triangle.second[0] + row * triangle.second[2] + begin * triangle.second[1];
+    const float c = triangle.third[0] + row * triangle.third[2] + begin * triangle.third[1];
+    for (std::size_t f = 0; f < width; ++f) {
+      const float to_second = second[f] - first[f], to_third = third[f] - first[f];
+      ramps[f] = {first[f] + b * to_second + c * to_third,
+                  triangle.second[1] * to_second + triangle.third[1] * to_third};
+      out[f] = buffer.rows()[f] + span.begin;
+    }
+    write_ramps(ramps, static_cast<std::size_t>(span.end - span.begin), out.data());
+  }
+}
+
+std::uint16_t word_of(float share) {
+  return static_cast<std::uint16_t>(std::clamp(65535 * share + 0.5F, 0.0F, 65535.0F));
+}
+
+/// \param sums  the densities of a channel, a texel each. \param out  a row's bytes.
+RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
+                      std::uint8_t* out) {
+  static const std::uint8_t* const srgb8 = srgb8_of_densities().data();
+  RowSums total = {};
+  const auto byte_at = [&](std::size_t c, std::size_t x) {
+    const float density = std::clamp(sums[c][x] + 0.5F, 0.0F, kMostDensity);
+    return srgb8[static_cast<std::size_t>(static_cast<int>(density))];
+  };
+  for (const SurfaceTexels::Span& span : spans) {
+    for (std::size_t x = span.begin; x < span.end; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) total[c] += out[3 * x + c] = byte_at(c, x);
+    }
+  }
+  return total;
+}
+
+/// Slopes become unit normals.
+RowSums write_normals(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
+                      std::uint16_t* out) {
+  RowSums total = {};
+  for (const SurfaceTexels::Span& span : spans) {
+    for (std::size_t x = span.begin; x < span.end; ++x) {
+      const Eigen::Vector3f normal = Eigen::Vector3f(sums[0][x], sums[1][x], 1).normalized();
+      for (std::size_t c = 0; c < 3; ++c) {
+        total[c] += out[3 * x + c] = word_of((normal[static_cast<Index>(c)] + 1) / 2);
+      }
+    }
+  }
+  return total;
+}
+
+RowSums write_values(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
+                     const BlendedPicture& picture, std::uint16_t* out) {
+  RowSums total = {};
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  for (const SurfaceTexels::Span& span : spans) {
+    for (std::size_t x = span.begin; x < span.end; ++x) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        total[c] += out[channels * x + c] =
+            word_of((sums[c][x] - picture.low) / (65535 * picture.step));
+      }
+    }
+  }
+  return total;
+}
+
+/// The mean of the covered texels is what all beyond the gutter have.
+/// \param sums    #height. \param values  height · width · `channels`
+template <class Value>
+void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, std::size_t channels,
+               std::vector<Value>& values) {
+  std::array<Value, 3> fill = {};
+  for (std::size_t c = 0; c < channels; ++c) {
+    std::uint64_t sum = 0;
+    for (const RowSums& row : sums) sum += row[c];
+    fill[c] = static_cast<Value>(sum / std::max<std::size_t>(1, texels.covered()));
+  }
+  const auto width = static_cast<std::size_t>(texels.width());
+  parallel_for_each(texels.height(), kRowsPerBlock, [&](int y) {
+    std::size_t x = static_cast<std::size_t>(y) * width;
+    const std::size_t row = x, end = x + width;
+    const auto fill_to = [&](std::size_t stop) {
+      for (; x < stop; ++x) std::copy_n(fill.data(), channels, values.data() + channels * x);
+    };
+    for (const SurfaceTexels::Span& span : texels.row(y)) {
+      fill_to(row + span.begin);
+      x = row + span.end;
+    }
+    fill_to(end);
+  });
+  const std::vector<SurfaceTexels::Gutter>& gutter = texels.gutter();
+  parallel_for_each(gutter.size(), kGutterPerBlock, [&](std::size_t i) {
+    std::copy_n(values.data() + channels * std::size_t{gutter[i].from}, channels,
+                values.data() + channels * std::size_t{gutter[i].to});
+  });
+}
+
+/// A picture of its size, and how its numbers are kept.
+BlendedPicture blank_picture(const SurfaceTexels& texels, const MapCoding& coding) {
+  BlendedPicture picture{texels.width(), texels.height(), {}};
+  const std::size_t count =
+      static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(texels.height());
+  if (coding.content == MapContent::kColours) {
+    picture.srgb.resize(3 * count);
+    return picture;
+  }
+  if (coding.content == MapContent::kValues) {
+    picture.channels = coding.channels;
+    picture.low = coding.low;
+    picture.step = coding.step;
+  }
+  picture.words.resize(static_cast<std::size_t>(picture.channels) * count);
+  return picture;
+}
+
+}  // namespace
+
+BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
+                             const std::vector<std::shared_ptr<const TextureMap>>& maps,
+                             const PictureFields& fields) {
+  BlendedPicture result = blank_picture(texels, coding);
+  const auto channels = static_cast<std::size_t>(result.channels);
+  std::vector<RowSums> row_sums(static_cast<std::size_t>(texels.height()));
+  parallel_blocks(texels.height(), kRowsPerBlock, [&](int begin, int end) {
+    const RowBuffer buffer(texels.width(), fields.width());
+    const std::span<float* const> sums = buffer.rows().first(fields.channels);
+    std::vector<LentRow> lent(fields.heads.size());
+    for (int y = begin; y < end; ++y) {
+      const auto spans = texels.row(y);
+      if (spans.empty()) continue;
+      interpolate(texels, y, fields, buffer);
+      for (std::size_t s = 0; s < lent.size(); ++s) {
+        lent[s].factors = buffer.rows()[fields.channels + s];
+        for (std::size_t c = 0; c < fields.channels; ++c) {
+          lent[s].stored[c] = maps[fields.heads[s]]->row(static_cast<int>(c), y);
+        }
+      }
+      add_products(lent, spans.front().begin, spans.back().end, sums);
+      const std::size_t row =
+          channels * static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(y);
+      RowSums& total = row_sums[static_cast<std::size_t>(y)];
+      if (coding.content == MapContent::kColours) {
+        total = write_colours(spans, sums, result.srgb.data() + row);
+      } else if (coding.content == MapContent::kSlopes) {
+        total = write_normals(spans, sums, result.words.data() + row);
+      } else {
+        total = write_values(spans, sums, result, result.words.data() + row);
+      }
+    }
+  });
+  if (result.words.empty()) {
+    fill_rest(texels, row_sums, channels, result.srgb);
+  } else {
+    fill_rest(texels, row_sums, channels, result.words);
+  }
+  return result;
+}
+
+}  // namespace crowdface
