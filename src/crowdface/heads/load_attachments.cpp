@@ -115,13 +115,12 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
     set.items.push_back(std::move(*item));
   }
   const auto& meshes = config.output.meshes;
-  const bool have_files = std::ranges::any_of(meshes, [](MeshFormat format) {
-    return format == MeshFormat::kObj || format == MeshFormat::kGlb;
-  });
+  const bool have_files = std::ranges::any_of(
+      meshes, [](MeshFormat format) { return format != MeshFormat::kPoints; });
   if (!meshes.empty() && !have_files) {
     inputs.warnings.emplace_back(
-        "attachments are written as OBJ files and in GLB files, and output.meshes has neither obj "
-        "nor glb: no file has them");
+        "attachments are not written as NumPy arrays, and output.meshes has points alone: no file "
+        "has them");
     log_warning(inputs.warnings.back());
   }
   set.digest = digest_of(set);

@@ -87,10 +87,16 @@ class MaterialCopies {
 
 }  // namespace
 
-std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirectory& directory,
+std::vector<std::string> copy_materials(const Config& config, const Inputs& inputs,
+                                        const CrowdDirectory& directory,
                                         const std::vector<CastFace>& crowd, Ledger& ledger) {
   std::set<Index> targets;
-  for (const CastFace& face : crowd) targets.insert(face.recipe.target);
+  const auto has = [&](MeshFormat format) {
+    return std::ranges::find(config.output.meshes, format) != config.output.meshes.end();
+  };
+  for (const CastFace& face : crowd) {
+    if (has(MeshFormat::kObj)) targets.insert(face.recipe.target);
+  }
   std::set<TextureKind> own;
   for (const PictureName& picture : own_pictures(inputs)) own.insert(picture.kind);
   MaterialCopies copies(directory, ledger, std::move(own));
@@ -99,7 +105,10 @@ std::vector<std::string> copy_materials(const Inputs& inputs, const CrowdDirecto
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
   std::set<std::string> worn;
-  for (const CastFace& face : crowd) worn.insert(face.attachments.begin(), face.attachments.end());
+  const bool named = attachments_have_files(config.output.meshes) || has(MeshFormat::kUsd);
+  for (const CastFace& face : crowd) {
+    if (named) worn.insert(face.attachments.begin(), face.attachments.end());
+  }
   for (const std::string& name : worn) copies.add(inputs.attachments.at(name));
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);

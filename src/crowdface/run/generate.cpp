@@ -201,9 +201,7 @@ std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& d
   for (std::string& text : contradicted_quotas(job.config, cast)) {
     warnings.push_back(std::move(text));
   }
-  const auto& formats = job.config.output.meshes;
-  if (std::find(formats.begin(), formats.end(), MeshFormat::kObj) == formats.end()) return warnings;
-  for (std::string& text : copy_materials(job.inputs, directory, cast.crowd, ledger)) {
+  for (std::string& text : copy_materials(job.config, job.inputs, directory, cast.crowd, ledger)) {
     warnings.push_back(std::move(text));
   }
   return warnings;
