@@ -20,7 +20,7 @@ inline constexpr int kShapesVersion =
     6;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
 inline constexpr int kRigVersion = 1;          ///< joints that follow, and what is bound to them
-inline constexpr int kAttachmentsVersion = 2;  ///< attachments of a face of the same positions
+inline constexpr int kAttachmentsVersion = 3;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
 inline constexpr int kTextureVersion = 1;      ///< textures of faces' own
 inline constexpr int kSheetVersion = 11;  ///< contact sheets and the gallery, of the same pictures

@@ -16,8 +16,13 @@ bool attachments_have_files(std::span<const MeshFormat> formats) {
 std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<MeshFormat>& formats,
                                     const Inputs& inputs) {
   std::vector<MeshName> names = mesh_names(formats, inputs);
+  if (!attachments_have_files(formats)) return names;
   for (const std::string& name : face.attachments) {
-    if (attachments_have_files(formats)) names.push_back({MeshFormat::kObj, name, 0, true});
+    names.push_back({MeshFormat::kObj, {}, 0, name});
+    if (inputs.attachments.at(name).moves != AttachmentMove::kBend) continue;
+    for (const Shape& shape : inputs.shapes.shapes) {
+      names.push_back({MeshFormat::kObj, shape.name, 0, name});
+    }
   }
   return names;
 }
@@ -26,7 +31,8 @@ std::filesystem::path attachment_folder(const std::string& name) {
   return std::filesystem::path("attachments") / name;
 }
 
-AttachmentWriters::AttachmentWriters(const Inputs& inputs, const std::string& shared) {
+AttachmentWriters::AttachmentWriters(const Inputs& inputs, const std::string& shared)
+    : shapes_(inputs.shapes.shapes) {
   for (const Attachment& item : inputs.attachments.items) {
     forms_.emplace(
         &item, Form{ObjTemplate(item.file, item.file.topology),
@@ -39,10 +45,33 @@ void AttachmentWriters::add_to(std::vector<EncodedMesh>& meshes, const std::stri
                                std::span<const WornAttachment> worn) const {
   for (const WornAttachment& one : worn) {
     const Form& form = forms_.at(one.item);
-    EncodedFile file = form.obj.encode(one.positions, concat(id, ", ", one.item->name));
-    if (!form.libraries.empty()) file.replace_line("mtllib", form.libraries);
-    meshes.push_back({{MeshFormat::kObj, one.item->name, 0, true}, std::move(file)});
+    const auto add = [&](const std::string& shape, const Positions& positions) {
+      MeshName name{MeshFormat::kObj, shape, 0, one.item->name};
+      EncodedFile file = form.obj.encode(positions, concat(id, ", ", part_of(name)));
+      if (!form.libraries.empty()) file.replace_line("mtllib", form.libraries);
+      meshes.push_back({std::move(name), std::move(file)});
+    };
+    add({}, one.positions);
+    if (one.item->moves != AttachmentMove::kBend) continue;
+    for (std::size_t s = 0; s < one.moves.size(); ++s) {
+      Positions acting = one.positions;
+      one.moves[s].add_to(acting);
+      add(shapes_[s].name, acting);
+    }
   }
+}
+
+/// One of each kind is no more than all that there are.
+std::size_t AttachmentWriters::encode_bytes() const {
+  std::map<std::string, std::size_t> largest;
+  for (const auto& [item, form] : forms_) {
+    const bool bends = item->moves == AttachmentMove::kBend;
+    std::size_t& most = largest[item->kind];
+    most = std::max(most, form.obj.encode_bytes() * (bends ? 1 + shapes_.size() : 1));
+  }
+  std::size_t bytes = 0;
+  for (const auto& [kind, most] : largest) bytes += most;
+  return bytes;
 }
 
 }  // namespace crowdface

@@ -30,16 +30,20 @@ class AttachmentWriters {
   /// \param shared  as MeshWriters takes it
   explicit AttachmentWriters(const Inputs& inputs, const std::string& shared = {});
 
-  /// Adds the files of what a face wears.
+  /// Adds the files of what a face wears: at rest, and in each of its shapes where it bends.
   /// \param id  the face's, for messages.
   void add_to(std::vector<EncodedMesh>& meshes, const std::string& id,
               std::span<const WornAttachment> worn) const;
+
+  /// What the encoding of one face's takes at most.
+  std::size_t encode_bytes() const;
 
  private:
   struct Form {
     ObjTemplate obj;
     std::string libraries;  ///< the line that names material files; empty: there is none
   };
+  const std::vector<Shape>& shapes_;
   std::map<const Attachment*, Form> forms_;
 };
 

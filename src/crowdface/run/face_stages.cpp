@@ -335,6 +335,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   if (attachments_ != nullptr) {
     standing += attachments_->memory_bytes() + worn_bytes(config, inputs, crowd);
     of_thread += attachments_->worn_bytes();
+    if (attachments_have_files(meshes_)) of_thread += attachment_writers_.encode_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kLeastWaitingBytes);

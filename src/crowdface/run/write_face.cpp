@@ -28,6 +28,7 @@ void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
   const AttachmentWriters writers(job.inputs);
   writers.add_to(meshes, face.id, worn);
   for (const EncodedMesh& mesh : meshes) {
+    if (!mesh.name.shape.empty()) continue;
     write_mesh(mesh, file.parent_path() / (file.stem().string() + file_end(mesh.name)));
   }
   for (const std::string& name : face.attachments) {
