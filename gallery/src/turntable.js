@@ -32,22 +32,29 @@ export function unpackFace(base64, mesh) {
   return { points, normals, colours };
 }
 
-/// The face's expression shapes: for each the vertices that it moves (the same in all faces) and how far.
+/// The face's expression shapes: for each its number, the vertices that it moves (the same in all faces) and how far.
 export function unpackMoves(base64, mesh) {
   const moves = new Int16Array(bytesOf(base64).buffer);
   let at = 0;
-  return mesh.moved.map((text) => {
+  return mesh.moved.map((text, s) => {
     const vertices = new Uint32Array(bytesOf(text).buffer);
     const begin = at;
     at += 3 * vertices.length;
-    return { vertices, moves: moves.subarray(begin, at) };
+    return [s, { vertices, moves: moves.subarray(begin, at) }];
   });
 }
 
-/// Points with a share of each shape added.
+/// The same of what is worn: a shape's vertices stand before its moves.
+function unpackSome(base64) {
+  const bytes = bytesOf(base64);
+  const count = bytes.length / 10;
+  return { vertices: new Uint32Array(bytes.buffer, 0, count), moves: new Int16Array(bytes.buffer, 4 * count) };
+}
+
+/// Points with a share of each shape added. \param shapes  [number, shape] each
 export function inShapes(points, shapes, values, step) {
   const moved = points.slice();
-  shapes.forEach(({ vertices, moves }, s) => {
+  shapes.forEach(([s, { vertices, moves }]) => {
     if (!values[s]) return;
     for (let i = 0; i < vertices.length; i += 1) {
       for (let c = 0; c < 3; c += 1) moved[3 * vertices[i] + c] += values[s] * step * moves[3 * i + c];
@@ -102,15 +109,17 @@ export class Turntable extends Stage {
     this.face = { points, normals, shapes: moves ? unpackMoves(moves, this.mesh) : [] };
     this.face.colours = colours ?? this.colours;
     this.shown = name;
-    this.worn.show(worn);
+    this.face.worn = worn;
     this.act(this.values);
   }
 
-  /// What a face wears: [parts, points] each.
+  /// What a face wears: [parts, points, shapes] each.
   attachments(name) {
     return Promise.all(Object.entries(window.crowdface.worn[name]).map(async ([item, packed]) => {
       await loadScript(`data/attachments/${item}.js`);
-      return [await this.worn.prepare(item, () => window.crowdface.attachments[item]), pointsOf(packed, this.mesh)];
+      const { points, moves = {} } = packed.points ? packed : { points: packed };
+      return [await this.worn.prepare(item, () => window.crowdface.attachments[item]), pointsOf(points, this.mesh),
+        Object.entries(moves).map(([s, text]) => [s, unpackSome(text)])];
     }));
   }
 
@@ -121,7 +130,8 @@ export class Turntable extends Stage {
     const { geometry } = this.object;
     const { shapes } = this.face;
     let { points, normals } = this.face;
-    if (shapes.some((_, s) => values[s])) {
+    this.worn.show(this.face.worn.map(([parts, at, own]) => [parts, inShapes(at, own, values, this.mesh.step)]));
+    if (shapes.some(([s]) => values[s])) {
       points = inShapes(points, shapes, values, this.mesh.step);
       // The whole mesh's normals, turned as the reduced mesh's are.
       const triangles = geometry.index.array;

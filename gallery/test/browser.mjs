@@ -103,19 +103,26 @@ await take('face');
 // What the face wears: red on the left, and where its picture has a hole nothing.
 const card = await page.evaluate(`(${wornPixels})(window.crowdface.page.face.turntable)`);
 assert.ok(card.left > 100 && card.red > 0.9 * card.left && card.right < 0.3 * card.left, JSON.stringify(card));
-assert.match(await page.locator('main.face').innerText(), /Wears\s+card/);
+assert.match(await page.locator('main.face').innerText(), /Wears\s+card, tuft/);
 // An expression: its slider moves what the shape moves, with its shading, and nothing else.
 const geometry = () => page.evaluate(() => {
   const { position, normal } = window.crowdface.page.face.turntable.object.geometry.attributes;
   return { points: Array.from(position.array), normals: Array.from(normal.array) };
 });
+const worn = () => page.evaluate(() => window.crowdface.page.face.turntable.worn.node.children.map(
+  (part) => Array.from(part.children[0].geometry.attributes.position.array)));
 const atRest = await geometry();
+const wornAtRest = await worn();
 await page.getByLabel('browUp').fill('1');
 const acting = await geometry();
 const far = atRest.points.map((value, i) => Math.abs(value - acting.points[i]));
 assert.ok(Math.max(...far) > 0.3 && Math.max(...far) < 0.8, `moved by up to ${Math.max(...far)} cm`);
 assert.ok(far.filter((value) => value > 0).length < far.length / 3, 'most of the face stays');
 assert.notDeepEqual(acting.normals, atRest.normals);
+const [still, tuft] = await worn();
+assert.deepEqual(still, wornAtRest[0], 'what is rigid stays');
+const upBy = tuft.map((value, i) => value - wornAtRest[1][i]).filter((_, i) => i % 3 === 1);
+assert.ok(upBy.length === 3 && upBy.every((up) => up > 0.3 && up < 0.8), `a tuft of the brow goes along: ${upBy}`);
 await page.getByLabel('browUp').press('ArrowLeft');
 assert.ok(Math.abs(Number(await page.getByLabel('browUp').inputValue()) - 0.99) < 1e-9, 'arrows move the slider, not the page');
 await take('expression');

@@ -35,6 +35,8 @@ class FoldedSheet : public ::testing::Test {
     std::vector<std::uint32_t> skin(kColumns * kRows);
     std::iota(skin.begin(), skin.end(), 0U);
     skin_ = std::make_unique<FittedSkin>(topology_, mesh_, skin, 1);
+    apart_.vertex_count = 2;
+    apart_.face_offsets = {0};
     points_.resize(2, 3);
     points_ << 10, 25, 2.5, 10, 25, -0.5;  // above the upper sheet and below the lower one
   }
@@ -47,20 +49,36 @@ class FoldedSheet : public ::testing::Test {
     return shape;
   }
 
-  Topology topology_;
+  Topology topology_, apart_;
   Positions mesh_, points_;
   std::unique_ptr<FittedSkin> skin_;
 };
 
 TEST_F(FoldedSheet, TakesAlongWhatLiesOnTheSkinThatMovesAndNothingElse) {
-  const ShapeBend bend(*skin_, build_adjacency(topology_), points_);
+  const ShapeBend bend(*skin_, build_adjacency(topology_), apart_, points_);
   const Displacements moves = bend.in_shape(mesh_, points_, lowered());
   ASSERT_EQ(moves.vertices, std::vector<std::uint32_t>{1}) << "the upper sheet stays";
   EXPECT_LT(length3(row3(moves.moves, 0) - Eigen::Vector3d(0, 0, -3)), 1e-9);
 }
 
+/// A lash of the lower lid, whose tip is nearer to the upper one.
+TEST_F(FoldedSheet, TakesAlongWholeWhatGrowsOnTheSkinThatMoves) {
+  Positions lash(4, 3);
+  lash << 10, 30, -0.1, 10, 30.5, 0.5, 10, 30.6, 1.3, 10, 30.3, 1.9;
+  Topology strip;
+  strip.vertex_count = 4;
+  strip.face_offsets = {0, 3, 6};
+  strip.corner_vertices = {0, 1, 2, 1, 2, 3};
+  const ShapeBend bend(*skin_, build_adjacency(topology_), strip, lash);
+  const Displacements moves = bend.in_shape(mesh_, lash, lowered());
+  ASSERT_EQ(moves.vertices.size(), 4U);
+  for (Index v = 0; v < 4; ++v) {
+    EXPECT_LT(length3(row3(moves.moves, v) - Eigen::Vector3d(0, 0, -3)), 1e-9) << v;
+  }
+}
+
 TEST_F(FoldedSheet, StaysWhereTheSkinStays) {
-  const ShapeBend bend(*skin_, build_adjacency(topology_), points_);
+  const ShapeBend bend(*skin_, build_adjacency(topology_), apart_, points_);
   EXPECT_TRUE(bend.in_shape(mesh_, points_, {{}, Positions(0, 3)}).vertices.empty());
 }
 

@@ -12,6 +12,9 @@ mkdir -p "$folder/template/shapes"
 cp "$folder/heads/synth_01.obj" "$folder/template/neutral.obj"
 awk '/^v / && $3 > 1 && $3 < 5 && $4 > 6 { $3 += 0.5 } { print }' "$folder/template/neutral.obj" >"$folder/template/shapes/browUp.obj"
 write_card
+# Under the skin of a brow: it is to move and not to be seen.
+awk '/^v / && $2 > 1 && $2 < 3 && $3 > 2 && $3 < 4 && $4 > 6 { print $1, $2, $3, $4 - 0.2; n++ } n == 3 { exit }
+  END { print "f 1 2 3" }' "$folder/template/neutral.obj" >"$folder/tuft.obj"
 cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 7}
@@ -19,7 +22,7 @@ faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
 regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
 recipes: [{id: by_hand, target: synth_01, regions: {all: {weights: {synth_02: 1}}}}]
 families: [{name: smith, members: 2, target: synth_03, max_distance: 4 mm}]
-attachments: {items: [{name: card, kind: hat, file: card.obj, moves: rigid}]}
+attachments: {items: [{name: card, kind: hat, file: card.obj, moves: rigid}, {name: tuft, kind: brows, file: tuft.obj}]}
 shapes: {neutral: template/neutral.obj, directory: template/shapes}
 output: {directory: out, meshes: [points], contact_sheet: {cell: 96, views: [front, profile]}}
 YAML

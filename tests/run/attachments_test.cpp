@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hair and glasses on the faces of a crowd.
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -147,11 +149,44 @@ TEST_F(AttachmentsOfACrowd, AreMeshesBesideTheFacesInUsdLayers) {
 }
 
 TEST_F(AttachmentsOfACrowd, LieBesidePlyFilesAsObj) {
-  run({"output.meshes=[ply]"});
+  run({"output.meshes=[ply, glb]", "shapes={neutral: heads/ann.obj, directory: heads}"});
+  EXPECT_FALSE(fs::exists(mesh("herself+cap+bob.obj"))) << "nor has the face";
   EXPECT_TRUE(fs::exists(mesh("herself.ply")));
   EXPECT_TRUE(fs::exists(mesh("herself+cap.obj")));
   EXPECT_TRUE(fs::exists(mesh("attachments/cap/cap.mtl")));
   EXPECT_TRUE(verify_crowd(folder_.out()).good());
+}
+
+TEST_F(AttachmentsOfACrowd, GoAlongWithExpressionsInFilesOfTheirOwn) {
+  std::istringstream head(testing::read_text(folder_.head("ann")));
+  std::string shape;
+  for (std::string line; std::getline(head, line);) {
+    std::istringstream words(line);
+    std::string word;
+    double x = 0, y = 0, z = 0;
+    words >> word >> x >> y >> z;
+    shape += word == "v" ? concat("v ", x + 0.5, ' ', y, ' ', z, '\n') : line + '\n';
+  }
+  folder_.folder().write("shapes/aside.obj", shape);
+  run({"shapes={neutral: heads/ann.obj, directory: shapes}"});
+  const Positions rest = read_obj(mesh("herself+cap.obj")).positions,
+                  acting = read_obj(mesh("herself+cap+aside.obj")).positions;
+  for (Index v = 0; v < rest.rows(); ++v) {
+    EXPECT_NEAR(acting(v, 0) - rest(v, 0), 0.5, 1e-4) << v;
+    EXPECT_NEAR(acting(v, 1), rest(v, 1), 1e-4) << v;
+  }
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const std::string id = line.at("id");
+    EXPECT_TRUE(fs::exists(mesh(id + "+cap+aside.obj")));
+    EXPECT_FALSE(fs::exists(mesh(id + "+rod+aside.obj"))) << "what is rigid stays";
+  }
+  EXPECT_THAT(testing::read_text(mesh("herself+cap+aside.obj")),
+              HasSubstr("mtllib attachments/cap/cap.mtl\n"));
+  fs::remove(mesh("herself+cap+aside.obj"));
+  EXPECT_THAT(verify_crowd(folder_.out()).missing,
+              ::testing::ElementsAre("meshes/herself+cap+aside.obj"));
+  run({"shapes={neutral: heads/ann.obj, directory: shapes}"});
+  EXPECT_EQ(faces_built(), 1);
 }
 
 TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {

@@ -130,11 +130,10 @@ void FittedSkin::add_coarser(double spacing) {
   add_level(spacing, std::move(vertices), std::move(areas));
 }
 
-double FittedSkin::reach_at(const Eigen::Vector3d& point) const {
+double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
   const Level& finest = *levels_.front();
   const double nearest = finest.grid.nearest(point).distance;
-  const double reach =
-      kReachGrowth * nearest + std::max(kReachMm * mm_, kReachSpacings * spacing());
+  const double reach = kReachGrowth * nearest + least;
   const std::size_t fewest = std::min(kFewest, finest.vertices.size());
   std::vector<double> distances;
   for (double around = reach;; around *= 2) {
@@ -163,8 +162,12 @@ void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, d
 }
 
 FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point) const {
+  return patch_around(point, std::max(kReachMm * mm_, kReachSpacings * spacing()));
+}
+
+FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double least) const {
   Patch patch;
-  patch.reach = reach_at(point);
+  patch.reach = reach_at(point, least);
   std::size_t level = 0;
   while (level + 1 < levels_.size() && patch.reach > 2 * kSpacings * levels_[level]->spacing) {
     ++level;
@@ -187,7 +190,7 @@ SkinPlace FittedSkin::place_near(const Positions& face, const Positions& normals
   const SurfacePoint place = nearest_from(topology_, around_, face,
                                           descend(topology_, around_, face, start, point), point);
   const Eigen::Vector3d outward = unit3(point_on(normals, place.corners, place.shares));
-  return {place.corners[0], dot3(point - place.position, outward), outward};
+  return {place.corners[0], dot3(point - place.position, outward), outward, place.position};
 }
 
 }  // namespace crowdface

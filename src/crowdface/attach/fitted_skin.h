@@ -19,6 +19,7 @@ struct SkinPlace {
   std::uint32_t vertex = 0;                           ///< a corner of the nearest triangle
   double height = 0;                                  ///< off the skin; negative: inside
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, smooth over the skin
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the skin
 };
 
 /// The skin of the mesh that attachments were fitted to, and how any face of its topology is asked
@@ -51,6 +52,8 @@ class FittedSkin {
   /// reach is a few millimetres at the skin and grows with the distance from it; weights and reach
   /// are continuous in the point, so that neighbours hear of almost the same skin.
   Patch patch_around(const Eigen::Vector3d& point) const;
+  /// \param least  the reach at the skin, where vertices lie closely enough
+  Patch patch_around(const Eigen::Vector3d& point, double least) const;
 
   /// Unit normals of a face's vertices, #V by 3, that look off the skin.
   Positions normals(const Positions& face) const;
@@ -69,7 +72,7 @@ class FittedSkin {
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   void add_coarser(double spacing);
-  double reach_at(const Eigen::Vector3d& point) const;
+  double reach_at(const Eigen::Vector3d& point, double least) const;
   void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                    Patch& patch) const;
 

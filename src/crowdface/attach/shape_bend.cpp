@@ -3,53 +3,159 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <numeric>
+#include <queue>
 #include <utility>
 
 #include "crowdface/attach/bend_places.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/mesh/edge_distances.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/rigid_motion.h"
 
 namespace crowdface {
 namespace {
 
+/// How far skin is heard around a root, where its vertices lie closely enough.
+constexpr double kReachMm = 3;
+/// What is farther off the skin hears more of it.
+constexpr double kOffMm = 10;
 /// How far along the skin, in a patch's reach, skin counts as near.
 constexpr double kAlong = 1.5;
 /// Fewer vertices than this tell no turn: then the whole patch is heard.
 constexpr std::size_t kFewest = 6;
 
+/// Other skin is as near as the nearest if it is by no more than this farther, and far along the skin from so
+/// many times that distance on.
+constexpr double kBetweenMm = 2, kFar = 4;
+
+/// Where points have their roots on the skin, each found from that of a neighbour.
+class Roots {
+ public:
+  Roots(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
+        const Positions& points)
+      : skin_(skin),
+        points_(points),
+        normals_(skin.normals(skin.mesh())),
+        of_point_(static_cast<std::size_t>(points.rows())),
+        is_found_(of_point_.size(), false) {
+    std::vector<Open> nearest(of_point_.size());
+    parallel_for_each(nearest.size(), [&](std::size_t p) {
+      const auto found = skin.grid().nearest(row3(points, p));
+      nearest[p] = {false, found.distance, static_cast<std::uint32_t>(p), found.vertex};
+    });
+    EdgeDistances along(adjacency, skin.mesh());
+    for (Open& at : nearest) at.is_between = is_between(at, along);
+    std::vector<Open> starts = nearest;
+    std::sort(starts.begin(), starts.end());
+    const Adjacency neighbours = build_adjacency(topology);
+    for (const Open& start : starts) {
+      if (!is_found_[start.point]) spread(start, nearest, neighbours);
+    }
+  }
+  const std::vector<SkinPlace>& of_point() const { return of_point_; }
+
+ private:
+  struct Open {
+    bool is_between;  ///< skin that is far from each other along it: it tells less than a neighbour
+    double distance;
+    std::uint32_t point, vertex;
+
+    auto operator<=>(const Open&) const = default;
+  };
+
+  bool is_between(const Open& at, EdgeDistances& along) const {
+    const double reach = at.distance + kBetweenMm * skin_.mm();
+    along.search(std::array{at.vertex}, kFar * reach);
+    const Eigen::Vector3d point = row3(points_, at.point);
+    return std::ranges::any_of(skin_.grid().about(point, reach), [&](std::uint32_t v) {
+      return length3(row3(skin_.mesh(), v) - point) < reach && std::isinf(along.distance(v));
+    });
+  }
+
+  void spread(const Open& start, const std::vector<Open>& nearest, const Adjacency& neighbours) {
+    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+    open.push(start);
+    while (!open.empty()) {
+      const auto [is_between, distance, point, from] = open.top();
+      open.pop();
+      if (is_found_[point]) continue;
+      is_found_[point] = true;
+      of_point_[point] = skin_.place_near(skin_.mesh(), normals_, from, row3(points_, point));
+      for (const std::uint32_t next : neighbours.of(point)) {
+        if (is_found_[next]) continue;
+        Open found = nearest[next];
+        found.vertex = of_point_[point].vertex;
+        open.push(found);
+      }
+    }
+  }
+
+  const FittedSkin& skin_;
+  const Positions& points_;
+  Positions normals_;
+  std::vector<SkinPlace> of_point_;
+  std::vector<bool> is_found_;
+};
+
+/// By which points hear the skin: their roots, but of what is farther off.
+Positions anchors_of(const std::vector<SkinPlace>& roots, const Positions& points, double off) {
+  Positions anchors(points.rows(), 3);
+  for (std::size_t p = 0; p < roots.size(); ++p) {
+    const Eigen::Vector3d away = row3(points, p) - roots[p].position;
+    const double distance = length3(away);
+    const double share = distance > off ? (distance - off) / distance : 0;
+    anchors.row(static_cast<Index>(p)) = (roots[p].position + share * away).transpose();
+  }
+  return anchors;
+}
+
 }  // namespace
 
-ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Positions& points) {
+ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
+                     const Positions& points) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(points.rows()));
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
-  const PointGrid grid(points, all);
-  BendPlaces places = find_places(skin, points, grid);
-  std::vector<std::uint32_t> below(all.size());
-  parallel_for_each(all.size(),
-                    [&](std::size_t p) { below[p] = skin.grid().nearest(row3(points, p)).vertex; });
+  const std::vector<SkinPlace> roots = Roots(skin, adjacency, topology, points).of_point();
+  const Positions anchors = anchors_of(roots, points, kOffMm * skin.mm());
+  const PointGrid grid(anchors, all);
   EdgeDistances along(adjacency, skin.mesh());
   std::vector<std::vector<Share>> of_point(all.size());
-  for (std::uint32_t n = 0; n < places.patches.size(); ++n) {
-    FittedSkin::Patch& patch = places.patches[n];
-    along.search(std::array{below[places.points[n]]}, kAlong * patch.reach);
-    FittedSkin::Patch near{{}, {}, patch.reach};
-    for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
-      if (along.distance(patch.vertices[i]) > kAlong * patch.reach) continue;
-      near.vertices.push_back(patch.vertices[i]);
-      near.weights.push_back(patch.weights[i]);
+  std::vector<bool> covered(all.size(), false);
+  for (std::uint32_t p = 0; p < all.size(); ++p) {
+    if (covered[p]) continue;
+    const Eigen::Vector3d middle = row3(anchors, p);
+    const auto number = static_cast<std::uint32_t>(places_.size());
+    places_.push_back(skin.patch_around(middle, kReachMm * skin.mm()));
+    FittedSkin::Patch& patch = places_.back();
+    const double near = kAlong * patch.reach;
+    along.search(std::array{roots[p].vertex}, near);
+    const double heard = BendPlaces::kHeard * BendPlaces::kApart * patch.reach;
+    for (const std::uint32_t q : grid.about(middle, heard)) {
+      const double distance = length3(row3(anchors, q) - middle) / heard;
+      if (distance >= 1 || along.distance(roots[q].vertex) > near) continue;
+      const double rest = 1 - distance * distance;
+      of_point[q].push_back({number, static_cast<float>(rest * rest)});
+      if (distance * BendPlaces::kHeard < 1) covered[q] = true;
     }
-    if (near.vertices.size() >= kFewest) patch = std::move(near);
-    visit_hearers(points, grid, places, n, [&](std::uint32_t p, double weight) {
-      const bool is_near = along.distance(below[p]) <= kAlong * patch.reach;
-      if (is_near) of_point[p].push_back({n, static_cast<float>(weight)});
-    });
+    covered[p] = true;
+    keep_near(along, near, patch);
   }
   for (const std::vector<Share>& shares : of_point) shares_.add_group(shares);
-  places_ = std::move(places.patches);
+}
+
+/// Leaves out of a patch what is not near along the skin, unless too little were left.
+void ShapeBend::keep_near(const EdgeDistances& along, double limit, FittedSkin::Patch& patch) {
+  FittedSkin::Patch near{{}, {}, patch.reach};
+  for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+    if (along.distance(patch.vertices[i]) > limit) continue;
+    near.vertices.push_back(patch.vertices[i]);
+    near.weights.push_back(patch.weights[i]);
+  }
+  if (near.vertices.size() >= kFewest) patch = std::move(near);
 }
 
 Displacements ShapeBend::in_shape(const Positions& face, const Positions& worn,

@@ -17,7 +17,7 @@ inline constexpr int kPrepareVersion = 5;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
 inline constexpr int kFaceFilesVersion = 14;
 inline constexpr int kShapesVersion =
-    6;  ///< shapes carried to a face of the same positions, and shown
+    7;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
 inline constexpr int kRigVersion = 1;          ///< joints that follow, and what is bound to them
 inline constexpr int kAttachmentsVersion = 3;  ///< attachments of a face of the same positions

@@ -181,9 +181,13 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   add_shapes(surfaces, mean);
 }
 
+double GalleryMeshes::least_move() const {
+  return kLeastMoveMm / mm_per(config_.faces.units);
+}
+
 void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) {
   if (inputs_.shapes.shapes.empty()) return;
-  const double least = kLeastMoveMm / mm_per(config_.faces.units);
+  const double least = least_move();
   std::vector<std::uint32_t> reduced(static_cast<std::size_t>(inputs_.faces.topology.vertex_count),
                                      kNoIndex);
   for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) reduced[mesh_.vertices[v]] = v;
@@ -210,16 +214,10 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
 }
 
 std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried) const {
-  constexpr double kMost = 32767;
   std::string bytes;
   for (std::size_t s = 0; s < carried.size(); ++s) {
     for (const std::uint32_t row : shown_[s].rows) {
-      for (int c = 0; c < 3; ++c) {
-        const double steps = std::clamp(carried[s].moves(row, c) / frame_.step, -kMost, kMost);
-        const auto value = static_cast<std::uint16_t>(std::lround(steps));
-        bytes += static_cast<char>(value & 0xffU);
-        bytes += static_cast<char>(value >> 8U);
-      }
+      bytes += pack_move(carried[s].moves.row(row), frame_);
     }
   }
   return bytes;
@@ -307,10 +305,12 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   std::string more;
   if (!shown_.empty()) more = concat(",\"", base64(packed_shapes(moves)), '"');
   if (!worn.empty()) {
-    Json packed;
-    for (const WornAttachment& one : worn)
-      packed[one.item->name] = attachments_.packed(one, frame_);
-    more += concat(shown_.empty() ? ",null," : ",", packed.dump());
+    std::vector<std::string> packed;
+    for (const WornAttachment& one : worn) {
+      packed.push_back(concat(Json(one.item->name).dump(), ':',
+                              attachments_.packed(one, frame_, least_move())));
+    }
+    more += concat(shown_.empty() ? ",null,{" : ",{", join(packed, ","), '}');
   }
   return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), '"', more, ");\n");
 }

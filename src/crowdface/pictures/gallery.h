@@ -70,6 +70,7 @@ class GalleryMeshes {
   std::string shades(const VertexColours& colours) const;
   VertexColours textured(const TextureCoat& coat) const;
   std::vector<Corner> find_corners(const FaceSet& faces) const;
+  double least_move() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
   std::string packed_shapes(std::span<const Displacements> carried) const;
 

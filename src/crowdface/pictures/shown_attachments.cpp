@@ -61,6 +61,23 @@ std::string opacity_picture(const Texture& texture) {
   return address_of("png", encode_png(small.width, small.height, 1, pixels));
 }
 
+/// The vertices that move at least so far, four bytes each, then how far.
+/// \param shown  rows of what moves
+std::string packed_moves(std::span<const std::uint32_t> shown, const Displacements& shape,
+                         const PackingFrame& frame, double least) {
+  std::vector<std::uint32_t> vertices;
+  std::string moves;
+  for (std::uint32_t v = 0; v < shown.size(); ++v) {
+    const auto at = std::ranges::lower_bound(shape.vertices, shown[v]);
+    if (at == shape.vertices.end() || *at != shown[v]) continue;
+    const auto move = shape.moves.row(at - shape.vertices.begin());
+    if (move.norm() < least) continue;
+    vertices.push_back(v);
+    moves += pack_move(move, frame);
+  }
+  return little_endian(vertices) + moves;
+}
+
 Json part_to_json(const PreviewMesh& mesh, const WornMaterial& material) {
   Json json;
   json["vertices"] = mesh.vertices.size();
@@ -104,12 +121,19 @@ std::string ShownAttachments::look(const Attachment& item, const WornSurface& su
   return json.dump();
 }
 
-std::string ShownAttachments::packed(const WornAttachment& worn, const PackingFrame& frame) const {
-  std::string bytes;
+std::string ShownAttachments::packed(const WornAttachment& worn, const PackingFrame& frame,
+                                     double least) const {
+  std::vector<std::uint32_t> shown;
   for (const PreviewMesh& part : parts(*worn.item)) {
-    bytes += pack_points(part.vertices, frame, worn.positions);
+    shown.insert(shown.end(), part.vertices.begin(), part.vertices.end());
   }
-  return base64(bytes);
+  const std::string points = base64(pack_points(shown, frame, worn.positions));
+  Json moves = Json::object();
+  for (std::size_t s = 0; s < worn.moves.size(); ++s) {
+    const std::string of_shape = packed_moves(shown, worn.moves[s], frame, least);
+    if (!of_shape.empty()) moves[std::to_string(s)] = base64(of_shape);
+  }
+  return (moves.empty() ? Json(points) : Json{{"points", points}, {"moves", moves}}).dump();
 }
 
 std::vector<float> ShownAttachments::points(const WornAttachment& worn) const {

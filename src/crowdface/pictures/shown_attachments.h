@@ -18,8 +18,10 @@ class ShownAttachments {
  public:
   /// What pages need to show one on any face, as JSON: for each material triangles and how it looks.
   std::string look(const Attachment& item, const WornSurface& surface) const;
-  /// Positions on a face, 16 bits a coordinate, as text: the vertices of one material after the other.
-  std::string packed(const WornAttachment& worn, const PackingFrame& frame) const;
+  /// Positions on a face, as JSON, 16 bits a coordinate: the vertices of one material after the other; and
+  /// how far the face's shapes move which of those.
+  /// \param least  a move that is shown
+  std::string packed(const WornAttachment& worn, const PackingFrame& frame, double least) const;
   /// The same as numbers, three a vertex.
   std::vector<float> points(const WornAttachment& worn) const;
 

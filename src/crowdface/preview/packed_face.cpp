@@ -75,6 +75,18 @@ std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const F
   return bytes;
 }
 
+std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame) {
+  constexpr double kMost = 32767;
+  std::string bytes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double steps = std::clamp(move[axis] / frame.step, -kMost, kMost);
+    const auto value = static_cast<std::uint16_t>(std::lround(steps));
+    bytes += static_cast<char>(value & 0xFFU);
+    bytes += static_cast<char>(value >> 8U);
+  }
+  return bytes;
+}
+
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

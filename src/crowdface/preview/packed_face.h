@@ -31,6 +31,9 @@ std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const F
 std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFrame& frame,
                         const Positions& positions);
 
+/// How far a vertex moves: three little-endian 16-bit numbers, steps of the frame.
+std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame);
+
 /// Bytes as text (RFC 4648).
 std::string base64(std::string_view bytes);
 

@@ -9,17 +9,34 @@
 
 namespace crowdface {
 
+namespace {
+
+bool has(std::span<const MeshFormat> formats, MeshFormat format) {
+  return std::ranges::find(formats, format) != formats.end();
+}
+
+/// The shapes that an attachment has files of: where the face has, and it bends.
+std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
+                                       const Inputs& inputs) {
+  if (item.moves != AttachmentMove::kBend || !has(formats, MeshFormat::kObj)) return {};
+  return inputs.shapes.shapes;
+}
+
+}  // namespace
+
 bool attachments_have_files(std::span<const MeshFormat> formats) {
-  return std::ranges::any_of(formats, [](MeshFormat format) {
-    return format == MeshFormat::kObj || format == MeshFormat::kPly;
-  });
+  return has(formats, MeshFormat::kObj) || has(formats, MeshFormat::kPly);
 }
 
 std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<MeshFormat>& formats,
                                     const Inputs& inputs) {
   std::vector<MeshName> names = mesh_names(formats, inputs);
+  if (!attachments_have_files(formats)) return names;
   for (const std::string& name : face.attachments) {
-    if (attachments_have_files(formats)) names.push_back({MeshFormat::kObj, name, 0, true});
+    names.push_back({MeshFormat::kObj, {}, 0, name});
+    for (const Shape& shape : shapes_in_files(inputs.attachments.at(name), formats, inputs)) {
+      names.push_back({MeshFormat::kObj, shape.name, 0, name});
+    }
   }
   return names;
 }
@@ -28,7 +45,9 @@ std::filesystem::path attachment_folder(const std::string& name) {
   return std::filesystem::path("attachments") / name;
 }
 
-AttachmentWriters::AttachmentWriters(const Inputs& inputs, const std::string& shared) {
+AttachmentWriters::AttachmentWriters(const Inputs& inputs, std::span<const MeshFormat> formats,
+                                     const std::string& shared)
+    : formats_(formats.begin(), formats.end()), inputs_(inputs) {
   for (const Attachment& item : inputs.attachments.items) {
     forms_.emplace(
         &item, Form{ObjTemplate(item.file, item.file.topology),
@@ -39,12 +58,37 @@ AttachmentWriters::AttachmentWriters(const Inputs& inputs, const std::string& sh
 
 void AttachmentWriters::add_to(std::vector<EncodedMesh>& meshes, const std::string& id,
                                std::span<const WornAttachment> worn) const {
+  if (!attachments_have_files(formats_)) return;
   for (const WornAttachment& one : worn) {
     const Form& form = forms_.at(one.item);
-    EncodedFile file = form.obj.encode(one.positions, concat(id, ", ", one.item->name));
-    if (!form.libraries.empty()) file.replace_line("mtllib", form.libraries);
-    meshes.push_back({{MeshFormat::kObj, one.item->name, 0, true}, std::move(file)});
+    const auto add = [&](const std::string& shape, const Positions& positions) {
+      MeshName name{MeshFormat::kObj, shape, 0, one.item->name};
+      EncodedFile file = form.obj.encode(positions, concat(id, ", ", part_of(name)));
+      if (!form.libraries.empty()) file.replace_line("mtllib", form.libraries);
+      meshes.push_back({std::move(name), std::move(file)});
+    };
+    add({}, one.positions);
+    const std::span<const Shape> shapes = shapes_in_files(*one.item, formats_, inputs_);
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      Positions acting = one.positions;
+      one.moves[s].add_to(acting);
+      add(shapes[s].name, acting);
+    }
   }
+}
+
+/// One of each kind is no more than all that there are.
+std::size_t AttachmentWriters::encode_bytes() const {
+  if (!attachments_have_files(formats_)) return 0;
+  std::map<std::string, std::size_t> largest;
+  for (const auto& [item, form] : forms_) {
+    std::size_t& most = largest[item->kind];
+    most = std::max(most, form.obj.encode_bytes() *
+                              (1 + shapes_in_files(*item, formats_, inputs_).size()));
+  }
+  std::size_t bytes = 0;
+  for (const auto& [kind, most] : largest) bytes += most;
+  return bytes;
 }
 
 }  // namespace crowdface

@@ -26,20 +26,27 @@ std::filesystem::path attachment_folder(const std::string& name);
 /// Writes attachments as OBJ files: their own, with other positions and the place of their materials.
 class AttachmentWriters {
  public:
-  /// \param inputs  must outlive this object and all that it encodes.
+  /// \param inputs  must outlive this object and all that it encodes. \param formats  of the faces.
   /// \param shared  as MeshWriters takes it
-  explicit AttachmentWriters(const Inputs& inputs, const std::string& shared = {});
+  AttachmentWriters(const Inputs& inputs, std::span<const MeshFormat> formats,
+                    const std::string& shared = {});
 
-  /// Adds the files of what a face wears.
+  /// Adds the files of what a face wears, if there are any: at rest, and where it bends in each of the shapes that faces have
+  /// files of.
   /// \param id  the face's, for messages.
   void add_to(std::vector<EncodedMesh>& meshes, const std::string& id,
               std::span<const WornAttachment> worn) const;
+
+  /// What the encoding of one face's takes at most.
+  std::size_t encode_bytes() const;
 
  private:
   struct Form {
     ObjTemplate obj;
     std::string libraries;  ///< the line that names material files; empty: there is none
   };
+  std::vector<MeshFormat> formats_;
+  const Inputs& inputs_;
   std::map<const Attachment*, Form> forms_;
 };
 

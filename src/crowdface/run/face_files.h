@@ -19,13 +19,13 @@ namespace crowdface {
 /// that it wears.
 struct MeshName {
   MeshFormat format = MeshFormat::kObj;
-  std::string shape = {};      ///< of one shape; kAllShapes; kFollowingPoints; empty: the face
-  std::size_t level = 0;       ///< of detail; 0: the whole mesh
-  bool is_attachment = false;  ///< of which `shape` is the name
+  std::string shape = {};       ///< of one shape; kAllShapes; kFollowingPoints; empty: at rest
+  std::size_t level = 0;        ///< of detail; 0: the whole mesh
+  std::string attachment = {};  ///< empty: the face
 };
 /// The displacements of all shapes.
 inline constexpr const char* kAllShapes = "shapes";
-/// What stands after the face's id in the file's name: "LOD1+smile", or nothing.
+/// What stands after the face's id in the file's name: "LOD1+smile", "bob+smile", or nothing.
 std::string part_of(const MeshName& name);
 /// The whole of it: "+LOD1+smile.obj".
 std::string file_end(const MeshName& name);

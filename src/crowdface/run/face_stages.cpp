@@ -230,7 +230,7 @@ class FaceOutput {
     std::vector<std::string_view> of_mesh;
     if (own_ != nullptr) of_mesh = own_->of_mesh(*textures);
     std::vector<EncodedMesh> meshes = writers_.encode(face, positions, moves, of_mesh, worn);
-    if (attachments_have_files(formats_)) attachment_writers_.add_to(meshes, face.id, worn);
+    attachment_writers_.add_to(meshes, face.id, worn);
     for (EncodedMesh& mesh : meshes) {
       mesh.file.keep(textures);
       const fs::path path = mesh_path(directory_, face.id, mesh.name);
@@ -337,7 +337,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
       textures_(textures),
       attachments_(attachments),
       shapes_(shapes),
-      attachment_writers_(inputs, directory_of(config).shared_from_mesh()),
+      attachment_writers_(inputs, config.output.meshes, directory_of(config).shared_from_mesh()),
       meshes_(config.output.meshes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + writers_.memory_bytes() + shapes.memory_bytes();
@@ -357,6 +357,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   if (attachments_ != nullptr) {
     standing += attachments_->memory_bytes() + worn_bytes(config, inputs, crowd);
     of_thread += attachments_->worn_bytes();
+    of_thread += attachment_writers_.encode_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kLeastWaitingBytes);

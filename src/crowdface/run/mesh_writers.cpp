@@ -51,8 +51,8 @@ std::size_t normals_bytes(const Topology& topology) {
 }  // namespace
 
 std::string part_of(const MeshName& name) {
-  if (name.level == 0) return name.shape;
-  return concat("LOD", name.level, name.shape.empty() ? "" : "+", name.shape);
+  const std::string of = name.level == 0 ? name.attachment : concat("LOD", name.level);
+  return concat(of, of.empty() || name.shape.empty() ? "" : "+", name.shape);
 }
 
 std::string file_end(const MeshName& name) {

@@ -131,10 +131,10 @@ Json face_to_json(const std::string& id, const FaceFiles& files) {
   Json face = {{"id", id}};
   for (const MeshFile& mesh : files.meshes) {
     const MeshName& name = mesh.name;
-    const std::string file = name.level > 0 || !name.shape.empty() ? file_end(name).substr(1) : "";
+    const std::string file = part_of(name).empty() ? "" : file_end(name).substr(1);
     if (name.level > 0) {
       face["lods"][file] = mesh.digest.hex();
-    } else if (name.is_attachment) {
+    } else if (!name.attachment.empty()) {
       face["attachments"][file] = mesh.digest.hex();
     } else if (name.shape == kFollowingPoints) {
       face["following_points"] = mesh.digest.hex();

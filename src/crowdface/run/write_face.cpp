@@ -24,12 +24,13 @@ namespace fs = std::filesystem;
 /// What a face wears, beside its mesh, and the materials of that.
 void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
                        std::span<const WornAttachment> worn, const fs::path& file) {
-  const bool has_files = attachments_have_files(std::span(&format, 1));
-  if (worn.empty() || !(has_files || format == MeshFormat::kUsd)) return;
+  const std::span<const MeshFormat> formats(&format, 1);
+  if (worn.empty() || !(attachments_have_files(formats) || format == MeshFormat::kUsd)) return;
   std::vector<EncodedMesh> meshes;
-  const AttachmentWriters writers(job.inputs);
-  if (has_files) writers.add_to(meshes, face.id, worn);
+  const AttachmentWriters writers(job.inputs, formats);
+  writers.add_to(meshes, face.id, worn);
   for (const EncodedMesh& mesh : meshes) {
+    if (!mesh.name.shape.empty()) continue;
     write_mesh(mesh, file.parent_path() / (file.stem().string() + file_end(mesh.name)));
   }
   for (const std::string& name : face.attachments) {

@@ -32,6 +32,7 @@ constexpr double kSomeDeeper = 0.002;  // what nobody minds
 /// places closes too.
 constexpr double kSure = 0.02;
 constexpr int kSteps = 8;
+constexpr double kOpen = 0.017;  // more than the template's: nobody sees it
 
 /// From 1 up to `whole` to 0 from `none` on, smoothly.
 double fading(double at, double whole, double none) {
@@ -63,7 +64,10 @@ std::uint32_t row_of(const Displacements& shape, std::uint32_t vertex) {
 
 }  // namespace
 
-void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side) {
+void lid_sides(const TemplateEye& eye, const Positions& neutral, LidSides& lids) {
+  const auto count = static_cast<std::size_t>(neutral.rows());
+  lids.side.resize(count, 0);
+  lids.off_rim.resize(count, 0);
   for (const std::uint32_t v : eye.skin) {
     double nearest = std::numeric_limits<double>::max();
     for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
@@ -71,7 +75,8 @@ void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<sig
       const double distance = length3(row3(neutral, v) - row3(neutral, rim));
       if (distance >= nearest) continue;
       nearest = distance;
-      side[v] = eye.lids.upper[r] ? 1 : -1;
+      lids.side[v] = eye.lids.upper[r] ? 1 : -1;
+      lids.off_rim[v] = static_cast<float>(distance);
     }
   }
 }
@@ -142,9 +147,9 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
   Positions closed = neutral;
   shape.add_to(closed);
   const Eigen::Vector3d along = axes.side();
-  std::vector<signed char> sides(static_cast<std::size_t>(neutral.rows()), 0);
+  LidSides sides;
   lid_sides(eye, neutral, sides);
-  const std::vector<double> side(sides.begin(), sides.end());
+  const std::vector<double> side(sides.side.begin(), sides.side.end());
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const std::uint32_t r : eye.lids.rim) {
     const double at = dot3(row3(neutral, eye.lids.vertices[r]), along);
@@ -297,6 +302,27 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye,
     moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
   }
   return is_out;
+}
+
+double LidClosure::open(const Positions& face, const RigidMotion& whole, const Goals& goals,
+                        const Positions& moves) const {
+  double open = 0;
+  for (const double gap :
+       missing_gaps(gaps(axes_on(whole), face, moves), goals, whole.scale)) {
+    open = std::max(open, gap / (whole.scale * radius_) - kOpen);
+  }
+  return open;
+}
+
+void LidClosure::close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
+                             Positions& moves) const {
+  const Axes axes = axes_on(whole);
+  std::vector<double> gains = missing_gaps(gaps(axes, face, moves), goals, whole.scale);
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    gains[p] = std::max(gains[p], 0.0) / (whole.scale * places_[p].closed);
+  }
+  const Positions carried = moves;
+  close(lids_.size(), axes.up, carried, gains, moves);
 }
 
 std::vector<double> LidClosure::missing_gaps(const std::vector<Gap>& now, const Goals& goals,

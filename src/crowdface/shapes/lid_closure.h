@@ -10,6 +10,7 @@
 #include "crowdface/parts/contact_place.h"
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/rigid_motion.h"
+#include "crowdface/shapes/lid_sides.h"
 #include "crowdface/shapes/shape_set.h"
 #include "crowdface/shapes/shape_shares.h"
 
@@ -37,10 +38,8 @@ struct FaceEye {
 /// How far the skin around an eye is from the eyeball, #skin. \param mesh  #V by 3
 std::vector<double> eye_gaps(const TemplateEye& eye, const FaceEye& there, const Positions& mesh);
 
-/// Writes 1 for skin around an eye that belongs to the upper lid and −1 for the lower one's, by what of the rim is
-/// nearest.
-/// \param side  #V
-void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side);
+/// Writes to which lid the skin around an eye belongs, by what of the rim is nearest.
+void lid_sides(const TemplateEye& eye, const Positions& neutral, LidSides& lids);
 
 /// How the lids of one eye move in a shape, so that a blink closes on eyes of any size. Carried by frames
 /// alone, lids meet or miss each other by millimetres, because an opening is no piece of skin that
@@ -78,6 +77,13 @@ class LidClosure {
   bool closes() const { return !places_.empty(); }
   /// The rows of the shape that `fit` may change.
   std::vector<std::uint32_t> rows() const;
+
+  /// How far lids are open that are to be closed, at most, in radii of the eyeball; 0: as good as not.
+  double open(const Positions& face, const RigidMotion& whole, const Goals& goals,
+              const Positions& moves) const;
+  /// Closes what is open again, by more of the shape's own movement.
+  void close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
+                   Positions& moves) const;
 
   /// \param face   #V by 3, at rest
   /// \param whole  from the template to the face

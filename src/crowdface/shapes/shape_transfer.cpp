@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/shapes/shape_transfer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -11,8 +13,10 @@
 namespace crowdface {
 namespace {
 
-/// How often skin is taken apart at most, as long as that takes lids into an eyeball.
-constexpr int kMends = 3;
+/// How often skin is taken apart at most, as long as that takes lids into an eyeball or opens them.
+constexpr int kMends = 4;
+/// As many crossing triangles, out of sight between lids that meet, as a gap between those by the eyeball's radius.
+constexpr double kOpenIsAsBad = 1000;
 
 using PlacedEye = PreparedShapes::PlacedEye;
 using Carrier = PreparedShapes::Carrier;
@@ -77,6 +81,9 @@ class CarriedShape {
   void keep_contacts();
   void take_skin_apart();
   bool keep_lids_out();
+  bool closes_lids() const;
+  double lids_open(const Positions& moves) const;
+  void close_lids();
   void hang(const Positions& carried);
 
   const PreparedShapes& prepared_;
@@ -175,11 +182,51 @@ void CarriedShape::keep_contacts() {
   for (const std::uint32_t v : prepared_.contacts.moved()) mesh_.row(v) = carrier_.mesh.row(v);
 }
 
+/// Taking skin apart may open lids, and closing them take skin through skin: of what is found by turns the best is
+/// kept.
 void CarriedShape::take_skin_apart() {
+  SkinCrossings::Harm harm;
+  if (closes_lids()) harm = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
+  double best = HUGE_VAL;
+  Positions kept;
+  Index crossing = 0;
   for (int round = 0; round < kMends; ++round) {
-    crossing_ =
-        prepared_.crossings.mend(carrier_.mesh, carrier_.at_rest, shape_.watched, mesh_, result_);
-    if (keep_lids_out()) break;
+    crossing_ = prepared_.crossings.mend(carrier_.mesh, carrier_.at_rest, shape_.watched, mesh_,
+                                         result_, harm);
+    const bool are_out = keep_lids_out();
+    const double open = harm ? harm(result_.moves) : 0;
+    const double bad = static_cast<double>(crossing_) + open;
+    if (bad < best) {
+      best = bad;
+      kept = result_.moves;
+      crossing = crossing_;
+    }
+    if (are_out && open == 0) break;
+    close_lids();
+  }
+  result_.moves = std::move(kept);
+  crossing_ = crossing;
+}
+
+bool CarriedShape::closes_lids() const {
+  return std::ranges::any_of(shape_.lids, [](const LidMove& move) { return move.lids.closes(); });
+}
+
+double CarriedShape::lids_open(const Positions& moves) const {
+  double open = 0;
+  for (std::size_t e = 0; e < goals_.size(); ++e) {
+    const LidClosure& lids = shape_.lids[e].lids;
+    if (!lids.closes()) continue;
+    open = std::max(open, lids.open(carrier_.mesh, carrier_.frames.whole, goals_[e], moves));
+  }
+  return open;
+}
+
+void CarriedShape::close_lids() {
+  for (std::size_t e = 0; e < goals_.size(); ++e) {
+    const LidClosure& lids = shape_.lids[e].lids;
+    if (!lids.closes()) continue;
+    lids.close_again(carrier_.mesh, carrier_.frames.whole, goals_[e], result_.moves);
   }
 }
 

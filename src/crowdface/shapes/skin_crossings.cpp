@@ -26,7 +26,7 @@ constexpr double kGrowth = 0.08;                       // of those, a round
 /// Of what evens out how lids move up and down, so that they close still.
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
-constexpr int kRounds = 30, kForwardRounds = 12;
+constexpr int kRounds = 30;
 constexpr double kMeets = 0.008;  // how near on the template is what may meet on a face
 
 double square(double x) {
@@ -45,6 +45,12 @@ std::vector<std::uint32_t> vertices_of(const std::vector<CrossingSearch::Pair>& 
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
+}
+
+Index crossing_triangles(const std::vector<CrossingSearch::Pair>& pairs) {
+  std::set<std::uint32_t> triangles;
+  for (const CrossingSearch::Pair& pair : pairs) triangles.insert(pair.begin(), pair.end());
+  return static_cast<Index>(triangles.size());
 }
 
 /// Some places, and the box around them.
@@ -162,8 +168,8 @@ SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint
 }
 
 SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,
-                                            std::vector<signed char> side) const {
-  Watched watched{{}, {}, std::move(side), {}};
+                                            LidSides lids) const {
+  Watched watched{{}, {}, std::move(lids), {}};
   for (std::uint32_t row = 0; row < shape.vertices.size(); ++row) {
     if (is_skin_[shape.vertices[row]]) watched.rows.push_back({row, shape.vertices[row]});
   }
@@ -227,17 +233,17 @@ void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
 }
 
 int SkinCrossings::side_of(const Watched& watched, std::uint32_t triangle) const {
-  if (watched.side.empty()) return 0;
+  if (watched.lids.side.empty()) return 0;
   for (const std::uint32_t v : watched.search.triangles()[triangle]) {
-    if (watched.side[v] != 0) return watched.side[v];
+    if (watched.lids.side[v] != 0) return watched.lids.side[v];
   }
   return 0;
 }
 
 /// Lids: the upper one forward over the lower one, as pushed up it would open, and the lower one pushed back would go
-/// into the eyeball. Where that does not help, both, as they lie at rest.
+/// into the eyeball.
 void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& watched,
-                               const Positions& rest, double by, Push how, Displacements& shape,
+                               const Positions& rest, double by, Displacements& shape,
                                std::vector<bool>& changed) const {
   std::map<std::uint32_t, Eigen::Vector3d> wanted;
   for (const Pair& pair : pairs) {
@@ -248,11 +254,10 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
     }
     const double side = side_of(watched, pair[0]);
     Eigen::Vector3d over = unit3(unit3(middle[0] - middle[1]) + side * axes_.front);
-    if (how == Push::kForward) over -= dot3(over, axes_.up) * axes_.up;
-    over = unit3(over);
+    over = unit3(over - dot3(over, axes_.up) * axes_.up);
     for (std::size_t k = 0; k < 2; ++k) {
       for (const std::uint32_t v : watched.search.triangles()[pair[k]]) {
-        if (how == Push::kForward && watched.side[v] < 0) continue;
+        if (watched.lids.side[v] < 0) continue;
         wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? over : -over;
       }
     }
@@ -264,13 +269,13 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
     around.add(row3(rest, v));
   }
   for (const Row& row : watched.rows) {
-    const signed char side = watched.side[row.vertex];
+    const signed char side = watched.lids.side[row.vertex];
     const Eigen::Vector3d here = row3(rest, row.vertex);
     if (side == 0 || !around.have(here, reach)) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0, most = 0;
     for (const auto& [v, push] : wanted) {
-      if (watched.side[v] != side && v != row.vertex) continue;
+      if (watched.lids.side[v] != side && v != row.vertex) continue;
       const double distance = length3(row3(rest, v) - here) / reach;
       if (distance >= 1) continue;
       const double weight = square(1 - square(distance));
@@ -308,7 +313,7 @@ void SkinCrossings::even_out(const std::vector<Pair>& pairs, const Watched& watc
     const double share = t * t * (3 - 2 * t);
     const Eigen::Vector3d before = row3(shape.moves, row.row);
     Eigen::Vector3d by = share * (means.at(here) - before);
-    if (!watched.side.empty() && watched.side[row.vertex] != 0) {
+    if (!watched.lids.side.empty() && watched.lids.side[row.vertex] != 0) {
       by -= (1 - kClosing) * dot3(by, axes_.up) * axes_.up;
     }
     shape.moves.row(row.row) = (before + by).transpose();
@@ -338,7 +343,8 @@ std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
 }
 
 Index SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_rest,
-                          const Watched& watched, Positions& mesh, Displacements& shape) const {
+                          const Watched& watched, Positions& mesh, Displacements& shape,
+                          const Harm& harm) const {
   const CrossingSearch& search = watched.search;
   if (search.triangles().empty()) return 0;
   const auto excused = [&](std::uint32_t t) {
@@ -348,19 +354,27 @@ Index SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_res
   shape.add_to(mesh);
   CrossingSearch::Boxes boxes = search.boxes_of(mesh);
   std::vector<Pair> pairs = search.crossing(mesh, boxes, excused);
-  if (!watched.is_meant) take_apart(rest, watched, excused, boxes, pairs, mesh, shape);
+  if (!watched.is_meant) take_apart(rest, watched, excused, boxes, pairs, mesh, shape, harm);
   for (const std::uint32_t v : shape.vertices) mesh.row(v) = rest.row(v);
-  std::set<std::uint32_t> left;
-  for (const Pair& pair : pairs) left.insert(pair.begin(), pair.end());
-  return static_cast<Index>(left.size());
+  return crossing_triangles(pairs);
 }
 
 void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
                                const Excused& excused, CrossingSearch::Boxes& boxes,
                                std::vector<Pair>& pairs, Positions& mesh,
-                               Displacements& shape) const {
-  double grown = 1;
+                               Displacements& shape, const Harm& harm) const {
+  double grown = 1, best = HUGE_VAL;
+  Positions best_moves;
+  std::vector<Pair> best_pairs;
+  const auto judge = [&] {
+    const double bad = static_cast<double>(crossing_triangles(pairs)) + harm(shape.moves);
+    if (bad >= best) return;
+    best = bad;
+    best_moves = shape.moves;
+    best_pairs = pairs;
+  };
   for (int round = 0; round < kRounds && !pairs.empty(); ++round, grown += kGrowth) {
+    if (harm) judge();
     const auto are_lids = [&](const Pair& pair) {
       return side_of(watched, pair[0]) * side_of(watched, pair[1]) < 0;
     };
@@ -370,7 +384,7 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
     std::vector<bool> changed(is_skin_.size(), false);
     if (!lids.empty()) {
       push_apart(lids, watched, rest, grown * kPush * extent_,
-                 round < kForwardRounds ? Push::kForward : Push::kApart, shape, changed);
+                 shape, changed);
     }
     if (!pairs.empty()) even_out(pairs, watched, rest, grown, shape, changed);
     for (const Row& row : watched.rows) {
@@ -380,6 +394,10 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
     watched.search.renew(mesh, changed, boxes);
     pairs = watched.search.crossing(mesh, boxes, excused);
   }
+  if (best == HUGE_VAL) return;
+  judge();
+  shape.moves = std::move(best_moves);
+  pairs = std::move(best_pairs);
 }
 
 }  // namespace crowdface

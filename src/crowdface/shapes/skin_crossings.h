@@ -13,6 +13,7 @@
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/shapes/crossing_search.h"
+#include "crowdface/shapes/lid_sides.h"
 
 namespace crowdface {
 
@@ -34,14 +35,13 @@ class SkinCrossings {
   struct Watched {
     CrossingSearch search;
     std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
-    std::vector<signed char>
-        side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+    LidSides lids;               ///< of eyes that close
     std::vector<Row> rows;
     bool is_meant = false;  ///< its crossings are counted and left
   };
   /// \param neutral  of the template, #V by 3
   Watched watch(const Positions& neutral, const Displacements& shape,
-                std::vector<signed char> side) const;
+                LidSides lids) const;
   /// Crossings in this mesh are to be found on faces as well.
   void excuse(const Positions& mesh, Watched& watched) const;
 
@@ -58,9 +58,12 @@ class SkinCrossings {
   /// \param at_rest  #V, see crossing_at_rest
   /// \param mesh     the same as `rest`; changed while it works
   /// \param shape    of the face
+  /// \param harm     of displacements, beside crossings, in triangles: the best of all rounds is kept; none: the
+  ///                 last is
   /// \return         how many triangles still pass through others
+  using Harm = std::function<double(const Positions&)>;
   Index mend(const Positions& rest, const std::vector<bool>& at_rest, const Watched& watched,
-             Positions& mesh, Displacements& shape) const;
+             Positions& mesh, Displacements& shape, const Harm& harm = {}) const;
 
  private:
   using Pair = CrossingSearch::Pair;
@@ -69,11 +72,10 @@ class SkinCrossings {
   /// \param pairs  that cross; those that are left, in the end
   void take_apart(const Positions& rest, const Watched& watched, const Excused& excused,
                   CrossingSearch::Boxes& boxes, std::vector<Pair>& pairs, Positions& mesh,
-                  Displacements& shape) const;
+                  Displacements& shape, const Harm& harm) const;
   int side_of(const Watched& watched, std::uint32_t triangle) const;
-  enum class Push { kForward, kApart };
   void push_apart(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
-                  double by, Push how, Displacements& shape, std::vector<bool>& changed) const;
+                  double by, Displacements& shape, std::vector<bool>& changed) const;
   void even_out(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
                 double grown, Displacements& shape, std::vector<bool>& changed) const;
 
