@@ -40,6 +40,26 @@ TEST_P(FloatKernels, HaveTheBitsOfPlainLoops) {
 
 INSTANTIATE_TEST_SUITE_P(Widths, FloatKernels, ::testing::Values(1, 3, 16, 37, 64, 85, 150));
 
+class FloatKernelsDot : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(FloatKernelsDot, HasTheBitsOfSixteenPlainSumsAChunk) {
+  constexpr std::size_t kSums = 16, kChunk = 1024;
+  const std::size_t count = GetParam();
+  const std::vector<float> a = random_floats(count), b = random_floats(count);
+  double plain = 0;
+  for (std::size_t begin = 0; begin < count; begin += kChunk) {
+    float sums[kSums] = {};
+    for (std::size_t i = begin; i < std::min(begin + kChunk, count); ++i) {
+      sums[(i - begin) % kSums] += a[i] * b[i];
+    }
+    for (const float sum : sums) plain += static_cast<double>(sum);
+  }
+  EXPECT_EQ(fixed_dot(a.data(), b.data(), count), plain);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, FloatKernelsDot,
+                         ::testing::Values(0, 1, 15, 16, 33, 1024, 1030, 2048, 2500, 3072, 5001));
+
 TEST(FloatKernelsSquares, OfSixteenLanesEndOnlyWhereAllAreBeyond) {
   constexpr std::size_t kLanes = 16, kDimensions = 16;
   const std::vector<float> query = random_floats(kDimensions),

@@ -13,17 +13,6 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-TEST(FixedDot, SinglesGiveWhatDoublesGive) {
-  std::vector<float> a, b;
-  double expected = 0;
-  for (int i = 0; i < 3001; ++i) {
-    a.push_back(static_cast<float>(i % 17) / 16);
-    b.push_back(static_cast<float>(i % 23) / 32);
-    expected += static_cast<double>(a.back()) * static_cast<double>(b.back());
-  }
-  EXPECT_NEAR(fixed_dot(a.data(), b.data(), 3001), expected, 1e-6 * expected);
-}
-
 TEST(Cholesky, FactorTimesItsTransposeIsTheMatrix) {
   const Rows a = {{4, 2, -1}, {2, 5, 3}, {-1, 3, 6}};
   const Rows lower = cholesky(a, 3);

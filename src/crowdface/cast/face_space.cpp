@@ -6,7 +6,6 @@
 
 #include "crowdface/cast/float_kernels.h"
 #include "crowdface/cast/training_recipe.h"
-#include "crowdface/core/fixed_order.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/mesh/alignment.h"
@@ -244,13 +243,14 @@ void FaceSpace::build_directions(std::size_t bands) {
 
 Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const std::vector<float> at = aligned(shape);
-  const Index rank = directions_.rows(), size = static_cast<Index>(at.size());
+  const Index rank = directions_.rows();
+  const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
-  add_scaled_rows(at.data(), at.size(), directions_transposed_.data(),
-                  static_cast<std::size_t>(rank), result.data());
+  add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size,
+                  result.data());
   // How far the face is from the directions' span: |a| − |b| of it is at most |a − b|.
   const double rest =
-      fixed_dot(at.data(), at.data(), size) - fixed_dot(result.data(), result.data(), rank);
+      fixed_dot(at.data(), at.data(), at.size()) - fixed_dot(result.data(), result.data(), size);
   result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
   return result;
 }
@@ -292,11 +292,12 @@ void FaceSpace::build_region_metrics() {
       for (Index p = 0; p < functions; ++p) masked(p, i) *= root;
     }
     region_shares_.push_back(share);
+    const auto samples = static_cast<std::size_t>(masked.cols());
     FloatRows gram(functions, functions);
     parallel_for_each(functions, [&](Index p) {
-      for (Index q = 0; q < functions; ++q) {
-        gram(p, q) = static_cast<float>(
-            fixed_dot(masked.row(p).data(), masked.row(q).data(), masked.cols()));
+      for (Index q = 0; q <= p; ++q) {
+        gram(p, q) = gram(q, p) =
+            static_cast<float>(fixed_dot(masked.row(p).data(), masked.row(q).data(), samples));
       }
     });
     FloatRows metric(rank, rank);
@@ -312,7 +313,7 @@ void FaceSpace::build_region_metrics() {
       }
       for (Index e = 0; e < rank; ++e) {
         metric(e, d) =
-            static_cast<float>(fixed_dot(directions_.row(e).data(), along.data(), 3 * functions));
+            static_cast<float>(fixed_dot(directions_.row(e).data(), along.data(), along.size()));
       }
     });
     region_metrics_.push_back(std::move(metric));
@@ -324,9 +325,10 @@ FaceSpace::RegionPoint FaceSpace::in_region(const Point& point, Index region) co
   if (region_metrics_.empty()) return result;
   const FloatRows& metric = region_metrics_[static_cast<std::size_t>(region)];
   const auto times = [&](const Eigen::VectorXf& at) {
+    const auto size = static_cast<std::size_t>(metric.rows());
     Eigen::VectorXf product(metric.rows());
     for (Index i = 0; i < metric.rows(); ++i) {
-      product[i] = static_cast<float>(fixed_dot(metric.row(i).data(), at.data(), metric.rows()));
+      product[i] = static_cast<float>(fixed_dot(metric.row(i).data(), at.data(), size));
     }
     return product;
   };

@@ -13,6 +13,49 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes = hn::CappedTag<float, 16>;
 
+constexpr std::size_t kSums = 16, kChunk = 64 * kSums;
+
+double fixed_dot(const float* a, const float* b, std::size_t count) {
+  const Lanes lanes;
+  const std::size_t width = hn::Lanes(lanes);
+  double total = 0;
+  const auto add = [&](const float* sums) {
+    for (std::size_t s = 0; s < kSums; ++s) total += static_cast<double>(sums[s]);
+  };
+  std::size_t begin = 0;
+  // Two chunks at once: an addition needs not wait for the one before it.
+  for (; begin + 2 * kChunk <= count; begin += 2 * kChunk) {
+    float first[kSums], second[kSums];
+    for (std::size_t s = 0; s < kSums; s += width) {
+      auto x = hn::Zero(lanes), y = hn::Zero(lanes);
+      for (std::size_t i = begin + s; i < begin + kChunk; i += kSums) {
+        x = hn::Add(x, hn::Mul(hn::LoadU(lanes, a + i), hn::LoadU(lanes, b + i)));
+        const std::size_t j = i + kChunk;
+        y = hn::Add(y, hn::Mul(hn::LoadU(lanes, a + j), hn::LoadU(lanes, b + j)));
+      }
+      hn::StoreU(x, lanes, first + s);
+      hn::StoreU(y, lanes, second + s);
+    }
+    add(first);
+    add(second);
+  }
+  for (; begin < count; begin += kChunk) {
+    const std::size_t end = begin + kChunk < count ? begin + kChunk : count;
+    const std::size_t whole = end - (end - begin) % kSums;
+    float sums[kSums];
+    for (std::size_t s = 0; s < kSums; s += width) {
+      auto x = hn::Zero(lanes);
+      for (std::size_t i = begin + s; i < whole; i += kSums) {
+        x = hn::Add(x, hn::Mul(hn::LoadU(lanes, a + i), hn::LoadU(lanes, b + i)));
+      }
+      hn::StoreU(x, lanes, sums + s);
+    }
+    for (std::size_t i = whole; i < end; ++i) sums[i - whole] += a[i] * b[i];
+    add(sums);
+  }
+  return total;
+}
+
 void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
@@ -84,9 +127,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
+HWY_EXPORT(fixed_dot);
 HWY_EXPORT(add_scaled);
 HWY_EXPORT(add_scaled_rows);
 HWY_EXPORT(add_squares);
+
+double fixed_dot(const float* a, const float* b, std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(fixed_dot)(a, b, count);
+}
 
 void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   HWY_DYNAMIC_DISPATCH(add_scaled)(factor, from, count, to);

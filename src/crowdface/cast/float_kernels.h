@@ -7,6 +7,9 @@ namespace crowdface {
 
 // Each product is rounded before it is added: the bits of plain loops, whatever the instruction set.
 
+/// Σ a_i b_i: sixteen sums in single precision within a chunk of 1024, in double across them and the chunks.
+double fixed_dot(const float* a, const float* b, std::size_t count);
+
 /// to[i] += factor·from[i]
 void add_scaled(float factor, const float* from, std::size_t count, float* to);
 

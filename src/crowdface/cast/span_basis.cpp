@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "crowdface/core/fixed_order.h"
+#include "crowdface/cast/float_kernels.h"
 #include "crowdface/core/parallel.h"
 
 namespace crowdface {
@@ -19,10 +19,11 @@ constexpr Index kRowsAtATime = 64;
 
 SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
   const Index count = rows.rows(), size = rows.cols();
+  const auto length = static_cast<std::size_t>(size);
   const double enough = tolerance * tolerance;
   std::vector<double> left(static_cast<std::size_t>(count));
   parallel_for_each(count, kRowsAtATime, [&](Index n) {
-    left[static_cast<std::size_t>(n)] = fixed_dot(rows.row(n).data(), rows.row(n).data(), size);
+    left[static_cast<std::size_t>(n)] = fixed_dot(rows.row(n).data(), rows.row(n).data(), length);
   });
   std::vector<Eigen::VectorXf> directions, coordinates;
   while (static_cast<Index>(directions.size()) < most) {
@@ -37,10 +38,10 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
       double& rest = left[static_cast<std::size_t>(n)];
       if (rest <= enough) return;  // well enough already
       float* row = rows.row(n).data();
-      const auto part = static_cast<float>(fixed_dot(q.data(), row, size));
+      const auto part = static_cast<float>(fixed_dot(q.data(), row, length));
       along[n] = part;
-      for (Index i = 0; i < size; ++i) row[i] -= part * q[i];
-      rest = n == pivot ? 0 : fixed_dot(row, row, size);
+      add_scaled(-part, q.data(), length, row);
+      rest = n == pivot ? 0 : fixed_dot(row, row, length);
     });
   }
   SpanBasis basis;

@@ -16,10 +16,6 @@ inline double fixed_dot(std::span<const double> a, std::span<const double> b) {
   return sum;
 }
 
-/// The same for many single-precision numbers, fast: in single precision within a chunk, in double
-/// across them.
-double fixed_dot(const float* a, const float* b, std::ptrdiff_t size);
-
 /// to − factor·from, in place.
 inline void subtract_scaled(double factor, std::span<const double> from, std::span<double> to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] -= factor * from[i];

@@ -21,6 +21,7 @@ std::filesystem::path cache_directory();
 /// The endings of the cache's files; docs/cache-format.md specifies their bytes.
 inline constexpr std::string_view kPreparedEnding = ".cfhead", kReadEnding = ".cfread",
                                   kMeshEnding = ".cfmesh";
+inline constexpr std::string_view kListsEnding = ".cflist";  ///< what was found of heads
 inline constexpr std::string_view kSeenEnding = ".cfseen";  ///< when a file was read whole
 
 /// The file of an entry: its key in hexadecimal, and an ending.

@@ -4,6 +4,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/heads/shared_by_heads.h"
 
 namespace crowdface {
 namespace {
@@ -36,8 +37,7 @@ std::string mirroring_key(const Config& config) {
 }
 
 FoundMirror find_mirror(const Config& config, const Inputs& inputs) {
-  return find_mirror(inputs.faces.topology, inputs.components, mean_head(inputs.faces),
-                     head_axes(config).side());
+  return find_other_sides(inputs, head_axes(config).side());
 }
 
 std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& inputs,

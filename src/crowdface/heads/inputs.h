@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct MeasuredLevel {
 
 /// Everything a job reads, checked: heads, their topology, masks, and what follows from them.
 struct Inputs {
+  std::filesystem::path cache;  ///< where what is found of them is kept; empty: nowhere
   FaceSet faces;
   std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
   std::vector<Digest> texts;   ///< #heads, of the files' bytes

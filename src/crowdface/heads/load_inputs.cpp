@@ -22,6 +22,7 @@
 #include "crowdface/heads/load_shapes.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
+#include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/paint/face_marks.h"
 #include "crowdface/smooth/level_size.h"
 
@@ -199,37 +200,26 @@ std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
   return std::max<std::uint64_t>(level, 1);
 }
 
-/// Parts that follow the skin need no mask.
-RegionWeights load_regions(const Config& config, const Inputs& inputs) {
-  const FaceSet& faces = inputs.faces;
-  const auto names = config.region_names();
-  if (config.regions.names.empty()) return whole_head(faces.topology);
-  std::vector<bool> skin;
-  for (const std::uint32_t c : inputs.skin.of_vertex) skin.push_back(c == inputs.skin.largest());
-  return region_weights(faces.topology, faces.uvs,
-                        {config.regions.mask.begin(), config.regions.mask.end()},
-                        static_cast<Index>(names.size()), skin);
-}
-
 template <class T>
 Digest digest_of(const T* data, Index size) {
   return Hasher().add_array(std::span<const T>(data, static_cast<std::size_t>(size))).digest();
 }
 
-void compute_digests(Inputs& inputs) {
-  const Topology& topology = inputs.faces.topology;
-  inputs.topology_digest = Hasher()
-                               .add(topology.vertex_count)
-                               .add_array(std::span(topology.corner_vertices))
-                               .add_array(std::span(topology.face_offsets))
-                               .digest();
+Digest digest_of(const Topology& topology) {
+  return Hasher()
+      .add(topology.vertex_count)
+      .add_array(std::span(topology.corner_vertices))
+      .add_array(std::span(topology.face_offsets))
+      .digest();
+}
+
+void hash_heads(Inputs& inputs) {
   inputs.head_digests.resize(inputs.faces.heads.size());
   parallel_for_each(static_cast<Index>(inputs.faces.heads.size()), [&](Index h) {
     const Positions& positions = inputs.faces.heads[static_cast<std::size_t>(h)].positions;
     inputs.head_digests[static_cast<std::size_t>(h)] =
         digest_of(positions.data(), positions.size());
   });
-  inputs.mask_digest = digest_of(inputs.regions.alpha.data(), inputs.regions.alpha.size());
 }
 
 void warn(Inputs& inputs, std::string text) {
@@ -342,8 +332,9 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   Inputs inputs;
   take_heads(config, std::move(heads), inputs);
   inputs.materials = face_materials(inputs.files[0].materials, inputs.faces.topology.face_count());
-  inputs.adjacency = build_adjacency(inputs.faces.topology);
-  inputs.components = find_components(inputs.adjacency);
+  inputs.cache = folder_for(cache, inputs.faces.topology);
+  inputs.topology_digest = digest_of(inputs.faces.topology);
+  find_neighbours(inputs);
   try {
     for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
       warn(inputs, std::move(text));
@@ -352,6 +343,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
     problems.add(error);
     return std::nullopt;
   }
+  hash_heads(inputs);
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
   try {
@@ -381,7 +373,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
                         " vertices are covered by no mask and go to the last region, ",
                         config.region_names().back()));
   }
-  compute_digests(inputs);
+  inputs.mask_digest = digest_of(inputs.regions.alpha.data(), inputs.regions.alpha.size());
   read_textures(config, cache, inputs, problems);
   load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);

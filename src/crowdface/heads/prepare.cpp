@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/head_cache.h"
+#include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/smooth/cubic_fit.h"
 
 namespace crowdface {
@@ -133,8 +134,7 @@ bool into_cache(const std::filesystem::path& cache, const Digest& key, const Hea
 Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
   const auto chosen = [&](Index count) {
-    return choose_face_samples(inputs.faces.topology, inputs.skin, mean_head(inputs.faces),
-                               config.faces.front, count);
+    return choose_samples(config, inputs, count);
   };
   if (inputs.mirror == nullptr) {
     prepared.traced = prepared.samples = chosen(kSamples);

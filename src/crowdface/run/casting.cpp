@@ -13,6 +13,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/shared_by_heads.h"
 
 namespace crowdface {
 namespace {
@@ -256,7 +257,7 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
   const std::vector<double> areas =
       face_areas(inputs.faces.topology, inputs.skin, mean, config.distance.area, config.faces.front,
                  inputs.distance_mask);
-  const SampleCells cells = find_sample_cells(inputs.adjacency, mean, prepared.samples);
+  const SampleCells cells = find_cells(inputs, mean, prepared.samples);
   SampledHeads heads =
       sample_heads(inputs.faces, inputs.regions, prepared.samples, prepared.trajectories,
                    inputs.max_level, mm_per(config.faces.units));
