@@ -176,7 +176,8 @@ TEST(UsdaTemplate, HoldsFurtherMeshesWithMaterialsOfTheirOwn) {
   EXPECT_THAT(numbers_of(hair, "uniform int[] pointIndices"), ElementsAre(2));
   EXPECT_THAT(hair, HasSubstr("rel material:binding = </x/hair_materials/a_b>"));
   const std::string materials = hair.substr(hair.find("def Scope \"hair_materials\""));
-  EXPECT_THAT(materials, HasSubstr("inputs:opacity.connect = </x/hair_materials/a_b/holes.outputs:r>"));
+  EXPECT_THAT(materials,
+              HasSubstr("inputs:opacity.connect = </x/hair_materials/a_b/holes.outputs:r>"));
   EXPECT_THAT(materials, HasSubstr("inputs:opacityThreshold = 0.5"));
   EXPECT_THAT(materials, HasSubstr("asset inputs:file = @./holes.png@"));
 }

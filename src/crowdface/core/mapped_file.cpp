@@ -18,8 +18,8 @@
 #include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/opened_file.h"
 #include "crowdface/core/memory.h"
+#include "crowdface/core/opened_file.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {

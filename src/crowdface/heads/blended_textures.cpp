@@ -180,7 +180,8 @@ std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::pa
 void read_maps(LoadedMaps& maps, const fs::path& scratch) {
   std::vector<LoadedMaps::value_type*> all;
   for (auto& map : maps) all.push_back(&map);
-  parallel_for_each(all.size(), [&](std::size_t i) { all[i]->second = read_map(all[i]->first, scratch); });
+  parallel_for_each(all.size(),
+                    [&](std::size_t i) { all[i]->second = read_map(all[i]->first, scratch); });
 }
 
 /// One map of several, each of which covers some of the picture's faces.
@@ -332,7 +333,8 @@ HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) of_row[row] = maps.at(needed(h, row, p));
       if (of_row.size() == 1) map = of_row.begin()->second;
       if (of_row.size() > 1) {
-        map = compose(faces, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row, out_of_memory);
+        map = compose(faces, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row,
+                      out_of_memory);
       }
       if (map) continue;
       const PictureName& name = result.names[p];

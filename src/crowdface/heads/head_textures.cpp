@@ -127,10 +127,9 @@ void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int m
     layer.of_face = of_kind.blended.layout.of_face;
     for (std::size_t p = 0; p < of_kind.names.size(); ++p) {
       const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
-      layer.textures.push_back(
-          map == nullptr
-              ? nullptr
-              : std::make_shared<const Texture>(finish_of(*map, finish_texels(most_px))));
+      layer.textures.push_back(map == nullptr ? nullptr
+                                              : std::make_shared<const Texture>(
+                                                    finish_of(*map, finish_texels(most_px))));
       if (map != nullptr) continue;
       std::ranges::replace(layer.of_face, static_cast<std::uint32_t>(p), TextureLayer::kNone);
     }

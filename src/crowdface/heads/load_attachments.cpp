@@ -115,8 +115,8 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
     set.items.push_back(std::move(*item));
   }
   const auto& meshes = config.output.meshes;
-  const bool have_files = std::ranges::any_of(
-      meshes, [](MeshFormat format) { return format != MeshFormat::kPoints; });
+  const bool have_files =
+      std::ranges::any_of(meshes, [](MeshFormat format) { return format != MeshFormat::kPoints; });
   if (!meshes.empty() && !have_files) {
     inputs.warnings.emplace_back(
         "attachments are not written as NumPy arrays, and output.meshes has points alone: no file "

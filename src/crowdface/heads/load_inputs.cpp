@@ -277,8 +277,8 @@ void read_textures(const Config& config, const std::filesystem::path& cache, Inp
         if (auto text = told_of_single(kinds[k], inputs.faces)) warn(inputs, std::move(*text));
         continue;
       }
-      inputs.maps.push_back(load_blended_textures(inputs.faces, inputs.materials,
-                                                  std::move(kinds[k]), config.textures.size, cache));
+      inputs.maps.push_back(load_blended_textures(
+          inputs.faces, inputs.materials, std::move(kinds[k]), config.textures.size, cache));
       for (const std::string& text : inputs.maps.back().warnings) warn(inputs, text);
     }
   } catch (const Error& error) {

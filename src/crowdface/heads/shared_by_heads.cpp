@@ -106,8 +106,8 @@ void find_neighbours(Inputs& inputs) {
               const Numbers& size) {
             return offset.size() == vertices + 1 && offset.front() == 0 &&
                    offset.back() == item.size() && std::ranges::is_sorted(offset) &&
-                   all_below(item, vertices) && open.size() == vertices &&
-                   of.size() == vertices && all_below(of, size.size());
+                   all_below(item, vertices) && open.size() == vertices && of.size() == vertices &&
+                   all_below(of, size.size());
           });
   inputs.adjacency.offsets = std::move(offsets);
   inputs.adjacency.items = std::move(items);
@@ -125,13 +125,12 @@ RegionWeights load_regions(const Config& config, const Inputs& inputs) {
       inputs.cache, *key,
       [&] {
         const RegionWeights weights = weights_of_masks(config, inputs);
-        return std::tuple(list_of(weights.alpha),
-                          std::vector<std::uint64_t>{
-                              static_cast<std::uint64_t>(weights.uncovered_vertices)});
+        return std::tuple(
+            list_of(weights.alpha),
+            std::vector<std::uint64_t>{static_cast<std::uint64_t>(weights.uncovered_vertices)});
       },
       [&](const auto& values, const auto& count) {
-        return values.size() == static_cast<std::size_t>(vertices * regions) &&
-               count.size() == 1 &&
+        return values.size() == static_cast<std::size_t>(vertices * regions) && count.size() == 1 &&
                std::ranges::all_of(values, [](double value) { return value >= 0 && value <= 1; });
       });
   return {rows_of<RegionWeights::Alpha>(alpha, regions), static_cast<Index>(uncovered.front())};

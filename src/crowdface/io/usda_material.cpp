@@ -15,8 +15,7 @@ const std::string kDeep = kInner + "    ";
 /// "(0.8, 0.6, 0.5)".
 std::string colour_text(const std::array<float, 4>& colour) {
   const auto tidy = [](float value) { return std::round(static_cast<double>(value) * 1e4) / 1e4; };
-  return concat('(', tidy(colour[0]), ", ", tidy(colour[1]), ", ",
-                tidy(colour[2]), ')');
+  return concat('(', tidy(colour[0]), ", ", tidy(colour[1]), ", ", tidy(colour[2]), ')');
 }
 
 /// A texture as a shader of its own. \param more  lines of its inputs.
@@ -51,13 +50,12 @@ std::string usda_material(const std::string& path, const std::string& name,
   if (!surface.normals.empty()) {
     text += concat(kDeep, "normal3f inputs:normal", input(surface.normals, "normal", "rgb", ""));
   }
-  text += concat(kDeep, "float inputs:opacity",
-                 input(surface.holes, "holes", holes,
-                       concat(static_cast<double>(surface.colour[3]))));
+  text +=
+      concat(kDeep, "float inputs:opacity",
+             input(surface.holes, "holes", holes, concat(static_cast<double>(surface.colour[3]))));
   if (!surface.holes.empty()) text += concat(kDeep, "float inputs:opacityThreshold = 0.5\n");
-  text += concat(kDeep, "float inputs:roughness",
-                 input(surface.roughness, "roughness", "r", "0.6"), kDeep,
-                 "token outputs:surface\n", kInner, "}\n");
+  text += concat(kDeep, "float inputs:roughness", input(surface.roughness, "roughness", "r", "0.6"),
+                 kDeep, "token outputs:surface\n", kInner, "}\n");
   const std::string_view wrap = surface.overlay ? "clamp" : "repeat";
   const auto add_texture = [&](const std::string& file, std::string_view shader, bool is_colour,
                                std::string_view more, std::string_view output) {

@@ -43,8 +43,8 @@ void UsdaPart::add_materials(EncodedFile& file, const std::string& root) const {
   const std::vector<std::string>& names = mesh_.materials();
   for (std::size_t m = 0; m < names.size(); ++m) {
     if (names[m].empty()) continue;
-    file.add(usda_material(concat(root, '/', scope, '/', names[m]), names[m],
-                           materials_[m].surface));
+    file.add(
+        usda_material(concat(root, '/', scope, '/', names[m]), names[m], materials_[m].surface));
   }
   file.add("    }\n");
 }

@@ -78,8 +78,8 @@ UsdaSurface surface_of(const GlbMaterial& material, std::span<const std::string>
   return surface;
 }
 
-UsdaMesh mesh_of(const Topology& topology, const TextureCoordinates& uvs,
-                 const GlbOptions& options, Subdivision subdivision) {
+UsdaMesh mesh_of(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options,
+                 Subdivision subdivision) {
   if (topology.face_count() == 0) throw InvalidInput("USD: expected a mesh with faces");
   UsdaMesh::Form form{.subdivision = subdivision,
                       .face_materials = options.face_materials,

@@ -84,8 +84,7 @@ void CrowdRenders::make_folders(const CrowdDirectory& directory,
 }
 
 FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
-                                std::span<const Displacements> moves,
-                                const OwnCoat* own,
+                                std::span<const Displacements> moves, const OwnCoat* own,
                                 const std::vector<WornAttachment>& worn) const {
   const Positions single = as_written(positions);
   std::optional<TextureCoat> of_target;
@@ -138,8 +137,7 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
                                      const Recipe& recipe) const {
   const std::optional<OwnCoat> own = own_coat(textures, recipe);
-  return own ? render_png(positions, nullptr, &own->coat())
-             : render_png(positions, recipe.target);
+  return own ? render_png(positions, nullptr, &own->coat()) : render_png(positions, recipe.target);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {

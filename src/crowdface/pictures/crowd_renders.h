@@ -44,8 +44,8 @@ class CrowdRenders {
   /// \param own       of own_coat, or null: it bears its target's textures, if there are any.
   /// \param worn      its attachments.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
-                    std::span<const Displacements> moves,
-                    const OwnCoat* own, const std::vector<WornAttachment>& worn = {}) const;
+                    std::span<const Displacements> moves, const OwnCoat* own,
+                    const std::vector<WornAttachment>& worn = {}) const;
 
   /// To be given a face's own pictures; nothing if none are shown.
   std::optional<OwnCoat> own_coat() const;

@@ -78,8 +78,8 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
     std::vector<Displacements> moves;
     if (renders_.show_shapes()) moves = shapes_.of_face(face.recipe, positions);
     const FacePictures pictures =
-        renders_.draw(face.id, face.recipe.target, positions, moves,
-                      own ? &*own : nullptr, attachments.worn_by(face, positions));
+        renders_.draw(face.id, face.recipe.target, positions, moves, own ? &*own : nullptr,
+                      attachments.worn_by(face, positions));
     std::vector<FileToWrite> files = {{directory_.render(face.id), {pictures.picture}}};
     if (pictures.preview) files.push_back({directory_.gallery_face(face.id), {*pictures.preview}});
     write_files(files);

@@ -83,8 +83,8 @@ std::size_t AttachmentWriters::encode_bytes() const {
   std::map<std::string, std::size_t> largest;
   for (const auto& [item, form] : forms_) {
     std::size_t& most = largest[item->kind];
-    most = std::max(most, form.obj.encode_bytes() *
-                              (1 + shapes_in_files(*item, formats_, inputs_).size()));
+    most = std::max(
+        most, form.obj.encode_bytes() * (1 + shapes_in_files(*item, formats_, inputs_).size()));
   }
   std::size_t bytes = 0;
   for (const auto& [kind, most] : largest) bytes += most;

@@ -175,7 +175,8 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
   const Positions moved = in_shape(face, mesh.shape);
   const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
   const WholeFace acting{face.id,       face.target,        moved,       normals, face.moves,
-                         face.textures, face.texture_names, face.points, {}, {},     face.joints};
+                         face.textures, face.texture_names, face.points, {},      {},
+                         face.joints};
   return level.encode(mesh, acting, had_normals(face.target));
 }
 
@@ -218,8 +219,9 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   if (glb_attachments_) parts = glb_attachments_->parts(worn);
   std::vector<PlacedUsdaPart> usd_parts;
   if (usd_attachments_) usd_parts = usd_attachments_->parts(worn);
-  const WholeFace whole{face.id,  face.recipe.target, positions, normals, moves,
-                        textures, texture_names,      points,    parts,   usd_parts, joints};
+  const WholeFace whole{face.id, face.recipe.target, positions,     normals,
+                        moves,   textures,           texture_names, points,
+                        parts,   usd_parts,          joints};
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
     meshes.push_back({name, encode(name, whole)});

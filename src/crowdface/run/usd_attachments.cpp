@@ -54,8 +54,8 @@ UsdaPart part_of(const Attachment& item, std::string name, const Inputs& inputs,
   }
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return {std::move(name), item.file.topology, item.file.uvs, std::move(materials), named.of_face,
-          targets};
+  return {std::move(name),      item.file.topology, item.file.uvs,
+          std::move(materials), named.of_face,      targets};
 }
 
 }  // namespace

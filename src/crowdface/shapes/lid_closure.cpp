@@ -307,8 +307,7 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye,
 double LidClosure::open(const Positions& face, const RigidMotion& whole, const Goals& goals,
                         const Positions& moves) const {
   double open = 0;
-  for (const double gap :
-       missing_gaps(gaps(axes_on(whole), face, moves), goals, whole.scale)) {
+  for (const double gap : missing_gaps(gaps(axes_on(whole), face, moves), goals, whole.scale)) {
     open = std::max(open, gap / (whole.scale * radius_) - kOpen);
   }
   return open;

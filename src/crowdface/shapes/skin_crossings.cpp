@@ -361,8 +361,8 @@ Index SkinCrossings::mend(const Positions& rest, const std::vector<bool>& at_res
 
 void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
                                const Excused& excused, CrossingSearch::Boxes& boxes,
-                               std::vector<Pair>& pairs, Positions& mesh,
-                               Displacements& shape, const Harm& harm) const {
+                               std::vector<Pair>& pairs, Positions& mesh, Displacements& shape,
+                               const Harm& harm) const {
   double grown = 1, best = HUGE_VAL;
   Positions best_moves;
   std::vector<Pair> best_pairs;
@@ -383,8 +383,7 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
     std::erase_if(pairs, are_lids);
     std::vector<bool> changed(is_skin_.size(), false);
     if (!lids.empty()) {
-      push_apart(lids, watched, rest, grown * kPush * extent_,
-                 shape, changed);
+      push_apart(lids, watched, rest, grown * kPush * extent_, shape, changed);
     }
     if (!pairs.empty()) even_out(pairs, watched, rest, grown, shape, changed);
     for (const Row& row : watched.rows) {

@@ -35,13 +35,12 @@ class SkinCrossings {
   struct Watched {
     CrossingSearch search;
     std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
-    LidSides lids;               ///< of eyes that close
+    LidSides lids;              ///< of eyes that close
     std::vector<Row> rows;
     bool is_meant = false;  ///< its crossings are counted and left
   };
   /// \param neutral  of the template, #V by 3
-  Watched watch(const Positions& neutral, const Displacements& shape,
-                LidSides lids) const;
+  Watched watch(const Positions& neutral, const Displacements& shape, LidSides lids) const;
   /// Crossings in this mesh are to be found on faces as well.
   void excuse(const Positions& mesh, Watched& watched) const;
 

@@ -47,7 +47,8 @@ struct TextureMap {
   int height = 0;
   std::vector<Density> planes;  ///< a channel each: height · width, first row on top: v = 1
   MapCoding coding = {};
-  std::shared_ptr<const MappedFile> scratch = {};  ///< where the planes lie instead, see move_to_disk
+  std::shared_ptr<const MappedFile> scratch =
+      {};  ///< where the planes lie instead, see move_to_disk
 
   float number(Density stored) const { return coding.number(stored); }
   std::size_t texels() const {
