@@ -16,9 +16,9 @@ namespace crowdface {
 
 /// Where a point lies against the skin.
 struct SkinPlace {
-  std::uint32_t vertex = 0;                           ///< a corner of the nearest triangle
-  double height = 0;                                  ///< off the skin; negative: inside
-  Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, smooth over the skin
+  std::uint32_t vertex = 0;                            ///< a corner of the nearest triangle
+  double height = 0;                                   ///< off the skin; negative: inside
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();   ///< unit, smooth over the skin
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the skin
 };
 

@@ -23,8 +23,8 @@ FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs) : i
     carriers_[i] = std::make_unique<const AttachmentCarrier>(*skin_, file.topology, file.positions,
                                                              set.items[i].moves);
     if (inputs.shapes.shapes.empty() || set.items[i].moves != AttachmentMove::kBend) return;
-    bends_[i] = std::make_unique<const ShapeBend>(*skin_, inputs.adjacency, file.topology,
-                                                  file.positions);
+    bends_[i] =
+        std::make_unique<const ShapeBend>(*skin_, inputs.adjacency, file.topology, file.positions);
   });
 }
 

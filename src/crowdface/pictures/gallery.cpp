@@ -307,8 +307,8 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   if (!worn.empty()) {
     std::vector<std::string> packed;
     for (const WornAttachment& one : worn) {
-      packed.push_back(concat(Json(one.item->name).dump(), ':',
-                              attachments_.packed(one, frame_, least_move())));
+      packed.push_back(
+          concat(Json(one.item->name).dump(), ':', attachments_.packed(one, frame_, least_move())));
     }
     more += concat(shown_.empty() ? ",null,{" : ",{", join(packed, ","), '}');
   }
