@@ -27,6 +27,7 @@ constexpr double kGrowth = 0.08;                       // of those, a round
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
 constexpr int kRounds = 30, kForwardRounds = 12;
+constexpr int kPatience = 6;  // rounds in which nothing gets better, where another harm is looked at
 constexpr double kMeets = 0.008;  // how near on the template is what may meet on a face
 
 double square(double x) {
@@ -367,15 +368,19 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
   double grown = 1, best = HUGE_VAL;
   Positions best_moves;
   std::vector<Pair> best_pairs;
+  int since_best = 0;
   const auto judge = [&] {
     const double bad = static_cast<double>(crossing_triangles(pairs)) + harm(shape.moves);
+    ++since_best;
     if (bad >= best) return;
     best = bad;
+    since_best = 0;
     best_moves = shape.moves;
     best_pairs = pairs;
   };
   for (int round = 0; round < kRounds && !pairs.empty(); ++round, grown += kGrowth) {
     if (harm) judge();
+    if (since_best == kPatience) break;
     const auto are_lids = [&](const Pair& pair) {
       return side_of(watched, pair[0]) * side_of(watched, pair[1]) < 0;
     };
