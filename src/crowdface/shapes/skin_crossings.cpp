@@ -27,7 +27,8 @@ constexpr double kGrowth = 0.08;                       // of those, a round
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
 constexpr int kRounds = 30, kForwardRounds = 12;
-constexpr int kPatience = 6;  // rounds in which nothing gets better, where another harm is looked at
+constexpr int kPatience =
+    6;  // rounds in which nothing gets better, where another harm is looked at
 constexpr double kMeets = 0.008;  // how near on the template is what may meet on a face
 
 double square(double x) {
@@ -242,7 +243,8 @@ int SkinCrossings::side_of(const Watched& watched, std::uint32_t triangle) const
 }
 
 /// Lids: the upper one forward over the lower one, as pushed up it would open, and the lower one pushed back would go
-/// into the eyeball. Where that does not help, both, as they lie at rest.
+/// into the eyeball. Where that does not help, both, as they lie at rest, if nothing says
+/// that this does harm.
 void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& watched,
                                const Positions& rest, double by, Push how, Displacements& shape,
                                std::vector<bool>& changed) const {
@@ -390,7 +392,7 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
     std::vector<bool> changed(is_skin_.size(), false);
     if (!lids.empty()) {
       push_apart(lids, watched, rest, grown * kPush * extent_,
-                 round < kForwardRounds ? Push::kForward : Push::kApart, shape, changed);
+                 harm || round < kForwardRounds ? Push::kForward : Push::kApart, shape, changed);
     }
     if (!pairs.empty()) even_out(pairs, watched, rest, grown, shape, changed);
     for (const Row& row : watched.rows) {
