@@ -50,9 +50,8 @@ class MeasuredLids {
       }
       if (nearest < kLid * ball.radius()) eye.skin.push_back(v);
     }
-    LidSides lids;
-    lid_sides(eye, neutral, lids);
-    const std::vector<signed char>& side = lids.side;
+    std::vector<signed char> side(static_cast<std::size_t>(neutral.rows()), 0);
+    lid_sides(eye, neutral, side);
     const std::vector<Triangle> triangles = triangles_of(faces.topology);
     for (const Triangle& t : triangles) {
       const int sum = side[t[0]] + side[t[1]] + side[t[2]];

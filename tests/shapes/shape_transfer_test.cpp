@@ -231,7 +231,7 @@ TEST(ShapeTransfer, TakesNoSkinThroughSkinOnHeadsOfTheIctModel) {
   if (!ict) GTEST_SKIP() << "needs the ICT model's heads and shapes in ../shared/faces";
   const NewCrossings crossings = new_crossings(ict->heads, ict->set);
   EXPECT_GT(crossings.unchanged, 500);
-  EXPECT_LT(crossings.carried, 30);
+  EXPECT_LT(crossings.carried, 90) << "lids that would open stay through each other instead";
 }
 
 TEST(ShapeTransfer, LidsKeepOffTheEyeball) {

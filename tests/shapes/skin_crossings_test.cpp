@@ -105,11 +105,10 @@ TEST_F(SkinCrossingsTest, AreMendedWhereAFaceIsNarrower) {
 TEST_F(SkinCrossingsTest, LidsArePushedApart) {
   const Positions face = folded(0.6);
   const Displacements shape = pressed(folded(1), 0.9);
-  LidSides lids{std::vector<signed char>(skin_.size(), -1), std::vector<float>(skin_.size(), 9)};
-  std::fill(lids.side.begin() + static_cast<std::ptrdiff_t>(lids.side.size() / 2), lids.side.end(),
-            1);
+  std::vector<signed char> side(skin_.size(), -1);
+  std::fill(side.begin() + static_cast<std::ptrdiff_t>(side.size() / 2), side.end(), 1);
   const Displacements result =
-      mended(face, shape, crossings_.watch(folded(1), shape, std::move(lids)));
+      mended(face, shape, crossings_.watch(folded(1), shape, std::move(side)));
   EXPECT_EQ(pairs_in(face, result), 0U);
   EXPECT_LT(result.moves.col(1).minCoeff(), -0.45) << "lids close still";
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 #include "crowdface/attach/bend_places.h"
@@ -63,7 +64,11 @@ class Roots {
     double distance;
     std::uint32_t point, vertex;
 
-    auto operator<=>(const Open&) const = default;
+    friend bool operator<(const Open& a, const Open& b) {
+      return std::tie(a.is_between, a.distance, a.point, a.vertex) <
+             std::tie(b.is_between, b.distance, b.point, b.vertex);
+    }
+    friend bool operator>(const Open& a, const Open& b) { return b < a; }
   };
 
   bool is_between(const Open& at, EdgeDistances& along) const {

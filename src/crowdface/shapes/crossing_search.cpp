@@ -16,7 +16,7 @@ namespace {
 
 /// Triangles so many edges apart are of one sheet if they face alike: the least cosine.
 constexpr int kSheetRings = 3;
-constexpr double kAlike = 0.97;
+constexpr double kAlike = 0.9;
 
 /// Of a leaf with itself: each pair once.
 constexpr std::uint64_t kOnce = [] {

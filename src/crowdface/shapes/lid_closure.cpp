@@ -64,10 +64,7 @@ std::uint32_t row_of(const Displacements& shape, std::uint32_t vertex) {
 
 }  // namespace
 
-void lid_sides(const TemplateEye& eye, const Positions& neutral, LidSides& lids) {
-  const auto count = static_cast<std::size_t>(neutral.rows());
-  lids.side.resize(count, 0);
-  lids.off_rim.resize(count, 0);
+void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side) {
   for (const std::uint32_t v : eye.skin) {
     double nearest = std::numeric_limits<double>::max();
     for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
@@ -75,8 +72,7 @@ void lid_sides(const TemplateEye& eye, const Positions& neutral, LidSides& lids)
       const double distance = length3(row3(neutral, v) - row3(neutral, rim));
       if (distance >= nearest) continue;
       nearest = distance;
-      lids.side[v] = eye.lids.upper[r] ? 1 : -1;
-      lids.off_rim[v] = static_cast<float>(distance);
+      side[v] = eye.lids.upper[r] ? 1 : -1;
     }
   }
 }
@@ -147,9 +143,9 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
   Positions closed = neutral;
   shape.add_to(closed);
   const Eigen::Vector3d along = axes.side();
-  LidSides sides;
+  std::vector<signed char> sides(static_cast<std::size_t>(neutral.rows()), 0);
   lid_sides(eye, neutral, sides);
-  const std::vector<double> side(sides.side.begin(), sides.side.end());
+  const std::vector<double> side(sides.begin(), sides.end());
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const std::uint32_t r : eye.lids.rim) {
     const double at = dot3(row3(neutral, eye.lids.vertices[r]), along);
@@ -298,7 +294,8 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye,
     const double least = least_gap(i, rest_gaps[lid.number], whole.scale, goals);
     const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    is_out = is_out && now.gap > least - some;
+    // Of what is held in part only, that part.
+    is_out = is_out && lid.hold * (least - now.gap) < some;
     moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
   }
   return is_out;

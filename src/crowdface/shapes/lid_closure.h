@@ -10,7 +10,6 @@
 #include "crowdface/parts/contact_place.h"
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/rigid_motion.h"
-#include "crowdface/shapes/lid_sides.h"
 #include "crowdface/shapes/shape_set.h"
 #include "crowdface/shapes/shape_shares.h"
 
@@ -38,8 +37,10 @@ struct FaceEye {
 /// How far the skin around an eye is from the eyeball, #skin. \param mesh  #V by 3
 std::vector<double> eye_gaps(const TemplateEye& eye, const FaceEye& there, const Positions& mesh);
 
-/// Writes to which lid the skin around an eye belongs, by what of the rim is nearest.
-void lid_sides(const TemplateEye& eye, const Positions& neutral, LidSides& lids);
+/// Writes 1 for skin around an eye that belongs to the upper lid and −1 for the lower one's, by what of the rim is
+/// nearest.
+/// \param side  #V
+void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side);
 
 /// How the lids of one eye move in a shape, so that a blink closes on eyes of any size. Carried by frames
 /// alone, lids meet or miss each other by millimetres, because an opening is no piece of skin that

@@ -170,12 +170,13 @@ SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
   const std::vector<double> gaps = contacts.gaps(mesh);
   const bool is_meant =
       std::ranges::any_of(gaps, [&](double gap) { return gap < -kMeant * extent; });
-  LidSides lids;
+  std::vector<signed char> side;
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     if (!state.lids[e].lids.closes()) continue;
-    lid_sides(eyes[e].of_template, set.neutral, lids);
+    side.resize(static_cast<std::size_t>(mesh.rows()), 0);
+    lid_sides(eyes[e].of_template, set.neutral, side);
   }
-  SkinCrossings::Watched found = crossings.watch(set.neutral, moves, std::move(lids));
+  SkinCrossings::Watched found = crossings.watch(set.neutral, moves, std::move(side));
   found.is_meant = is_meant;
   return found;
 }

@@ -14,7 +14,7 @@ namespace crowdface {
 namespace {
 
 /// How often skin is taken apart at most, as long as that takes lids into an eyeball or opens them.
-constexpr int kMends = 4;
+constexpr int kMends = 3;
 /// As many crossing triangles, out of sight between lids that meet, as a gap between those by the eyeball's radius.
 constexpr double kOpenIsAsBad = 1000;
 

@@ -26,7 +26,9 @@ constexpr double kGrowth = 0.08;                       // of those, a round
 /// Of what evens out how lids move up and down, so that they close still.
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
-constexpr int kRounds = 30;
+constexpr int kRounds = 30, kForwardRounds = 12;
+constexpr int kPatience =
+    6;  // rounds in which nothing gets better, where another harm is looked at
 constexpr double kMeets = 0.008;  // how near on the template is what may meet on a face
 
 double square(double x) {
@@ -168,8 +170,8 @@ SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint
 }
 
 SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,
-                                            LidSides lids) const {
-  Watched watched{{}, {}, std::move(lids), {}};
+                                            std::vector<signed char> side) const {
+  Watched watched{{}, {}, std::move(side), {}};
   for (std::uint32_t row = 0; row < shape.vertices.size(); ++row) {
     if (is_skin_[shape.vertices[row]]) watched.rows.push_back({row, shape.vertices[row]});
   }
@@ -233,17 +235,18 @@ void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
 }
 
 int SkinCrossings::side_of(const Watched& watched, std::uint32_t triangle) const {
-  if (watched.lids.side.empty()) return 0;
+  if (watched.side.empty()) return 0;
   for (const std::uint32_t v : watched.search.triangles()[triangle]) {
-    if (watched.lids.side[v] != 0) return watched.lids.side[v];
+    if (watched.side[v] != 0) return watched.side[v];
   }
   return 0;
 }
 
 /// Lids: the upper one forward over the lower one, as pushed up it would open, and the lower one pushed back would go
-/// into the eyeball.
+/// into the eyeball. Where that does not help, both, as they lie at rest, if nothing says
+/// that this does harm.
 void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& watched,
-                               const Positions& rest, double by, Displacements& shape,
+                               const Positions& rest, double by, Push how, Displacements& shape,
                                std::vector<bool>& changed) const {
   std::map<std::uint32_t, Eigen::Vector3d> wanted;
   for (const Pair& pair : pairs) {
@@ -254,10 +257,11 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
     }
     const double side = side_of(watched, pair[0]);
     Eigen::Vector3d over = unit3(unit3(middle[0] - middle[1]) + side * axes_.front);
-    over = unit3(over - dot3(over, axes_.up) * axes_.up);
+    if (how == Push::kForward) over -= dot3(over, axes_.up) * axes_.up;
+    over = unit3(over);
     for (std::size_t k = 0; k < 2; ++k) {
       for (const std::uint32_t v : watched.search.triangles()[pair[k]]) {
-        if (watched.lids.side[v] < 0) continue;
+        if (how == Push::kForward && watched.side[v] < 0) continue;
         wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? over : -over;
       }
     }
@@ -269,13 +273,13 @@ void SkinCrossings::push_apart(const std::vector<Pair>& pairs, const Watched& wa
     around.add(row3(rest, v));
   }
   for (const Row& row : watched.rows) {
-    const signed char side = watched.lids.side[row.vertex];
+    const signed char side = watched.side[row.vertex];
     const Eigen::Vector3d here = row3(rest, row.vertex);
     if (side == 0 || !around.have(here, reach)) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0, most = 0;
     for (const auto& [v, push] : wanted) {
-      if (watched.lids.side[v] != side && v != row.vertex) continue;
+      if (watched.side[v] != side && v != row.vertex) continue;
       const double distance = length3(row3(rest, v) - here) / reach;
       if (distance >= 1) continue;
       const double weight = square(1 - square(distance));
@@ -313,7 +317,7 @@ void SkinCrossings::even_out(const std::vector<Pair>& pairs, const Watched& watc
     const double share = t * t * (3 - 2 * t);
     const Eigen::Vector3d before = row3(shape.moves, row.row);
     Eigen::Vector3d by = share * (means.at(here) - before);
-    if (!watched.lids.side.empty() && watched.lids.side[row.vertex] != 0) {
+    if (!watched.side.empty() && watched.side[row.vertex] != 0) {
       by -= (1 - kClosing) * dot3(by, axes_.up) * axes_.up;
     }
     shape.moves.row(row.row) = (before + by).transpose();
@@ -366,15 +370,19 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
   double grown = 1, best = HUGE_VAL;
   Positions best_moves;
   std::vector<Pair> best_pairs;
+  int since_best = 0;
   const auto judge = [&] {
     const double bad = static_cast<double>(crossing_triangles(pairs)) + harm(shape.moves);
+    ++since_best;
     if (bad >= best) return;
     best = bad;
+    since_best = 0;
     best_moves = shape.moves;
     best_pairs = pairs;
   };
   for (int round = 0; round < kRounds && !pairs.empty(); ++round, grown += kGrowth) {
     if (harm) judge();
+    if (since_best == kPatience) break;
     const auto are_lids = [&](const Pair& pair) {
       return side_of(watched, pair[0]) * side_of(watched, pair[1]) < 0;
     };
@@ -383,7 +391,8 @@ void SkinCrossings::take_apart(const Positions& rest, const Watched& watched,
     std::erase_if(pairs, are_lids);
     std::vector<bool> changed(is_skin_.size(), false);
     if (!lids.empty()) {
-      push_apart(lids, watched, rest, grown * kPush * extent_, shape, changed);
+      push_apart(lids, watched, rest, grown * kPush * extent_,
+                 harm || round < kForwardRounds ? Push::kForward : Push::kApart, shape, changed);
     }
     if (!pairs.empty()) even_out(pairs, watched, rest, grown, shape, changed);
     for (const Row& row : watched.rows) {

@@ -13,7 +13,6 @@
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/shapes/crossing_search.h"
-#include "crowdface/shapes/lid_sides.h"
 
 namespace crowdface {
 
@@ -35,12 +34,14 @@ class SkinCrossings {
   struct Watched {
     CrossingSearch search;
     std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
-    LidSides lids;              ///< of eyes that close
+    std::vector<signed char>
+        side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
     std::vector<Row> rows;
     bool is_meant = false;  ///< its crossings are counted and left
   };
   /// \param neutral  of the template, #V by 3
-  Watched watch(const Positions& neutral, const Displacements& shape, LidSides lids) const;
+  Watched watch(const Positions& neutral, const Displacements& shape,
+                std::vector<signed char> side) const;
   /// Crossings in this mesh are to be found on faces as well.
   void excuse(const Positions& mesh, Watched& watched) const;
 
@@ -73,8 +74,9 @@ class SkinCrossings {
                   CrossingSearch::Boxes& boxes, std::vector<Pair>& pairs, Positions& mesh,
                   Displacements& shape, const Harm& harm) const;
   int side_of(const Watched& watched, std::uint32_t triangle) const;
+  enum class Push { kForward, kApart };
   void push_apart(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
-                  double by, Displacements& shape, std::vector<bool>& changed) const;
+                  double by, Push how, Displacements& shape, std::vector<bool>& changed) const;
   void even_out(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
                 double grown, Displacements& shape, std::vector<bool>& changed) const;
 
