@@ -246,8 +246,7 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const Index rank = directions_.rows();
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
-  add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size,
-                  result.data());
+  add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
   // How far the face is from the directions' span: |a| − |b| of it is at most |a − b|.
   const double rest =
       fixed_dot(at.data(), at.data(), at.size()) - fixed_dot(result.data(), result.data(), size);

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kEndings = {kPreparedEnding, kReadEnding, kMeshEnding, kListsEnding, kSeenEnding};
+constexpr std::array kEndings = {kPreparedEnding, kReadEnding, kMeshEnding, kListsEnding,
+                                 kSeenEnding};
 
 /// Magnitudes are ordered as their bits are, and NaN and infinity beyond all others. So they are
 /// compared as integers, vectors of them at once: any too large makes its difference negative.

@@ -22,7 +22,7 @@ std::filesystem::path cache_directory();
 inline constexpr std::string_view kPreparedEnding = ".cfhead", kReadEnding = ".cfread",
                                   kMeshEnding = ".cfmesh";
 inline constexpr std::string_view kListsEnding = ".cflist";  ///< what was found of heads
-inline constexpr std::string_view kSeenEnding = ".cfseen";  ///< when a file was read whole
+inline constexpr std::string_view kSeenEnding = ".cfseen";   ///< when a file was read whole
 
 /// The file of an entry: its key in hexadecimal, and an ending.
 std::filesystem::path cache_entry(const std::filesystem::path& cache, const Digest& key,

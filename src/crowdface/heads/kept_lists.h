@@ -57,14 +57,13 @@ std::tuple<std::vector<T>...> kept_lists(const std::filesystem::path& cache, con
     std::size_t at = 0;
     const bool whole = std::apply(
         [&](auto&... list) { return (detail::take_list(found->lists[at++], list) && ...); }, lists);
-    if (whole && std::apply(is_sound, std::as_const(lists)) && !found->file->was_cut()) return lists;
+    if (whole && std::apply(is_sound, std::as_const(lists)) && !found->file->was_cut())
+      return lists;
     detail::warn_of_damage(cache, key);
   }
   Lists lists = make();
   std::apply(
-      [&](const auto&... list) {
-        detail::keep_lists(cache, key, {bytes_of(std::span(list))...});
-      },
+      [&](const auto&... list) { detail::keep_lists(cache, key, {bytes_of(std::span(list))...}); },
       lists);
   return lists;
 }

@@ -133,9 +133,7 @@ bool into_cache(const std::filesystem::path& cache, const Digest& key, const Hea
 
 Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
-  const auto chosen = [&](Index count) {
-    return choose_samples(config, inputs, count);
-  };
+  const auto chosen = [&](Index count) { return choose_samples(config, inputs, count); };
   if (inputs.mirror == nullptr) {
     prepared.traced = prepared.samples = chosen(kSamples);
   } else {

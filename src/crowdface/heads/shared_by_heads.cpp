@@ -106,8 +106,8 @@ void find_neighbours(Inputs& inputs) {
               const Numbers& size) {
             return offset.size() == vertices + 1 && offset.front() == 0 &&
                    offset.back() == item.size() && std::ranges::is_sorted(offset) &&
-                   all_below(item, vertices) && open.size() == vertices &&
-                   of.size() == vertices && all_below(of, size.size());
+                   all_below(item, vertices) && open.size() == vertices && of.size() == vertices &&
+                   all_below(of, size.size());
           });
   inputs.adjacency.offsets = std::move(offsets);
   inputs.adjacency.items = std::move(items);
@@ -125,13 +125,12 @@ RegionWeights load_regions(const Config& config, const Inputs& inputs) {
       inputs.cache, *key,
       [&] {
         const RegionWeights weights = weights_of_masks(config, inputs);
-        return std::tuple(list_of(weights.alpha),
-                          std::vector<std::uint64_t>{
-                              static_cast<std::uint64_t>(weights.uncovered_vertices)});
+        return std::tuple(
+            list_of(weights.alpha),
+            std::vector<std::uint64_t>{static_cast<std::uint64_t>(weights.uncovered_vertices)});
       },
       [&](const auto& values, const auto& count) {
-        return values.size() == static_cast<std::size_t>(vertices * regions) &&
-               count.size() == 1 &&
+        return values.size() == static_cast<std::size_t>(vertices * regions) && count.size() == 1 &&
                std::ranges::all_of(values, [](double value) { return value >= 0 && value <= 1; });
       });
   return {rows_of<RegionWeights::Alpha>(alpha, regions), static_cast<Index>(uncovered.front())};
@@ -146,8 +145,8 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
   auto [samples] = kept_lists<std::uint32_t>(
       inputs.cache, key.digest(),
       [&] {
-        return std::tuple(choose_face_samples(inputs.faces.topology, inputs.skin,
-                                              mean_head(inputs.faces), config.faces.front, count));
+        return std::tuple(choose_face_samples(inputs.faces.topology, inputs.skin, inputs.mean,
+                                              config.faces.front, count));
       },
       [&](const auto& chosen) {
         return !chosen.empty() && std::ranges::is_sorted(chosen) &&
@@ -157,13 +156,15 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
   return std::move(samples);
 }
 
-SampleCells find_cells(const Inputs& inputs, const Positions& mean, const FaceSamples& samples) {
+SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
   begin_key(key, Kind::kCells, inputs).add_array(std::span(samples));
   for (const Digest& head : inputs.head_digests) key.add(head);
   auto [of_vertex] = kept_lists<std::uint32_t>(
       inputs.cache, key.digest(),
-      [&] { return std::tuple(find_sample_cells(inputs.adjacency, mean, samples).of_vertex); },
+      [&] {
+        return std::tuple(find_sample_cells(inputs.adjacency, inputs.mean, samples).of_vertex);
+      },
       [&](const auto& cells) {
         return cells.size() == static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
                std::ranges::all_of(cells, [&](std::uint32_t cell) {
@@ -183,8 +184,8 @@ FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) 
       kept_lists<Triangle, std::array<double, 3>, std::uint32_t, double, std::uint64_t, double>(
           inputs.cache, key.digest(),
           [&] {
-            FoundMirror found = find_mirror(inputs.faces.topology, inputs.components,
-                                            mean_head(inputs.faces), side);
+            FoundMirror found =
+                find_mirror(inputs.faces.topology, inputs.components, inputs.mean, side);
             const auto& [normal, offset] = found.map.plane;
             return std::tuple(
                 std::move(found.map.corners), std::move(found.map.shares),
