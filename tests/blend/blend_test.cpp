@@ -379,8 +379,8 @@ TEST_F(Blend, AFaceHasTheSameBitsInCompanyWhereRegionsComeInStripes) {
   const CrowdBlender blend = blender(fits, stripes);
   std::vector<Recipe> crowd;
   for (std::uint64_t f = 0; f < 7; ++f) {
-    crowd.push_back(recipe(static_cast<Index>(f % 3), {region({{0, 0.4}, {1, 0.6}}, 5 + f, 0.9),
-                                                       region({{2, 1}}, 9 + f)}));
+    crowd.push_back(recipe(static_cast<Index>(f % 3),
+                           {region({{0, 0.4}, {1, 0.6}}, 5 + f, 0.9), region({{2, 1}}, 9 + f)}));
   }
   std::vector<const Recipe*> all;
   for (const Recipe& one : crowd) all.push_back(&one);

@@ -276,7 +276,7 @@ class Tile {
     std::uint32_t first = 0, end = 0;  ///< of its meetings
     std::uint32_t missed = 0;          ///< how many of its samples met nothing
     Change change = Change::kNone;
-    Light backdrop = Light::Zero();    ///< of its samples that met nothing
+    Light backdrop = Light::Zero();  ///< of its samples that met nothing
     Summary summary = {};
   };
 
