@@ -368,6 +368,27 @@ TEST_F(Blend, AFaceHasTheSameBitsAloneAndInAnyCompany) {
   use_instruction_set(instruction_sets().front());
 }
 
+/// Runs of seven vertices begin and end within the rows that the product works on: what is unpacked of one must not
+/// reach into what is there of another.
+TEST_F(Blend, AFaceHasTheSameBitsInCompanyWhereRegionsComeInStripes) {
+  RegionWeights stripes = two_;
+  for (Index v = 0; v < stripes.alpha.rows(); ++v) {
+    stripes.alpha.row(v) << (v % 8 < 7 ? 1 : 0), (v % 8 < 7 ? 0 : 1);
+  }
+  const std::vector<CubicFit> fits = cubic_fits(50);
+  const CrowdBlender blend = blender(fits, stripes);
+  std::vector<Recipe> crowd;
+  for (std::uint64_t f = 0; f < 7; ++f) {
+    crowd.push_back(recipe(static_cast<Index>(f % 3),
+                           {region({{0, 0.4}, {1, 0.6}}, 5 + f, 0.9), region({{2, 1}}, 9 + f)}));
+  }
+  std::vector<const Recipe*> all;
+  for (const Recipe& one : crowd) all.push_back(&one);
+  std::vector<Positions> together(crowd.size());
+  blend.blend(all, together);
+  for (std::size_t f = 0; f < crowd.size(); ++f) EXPECT_EQ(together[f], blend.blend(crowd[f])) << f;
+}
+
 TEST_F(Blend, RimsKeepTheTargetsBitsWithFittedLevels) {
   const std::vector<CubicFit> fits = cubic_fits(50);
   const Positions face =

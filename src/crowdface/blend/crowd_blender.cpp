@@ -130,6 +130,48 @@ const std::int16_t* CrowdBlender::Field::at(const Run& run) const {
   return numbers + run.first / kFieldTile * stride + 3 * (run.first % kFieldTile);
 }
 
+/// Brings the next block's numbers into a core's cache, a few lines at a time, while the product keeps the core
+/// busy and memory waits.
+class CrowdBlender::FieldsAhead {
+ public:
+  /// \param times  how often `fetch_some` will be called
+  void aim(const CrowdBlender& blender, const Block& block, std::size_t times) {
+    pieces_.clear();
+    std::size_t lines = 0, field = 0;
+    for (const HeadLevels& head : blender.levels_) {
+      const std::size_t rank = head.fields.steps.size();
+      for (const Run& run : block.runs) {
+        if (rank == 0 || run.count < kFieldTile)
+          continue;  // of a part of a tile most is not needed
+        pieces_.push_back({blender.fields_[field].at(run), rank * kTileLines});
+        lines += rank * kTileLines;
+      }
+      field += rank;
+    }
+    a_time_ = times == 0 ? 0 : (lines + times - 1) / times;
+    piece_ = line_ = 0;
+  }
+  void fetch_some() {
+    for (std::size_t left = a_time_; left > 0 && piece_ < pieces_.size(); --left) {
+      const Piece& piece = pieces_[piece_];
+      __builtin_prefetch(piece.first + line_ * kLineNumbers, 0, 2);
+      if (++line_ < piece.lines) continue;
+      line_ = 0;
+      ++piece_;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kLineNumbers = 64 / sizeof(std::int16_t);
+  static constexpr std::size_t kTileLines = kTileValues / kLineNumbers;
+  struct Piece {
+    const std::int16_t* first;
+    std::size_t lines;
+  };
+  std::vector<Piece> pieces_;
+  std::size_t a_time_ = 0, piece_ = 0, line_ = 0;
+};
+
 /// The block's values of the fields that are used: #chunks by #fields and one row for what `unpack` writes too
 /// much; what is past its last vertex, or of another field, is any number.
 void CrowdBlender::pack(const Block& block, const std::vector<bool>& used,
@@ -164,13 +206,14 @@ void CrowdBlender::spread_alpha(const Block& block, std::vector<BlockValues>& al
 /// What a group of faces adds to the target at the block's vertices: Σ_k α_k times the product.
 void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& packed,
                                  const std::vector<BlockValues>& alpha,
-                                 std::span<const Factors> of_region,
+                                 std::span<const Factors> of_region, FieldsAhead& ahead,
                                  std::array<BlockValues, kChunkFaces>& result) const {
   for (auto& face : result) face.fill(0);
   for (std::size_t k = 0; k < block.regions.size(); ++k) {
     const Factors& factors = of_region[block.regions[k]];
     if (factors.fields.empty()) continue;
     for (std::size_t i = 0; i < 3 * block.count; i += kChunkValues) {
+      ahead.fetch_some();
       add_product(packed[i / kChunkValues * packed_rows()].values, factors.fields.data(),
                   factors.fields.size(), factors.coefficients.data(), alpha[k].data() + i,
                   result[0].data() + i, kBlockValues);
@@ -277,6 +320,7 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
     std::vector<Chunk> packed;
     std::vector<BlockValues> alpha;
     std::array<BlockValues, kChunkFaces> added;
+    FieldsAhead ahead;
     for (Index b = begin; b < end; ++b) {
       const Block& block = blocks_[static_cast<std::size_t>(b)];
       std::vector<bool> in_block(fields_.size(), false);
@@ -285,9 +329,14 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
       }
       pack(block, in_block, packed);
       spread_alpha(block, alpha);
+      if (b + 1 < end) {
+        const std::size_t chunks = (3 * block.count + kChunkValues - 1) / kChunkValues;
+        ahead.aim(*this, blocks_[static_cast<std::size_t>(b) + 1],
+                  all_factors.size() / regions * block.regions.size() * chunks);
+      }
       for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
         displacements(block, packed, alpha,
-                      std::span(all_factors).subspan(first / kChunkFaces * regions, regions),
+                      std::span(all_factors).subspan(first / kChunkFaces * regions, regions), ahead,
                       added);
         for (std::size_t f = first; f < std::min(first + kChunkFaces, recipes.size()); ++f) {
           write(block, *recipes[f], added[f - first], results[f]);

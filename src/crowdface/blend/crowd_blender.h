@@ -85,6 +85,8 @@ class CrowdBlender {
   };
   using BlockValues = std::array<float, kBlockValues>;
 
+  class FieldsAhead;
+
   void cut_into_blocks();
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
   Factors factors(std::span<const Recipe* const> recipes, std::size_t region) const;
@@ -97,7 +99,7 @@ class CrowdBlender {
   void spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const;
   void displacements(const Block& block, const std::vector<Chunk>& packed,
                      const std::vector<BlockValues>& alpha, std::span<const Factors> of_region,
-                     std::array<BlockValues, kChunkFaces>& result) const;
+                     FieldsAhead& ahead, std::array<BlockValues, kChunkFaces>& result) const;
   void displacement(const Block& block, const std::vector<BlockValues>& alpha,
                     const std::vector<std::vector<float>>& of_region, BlockValues& result) const;
   void write(const Block& block, const Recipe& recipe, const BlockValues& added,

@@ -33,6 +33,7 @@ struct MeasuredLevel {
 struct Inputs {
   std::filesystem::path cache;  ///< where what is found of them is kept; empty: nowhere
   FaceSet faces;
+  Positions mean;              ///< the mean head
   std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
   std::vector<Digest> texts;   ///< #heads, of the files' bytes
   FaceMaterials materials;     ///< of the first head's faces

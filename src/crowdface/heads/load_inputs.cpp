@@ -109,7 +109,7 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
 
 /// The mean head, of whose parts those that follow are no skin.
 HeadShape shape_of(const Inputs& inputs) {
-  HeadShape head{mean_head(inputs.faces), {}, {}};
+  HeadShape head{inputs.mean, {}, {}};
   for (const std::uint32_t c : inputs.skin.of_vertex) {
     head.skin.push_back(c == inputs.skin.largest());
   }
@@ -344,6 +344,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
     return std::nullopt;
   }
   hash_heads(inputs);
+  inputs.mean = mean_head(inputs.faces);
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
   try {

@@ -146,8 +146,8 @@ void find_named_parts(const Config& config, Inputs& inputs, Problems& problems) 
   inputs.skin = inputs.components;
   if (!config.parts.follow) return;
   const PartOverrides overrides = overrides_of(config, inputs, problems);
-  inputs.parts = find_parts(inputs.faces.topology, inputs.adjacency, inputs.components,
-                            mean_head(inputs.faces), overrides, head_axes(config));
+  inputs.parts = find_parts(inputs.faces.topology, inputs.adjacency, inputs.components, inputs.mean,
+                            overrides, head_axes(config));
   inputs.skin = join_skin(inputs.components, inputs.parts);
 }
 

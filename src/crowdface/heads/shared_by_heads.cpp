@@ -145,8 +145,8 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
   auto [samples] = kept_lists<std::uint32_t>(
       inputs.cache, key.digest(),
       [&] {
-        return std::tuple(choose_face_samples(inputs.faces.topology, inputs.skin,
-                                              mean_head(inputs.faces), config.faces.front, count));
+        return std::tuple(choose_face_samples(inputs.faces.topology, inputs.skin, inputs.mean,
+                                              config.faces.front, count));
       },
       [&](const auto& chosen) {
         return !chosen.empty() && std::ranges::is_sorted(chosen) &&
@@ -156,13 +156,15 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
   return std::move(samples);
 }
 
-SampleCells find_cells(const Inputs& inputs, const Positions& mean, const FaceSamples& samples) {
+SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
   begin_key(key, Kind::kCells, inputs).add_array(std::span(samples));
   for (const Digest& head : inputs.head_digests) key.add(head);
   auto [of_vertex] = kept_lists<std::uint32_t>(
       inputs.cache, key.digest(),
-      [&] { return std::tuple(find_sample_cells(inputs.adjacency, mean, samples).of_vertex); },
+      [&] {
+        return std::tuple(find_sample_cells(inputs.adjacency, inputs.mean, samples).of_vertex);
+      },
       [&](const auto& cells) {
         return cells.size() == static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
                std::ranges::all_of(cells, [&](std::uint32_t cell) {
@@ -182,8 +184,8 @@ FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) 
       kept_lists<Triangle, std::array<double, 3>, std::uint32_t, double, std::uint64_t, double>(
           inputs.cache, key.digest(),
           [&] {
-            FoundMirror found = find_mirror(inputs.faces.topology, inputs.components,
-                                            mean_head(inputs.faces), side);
+            FoundMirror found =
+                find_mirror(inputs.faces.topology, inputs.components, inputs.mean, side);
             const auto& [normal, offset] = found.map.plane;
             return std::tuple(
                 std::move(found.map.corners), std::move(found.map.shares),

@@ -23,7 +23,7 @@ RegionWeights load_regions(const Config& config, const Inputs& inputs);
 
 /// As choose_face_samples and find_sample_cells, of the mean head.
 FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index count);
-SampleCells find_cells(const Inputs& inputs, const Positions& mean, const FaceSamples& samples);
+SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples);
 
 /// As find_mirror.
 FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side);

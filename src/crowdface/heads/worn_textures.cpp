@@ -41,8 +41,8 @@ WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
                      const std::vector<TilePlace>& tiles, const std::vector<MaterialRange>& ranges,
                      std::vector<fs::path>& missing) {
   WornTextures worn;
-  worn.of_face.assign(tiles.size(), kNoIndex);
   if (of_material.empty()) return worn;
+  worn.of_face.assign(tiles.size(), kNoIndex);
   const FaceMaterials materials = face_materials(ranges, static_cast<Index>(tiles.size()));
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
@@ -156,6 +156,9 @@ std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces,
     }
     for (const auto& [text, heads] : heads_of_warning) {
       result.warnings.push_back(concat(text, " (", join(heads), ")"));
+    }
+    if (result.any()) {
+      for (WornTextures& worn : result.heads) worn.of_face.resize(tile.size(), kNoIndex);
     }
     if (kind == TextureKind::kColour || result.any()) all.push_back(std::move(result));
   }

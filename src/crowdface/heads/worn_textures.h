@@ -20,8 +20,9 @@ struct WornTextures {
     std::filesystem::path path;  ///< is there
     std::filesystem::path name;  ///< as the material says; may hold <UDIM>
   };
-  std::vector<File> files;             ///< each once, as faces first wear them
-  std::vector<std::uint32_t> of_face;  ///< #F rows of `files`, or kNoIndex
+  std::vector<File> files;  ///< each once, as faces first wear them
+  std::vector<std::uint32_t>
+      of_face;  ///< #F rows of `files`, or kNoIndex; empty where no head has any
 };
 
 /// Of all heads, and what is missing.

@@ -190,8 +190,12 @@ std::vector<bool> RayScene::occluded(std::span<const Ray> rays) const {
 }
 
 Eigen::Vector3f RayScene::point(std::uint32_t vertex) const {
-  const float* p = state_->points.data() + std::size_t{3} * vertex;
+  const float* p = place(vertex);
   return {p[0], p[1], p[2]};
+}
+
+const float* RayScene::place(std::uint32_t vertex) const {
+  return state_->points.data() + std::size_t{3} * vertex;
 }
 
 }  // namespace crowdface

@@ -79,6 +79,8 @@ class RayScene {
   /// Whether each ray meets anything.
   std::vector<bool> occluded(std::span<const Ray> rays) const;
   Eigen::Vector3f point(std::uint32_t vertex) const;
+  /// Where its coordinates lie.
+  const float* place(std::uint32_t vertex) const;
 
  private:
   struct State;

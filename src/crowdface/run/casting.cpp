@@ -253,11 +253,10 @@ void round_as_planned(std::vector<CastFace>& crowd) {
 }  // namespace
 
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared) {
-  const Positions mean = mean_head(inputs.faces);
   const std::vector<double> areas =
-      face_areas(inputs.faces.topology, inputs.skin, mean, config.distance.area, config.faces.front,
-                 inputs.distance_mask);
-  const SampleCells cells = find_cells(inputs, mean, prepared.samples);
+      face_areas(inputs.faces.topology, inputs.skin, inputs.mean, config.distance.area,
+                 config.faces.front, inputs.distance_mask);
+  const SampleCells cells = find_cells(inputs, prepared.samples);
   SampledHeads heads =
       sample_heads(inputs.faces, inputs.regions, prepared.samples, prepared.trajectories,
                    inputs.max_level, mm_per(config.faces.units));

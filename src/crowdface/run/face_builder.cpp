@@ -49,18 +49,22 @@ FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepa
     : config_(config),
       inputs_(inputs),
       prepared_(prepared),
-      contacts_(inputs.faces, inputs.adjacency, vertices_of(inputs.skin, inputs.skin.largest())),
       keeps_contacts_(config.blending.contacts == Contacts::kAuto),
       mm_per_unit_(mm_per(config.faces.units)) {
+  parallel_for_each(2, [&](int i) {
+    if (i == 0) {
+      contacts_.emplace(inputs.faces, inputs.adjacency,
+                        vertices_of(inputs.skin, inputs.skin.largest()));
+    } else if (!inputs.parts.parts.empty()) {
+      follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
+    }
+  });
   use_masks(config, inputs.regions);
-  if (!inputs.parts.parts.empty()) {
-    follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
-  }
 }
 
 void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) {
   regions_ = regions;
-  contact_masks_ = masks_at(contacts_, regions);
+  contact_masks_ = masks_at(*contacts_, regions);
   if (config.parts.shape == PartShape::kTarget) {
     for (const Part& part : inputs_.parts.parts) {
       for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
@@ -109,7 +113,7 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (recipe.asymmetry != 1) {
     face = between_mirrored(face, mirrored(mirror(), face), mirror_share(recipe.asymmetry, false));
   }
-  if (keeps_contacts_) contacts_.bring_into(contact_ranges(recipe), face);
+  if (keeps_contacts_) contacts_->bring_into(contact_ranges(recipe), face);
   if (follower_) follower_->follow(recipe.target, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
 }
@@ -137,7 +141,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
     }
     defects = check.compare(face, target);
   }
-  defects.wider_mm = contacts_.wider(face) * mm_per_unit_;
+  defects.wider_mm = contacts_->wider(face) * mm_per_unit_;
   return defects;
 }
 
@@ -145,10 +149,10 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
   std::vector<SkinContacts::Range> ranges;
   std::size_t bands = 1;
   for (const RegionRecipe& region : recipe.regions) bands = std::max(bands, band_count(region));
-  for (std::size_t p = 0; p < contacts_.size(); ++p) {
+  for (std::size_t p = 0; p < contacts_->size(); ++p) {
     double of_target = 0;
     for (const SourceWeight& share : target_shares(recipe)) {
-      of_target += share.weight * contacts_.head_gaps(share.head)[p];
+      of_target += share.weight * contacts_->head_gaps(share.head)[p];
     }
     SkinContacts::Range range{of_target, of_target};
     for (std::size_t b = 0; b < bands; ++b) {  // a gap may come from any band
@@ -158,7 +162,7 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
         double sum = 0, weights = 0;
         for (const SourceWeight& source :
              band_of(region, std::min(b, band_count(region) - 1)).weights) {
-          sum += source.weight * contacts_.head_gaps(source.head)[p];
+          sum += source.weight * contacts_->head_gaps(source.head)[p];
           weights += source.weight;
         }
         of_sources += contact_masks_[p][k] * (weights > 0 ? sum / weights : of_target);
@@ -175,11 +179,11 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
 void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {
-    const Eigen::Vector3d image = mirror().plane.image(contacts_.place(p).middle);
+    const Eigen::Vector3d image = mirror().plane.image(contacts_->place(p).middle);
     std::size_t other = p;
     double nearest = HUGE_VAL;
     for (std::size_t q = 0; q < own.size(); ++q) {
-      const double distance = length3(contacts_.place(q).middle - image);
+      const double distance = length3(contacts_->place(q).middle - image);
       if (distance >= nearest) continue;
       nearest = distance;
       other = q;
@@ -190,7 +194,7 @@ void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) con
 
 double FaceBuilder::wider_mm(const Recipe& recipe, const Positions& face) const {
   const double units =
-      recipe.mirrored ? contacts_.wider(mirrored(mirror(), face)) : contacts_.wider(face);
+      recipe.mirrored ? contacts_->wider(mirrored(mirror(), face)) : contacts_->wider(face);
   return units * mm_per_unit_;
 }
 

@@ -57,7 +57,6 @@ class FaceBuilder {
   void finish(const Recipe& recipe, Positions& face) const;
   /// By which faces are mirrored; found when the first is.
   const MirrorMap& mirror() const;
-  /// Between the gap that a face's target has at each contact and that of its sources, by weight.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   void allow_other_side(std::vector<SkinContacts::Range>& ranges) const;
 
@@ -68,8 +67,8 @@ class FaceBuilder {
   mutable std::shared_ptr<const MirrorMap> mirror_;
   /// The masks, without those vertices of parts that get other positions anyway.
   RegionWeights regions_;
-  std::optional<CrowdBlender> blender_;  ///< of fitted levels
-  SkinContacts contacts_;
+  std::optional<CrowdBlender> blender_;             ///< of fitted levels
+  std::optional<SkinContacts> contacts_;            ///< always there once the builder is made
   std::vector<std::vector<double>> contact_masks_;  ///< #places by #regions, rows summing to one
   bool keeps_contacts_;
   double mm_per_unit_;

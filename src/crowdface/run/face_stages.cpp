@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Faces blended together at most: they share the reading of the fields, and by then blending is a small
-/// part of what a face takes.
-constexpr std::size_t kMostAtOnce = 32;
+/// part of what a face takes. A multiple of the faces that the product makes at a time.
+constexpr std::size_t kMostAtOnce = 36;
 /// What rendering takes per vertex of a face while it runs: its triangles, normals and ray tree, and the
 /// gallery's smaller mesh. 272 were measured on 1.2 million vertices.
 constexpr std::uint64_t kRenderBytesAVertex = 300;
