@@ -130,6 +130,12 @@ inline constexpr std::array<std::string_view, 4> kGalleryPageFiles = {
     "index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"};
 bool is_gallery_page_file(const std::filesystem::path& path);
 
+/// Where the material files of an attachment and the textures that those name lie, from the meshes that all
+/// share.
+inline std::filesystem::path attachment_folder(const std::string& name) {
+  return std::filesystem::path("attachments") / name;
+}
+
 /// The item of the ledger whose files are contact sheets and all that is made with them.
 inline constexpr std::string_view kSheetsItem = "sheets";
 

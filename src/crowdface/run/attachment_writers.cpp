@@ -41,10 +41,6 @@ std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<Mesh
   return names;
 }
 
-std::filesystem::path attachment_folder(const std::string& name) {
-  return std::filesystem::path("attachments") / name;
-}
-
 AttachmentWriters::AttachmentWriters(const Inputs& inputs, std::span<const MeshFormat> formats,
                                      const std::string& shared)
     : formats_(formats.begin(), formats.end()), inputs_(inputs) {

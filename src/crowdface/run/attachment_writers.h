@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -19,9 +18,6 @@ bool attachments_have_files(std::span<const MeshFormat> formats);
 /// The files that a face has in these formats: see mesh_names, and after those its attachments'.
 std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<MeshFormat>& formats,
                                     const Inputs& inputs);
-
-/// Where the material files of an attachment and the textures that those name lie, beside meshes.
-std::filesystem::path attachment_folder(const std::string& name);
 
 /// Writes attachments as OBJ files: their own, with other positions and the place of their materials.
 class AttachmentWriters {

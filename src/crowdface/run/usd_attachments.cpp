@@ -7,9 +7,9 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/surface_materials.h"
-#include "crowdface/run/attachment_writers.h"
 
 namespace crowdface {
 namespace {
