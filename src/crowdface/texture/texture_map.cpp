@@ -99,7 +99,7 @@ void move_to_disk(TextureMap& map, const std::filesystem::path& folder) {
   const std::string_view bytes(reinterpret_cast<const char*>(map.planes.data()),
                                map.planes.size() * sizeof(Density));
   map.scratch = std::make_shared<const MappedFile>(MappedFile::of_scratch(bytes, folder));
-  map.planes = {};
+  map.planes = std::vector<Density>();  // unlike {}, it gives the memory back
 }
 
 }  // namespace crowdface
