@@ -103,7 +103,7 @@ Descriptor nameless_file(const fs::path& folder) {
   if (file.valid()) return file;
   // Not every file system makes files without a name.
   std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
-  file = Descriptor(::mkstemps(name.data(), 4));
+  file = Descriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
   if (!file.valid()) {
     throw CannotCreate(concat(folder.string(), ": no file can be made there: ", reason()));
   }

@@ -118,6 +118,22 @@ void OwnCoat::add(std::size_t picture, const BlendedPicture& blended) {
                 : finish_of(blended, kind == TextureKind::kNormal, finish_texels(most_px_)));
 }
 
+std::uint64_t OwnCoat::bytes(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
+                             int most_px) {
+  std::uint64_t texels = 0;
+  const auto add_kind = [&](const HeadTextures& textures, int most) {
+    for (const TextureLayout::Picture& picture : textures.blended.layout.pictures) {
+      texels += static_cast<std::uint64_t>(std::min(picture.width, most)) *
+                static_cast<std::uint64_t>(std::min(picture.height, most));
+    }
+  };
+  add_kind(colours, most_px);
+  for (const HeadTextures& of_kind : maps) {
+    if (is_shown(of_kind.names.front().kind)) add_kind(of_kind, finish_texels(most_px));
+  }
+  return texels * sizeof(Light);
+}
+
 void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
                         TextureCoat& coat) {
   for (const HeadTextures& of_kind : maps) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -54,6 +55,10 @@ class OwnCoat {
   /// any thread, before the coat is used.
   void add(std::size_t picture, const BlendedPicture& blended);
   const TextureCoat& coat() const { return coat_; }
+
+  /// What a coat of these takes.
+  static std::uint64_t bytes(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
+                             int most_px);
 
  private:
   struct Place {

@@ -70,7 +70,8 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
     shapes_.push_back(beside.add(target.name));
     tokens_.push_back(usda_string(target.name));
     indices_.push_back(target.vertices.empty() ? "" : usda_list(target.vertices));
-    target_rows_ += target.vertices.size();
+    target_rows_ +=
+        target.vertices.empty() ? static_cast<std::size_t>(vertices_) : target.vertices.size();
   }
 }
 

@@ -70,7 +70,7 @@ class UsdaMesh {
   std::vector<std::string> shapes_;   ///< prims' names of the targets …
   std::vector<std::string> tokens_;
   std::vector<std::string> indices_;  ///< … and their vertices
-  std::size_t target_rows_ = 0;       ///< of all targets
+  std::size_t target_rows_ = 0;       ///< of all targets, at most
 };
 
 }  // namespace crowdface

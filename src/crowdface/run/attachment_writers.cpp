@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/attachment_writers.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/text.h"
+#include "crowdface/run/attachment_parts.h"
 #include "crowdface/run/library_line.h"
 
 namespace crowdface {
 
 namespace {
 
-bool has(std::span<const MeshFormat> formats, MeshFormat format) {
-  return std::ranges::find(formats, format) != formats.end();
-}
-
 /// The shapes that an attachment has files of: where the face has, and it bends.
 std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
                                        const Inputs& inputs) {
-  if (item.moves != AttachmentMove::kBend || !has(formats, MeshFormat::kObj)) return {};
+  if (item.moves != AttachmentMove::kBend || !contains(formats, MeshFormat::kObj)) return {};
   return inputs.shapes.shapes;
 }
 
 }  // namespace
 
 bool attachments_have_files(std::span<const MeshFormat> formats) {
-  return has(formats, MeshFormat::kObj) || has(formats, MeshFormat::kPly);
+  return contains(formats, MeshFormat::kObj) || contains(formats, MeshFormat::kPly);
 }
 
 std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<MeshFormat>& formats,
@@ -73,18 +70,11 @@ void AttachmentWriters::add_to(std::vector<EncodedMesh>& meshes, const std::stri
   }
 }
 
-/// One of each kind is no more than all that there are.
 std::size_t AttachmentWriters::encode_bytes() const {
   if (!attachments_have_files(formats_)) return 0;
-  std::map<std::string, std::size_t> largest;
-  for (const auto& [item, form] : forms_) {
-    std::size_t& most = largest[item->kind];
-    most = std::max(
-        most, form.obj.encode_bytes() * (1 + shapes_in_files(*item, formats_, inputs_).size()));
-  }
-  std::size_t bytes = 0;
-  for (const auto& [kind, most] : largest) bytes += most;
-  return bytes;
+  return worn_at_most(forms_, [&](const Attachment& item, const Form& form) {
+    return form.obj.encode_bytes() * (1 + shapes_in_files(item, formats_, inputs_).size());
+  });
 }
 
 }  // namespace crowdface

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
@@ -91,11 +92,10 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
                                         const CrowdDirectory& directory,
                                         const std::vector<CastFace>& crowd, Ledger& ledger) {
   std::set<Index> targets;
-  const auto has = [&](MeshFormat format) {
-    return std::ranges::find(config.output.meshes, format) != config.output.meshes.end();
-  };
+  const std::vector<MeshFormat>& formats = config.output.meshes;
+  const bool has_obj = contains(formats, MeshFormat::kObj);
   for (const CastFace& face : crowd) {
-    if (has(MeshFormat::kObj)) targets.insert(face.recipe.target);
+    if (has_obj) targets.insert(face.recipe.target);
   }
   std::set<TextureKind> own;
   for (const PictureName& picture : own_pictures(inputs)) own.insert(picture.kind);
@@ -105,7 +105,7 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
   std::set<std::string> worn;
-  const bool named = attachments_have_files(config.output.meshes) || has(MeshFormat::kUsd);
+  const bool named = attachments_have_files(formats) || contains(formats, MeshFormat::kUsd);
   for (const CastFace& face : crowd) {
     if (named) worn.insert(face.attachments.begin(), face.attachments.end());
   }

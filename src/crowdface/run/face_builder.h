@@ -57,6 +57,7 @@ class FaceBuilder {
   void finish(const Recipe& recipe, Positions& face) const;
   /// By which faces are mirrored; found when the first is.
   const MirrorMap& mirror() const;
+  /// Between the gap that a face's target has at each contact and that of its sources, by weight.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   void allow_other_side(std::vector<SkinContacts::Range>& ranges) const;
 

@@ -346,6 +346,10 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     own_.emplace(config, inputs, crowd, directory_of(config).shared_from_mesh());
     standing += textures_.memory_bytes();
     of_thread += textures_.blend_bytes() + own_->encode_bytes();
+    if (config.output.contact_sheet) {
+      of_thread +=
+          OwnCoat::bytes(inputs.textures, inputs.maps, shown_texels(*config.output.contact_sheet));
+    }
   }
   if (skin_is_judged(config, inputs)) {
     std::set<Index> targets;

@@ -128,23 +128,8 @@ GlbPart part_of(const Attachment& item, const Inputs& inputs) {
 
 }  // namespace
 
-GlbAttachments::GlbAttachments(const Inputs& inputs) {
-  for (const Attachment& item : inputs.attachments.items)
-    parts_.emplace(&item, part_of(item, inputs));
-}
-
-std::vector<PlacedGlbPart> GlbAttachments::parts(std::span<const WornAttachment> worn) const {
-  std::vector<PlacedGlbPart> parts;
-  for (const WornAttachment& one : worn) {
-    parts.push_back({&parts_.at(one.item), &one.positions, one.moves});
-  }
-  return parts;
-}
-
-std::size_t GlbAttachments::memory_bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& [item, part] : parts_) bytes += part.memory_bytes();
-  return bytes;
+GlbAttachments glb_attachments(const Inputs& inputs) {
+  return {inputs.attachments, [&](const Attachment& item) { return part_of(item, inputs); }};
 }
 
 }  // namespace crowdface

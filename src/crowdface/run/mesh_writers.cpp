@@ -111,13 +111,13 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
-    if (!inputs.attachments.empty()) glb_attachments_.emplace(inputs);
+    if (!inputs.attachments.empty()) glb_attachments_ = glb_attachments(inputs);
   }
   if (has(MeshFormat::kUsd)) {
     usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs, shared),
                  config.output.subdivision);
     if (!inputs.attachments.empty()) {
-      usd_attachments_.emplace(inputs, shared.empty() ? "." : shared);
+      usd_attachments_ = usd_attachments(inputs, shared.empty() ? "." : shared);
     }
   }
   if (need_normals) fans_.emplace(faces.topology);
@@ -257,7 +257,11 @@ std::size_t MeshWriters::encode_bytes() const {
   if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
   if (glb_) bytes += glb_->encode_bytes();
   if (usd_) bytes += usd_->encode_bytes();
-  if (usd_attachments_) bytes += usd_attachments_->encode_bytes();
+  if (usd_attachments_) {
+    bytes += worn_at_most(usd_attachments_->all(), [](const Attachment&, const UsdaPart& part) {
+      return part.encode_bytes();
+    });
+  }
   for (const LevelWriter& level : levels_) bytes += level.encode_bytes();
   if (has(MeshFormat::kPoints)) bytes += npy_encode_bytes(inputs_.faces.topology.vertex_count);
   return bytes;

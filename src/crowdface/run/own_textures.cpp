@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
@@ -84,10 +85,6 @@ std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) 
   return picture.of_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);
 }
 
-bool has(std::span<const MeshFormat> meshes, MeshFormat format) {
-  return std::find(meshes.begin(), meshes.end(), format) != meshes.end();
-}
-
 /// Which picture of a layout each material of a head shows.
 std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
                                                          const TextureLayout& layout, Index head) {
@@ -115,9 +112,7 @@ std::vector<TextureFormat> formats_of(const Config& config, const PictureName& p
   std::vector<TextureFormat> formats;
   for (TextureFormat format : config.textures.formats) {
     if (format == TextureFormat::kJpeg) format = TextureFormat::kPng;
-    if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
-      formats.push_back(format);
-    }
+    if (!contains(formats, format)) formats.push_back(format);
   }
   return formats;
 }
@@ -152,7 +147,7 @@ std::vector<std::string> own_file_names(const Config& config, const Inputs& inpu
       names.push_back(file_name(id, picture, format));
     }
   }
-  if (has(meshes, MeshFormat::kObj)) names.push_back(material_file_name(id));
+  if (contains(meshes, MeshFormat::kObj)) names.push_back(material_file_name(id));
   return names;
 }
 
@@ -222,7 +217,7 @@ std::vector<OwnFile> OwnTextures::files(const CastFace& face, std::span<const Me
       (file++)->file.keep(encoded);
     }
   }
-  if (!has(meshes, MeshFormat::kObj)) return files;
+  if (!contains(meshes, MeshFormat::kObj)) return files;
   const Materials& materials = of_target_.at(face.recipe.target);
   OwnMaterials::Replacements textures;
   for (const auto& [kind, pictures] : materials.pictures) {

@@ -60,34 +60,14 @@ UsdaPart part_of(const Attachment& item, std::string name, const Inputs& inputs,
 
 }  // namespace
 
-UsdAttachments::UsdAttachments(const Inputs& inputs, const std::string& shared) {
+UsdAttachments usd_attachments(const Inputs& inputs, const std::string& shared) {
   UsdaNames names;
   for (const char* taken : {"face", "mesh", "materials", "skeleton", "animation", "points"}) {
     names.add(taken);
   }
-  for (const Attachment& item : inputs.attachments.items) {
-    parts_.emplace(&item, part_of(item, names.add(item.name), inputs, shared));
-  }
-}
-
-std::vector<PlacedUsdaPart> UsdAttachments::parts(std::span<const WornAttachment> worn) const {
-  std::vector<PlacedUsdaPart> parts;
-  for (const WornAttachment& one : worn) {
-    parts.push_back({&parts_.at(one.item), &one.positions, one.moves});
-  }
-  return parts;
-}
-
-std::size_t UsdAttachments::memory_bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& [item, part] : parts_) bytes += part.memory_bytes();
-  return bytes;
-}
-
-std::size_t UsdAttachments::encode_bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& [item, part] : parts_) bytes += part.encode_bytes();
-  return bytes;
+  return {inputs.attachments, [&](const Attachment& item) {
+            return part_of(item, names.add(item.name), inputs, shared);
+          }};
 }
 
 }  // namespace crowdface

@@ -191,6 +191,7 @@ void CarriedShape::take_skin_apart() {
   Positions kept;
   Index crossing = 0;
   for (int round = 0; round < kMends; ++round) {
+    if (round > 0) close_lids();
     crossing_ = prepared_.crossings.mend(carrier_.mesh, carrier_.at_rest, shape_.watched, mesh_,
                                          result_, harm);
     const bool are_out = keep_lids_out();
@@ -202,7 +203,6 @@ void CarriedShape::take_skin_apart() {
       crossing = crossing_;
     }
     if (are_out && open == 0) break;
-    close_lids();
   }
   result_.moves = std::move(kept);
   crossing_ = crossing;

@@ -51,6 +51,7 @@ class SkinCrossings {
   /// #V: whether a vertex is one of triangles that pass through others in a face at rest.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
 
+  using Harm = std::function<double(const Positions& moves)>;
   /// Makes a shape fit: displacements around crossings are evened out over what is near each other at rest, so
   /// that it stays as it lies there; and lids are pushed off each other. Crossings of the face at rest are
   /// none of the shape's.
@@ -61,7 +62,6 @@ class SkinCrossings {
   /// \param harm     of displacements, beside crossings, in triangles: the best of all rounds is kept; none: the
   ///                 last is
   /// \return         how many triangles still pass through others
-  using Harm = std::function<double(const Positions&)>;
   Index mend(const Positions& rest, const std::vector<bool>& at_rest, const Watched& watched,
              Positions& mesh, Displacements& shape, const Harm& harm = {}) const;
 
