@@ -337,11 +337,13 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
   }
   for (std::size_t f = 0; f < recipes.size(); ++f) prepare(*recipes[f], results[f]);
   const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
-  std::vector<Factors> all_factors;  // #groups by #regions
-  for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
-    const auto group = recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first));
-    for (std::size_t k = 0; k < regions; ++k) all_factors.push_back(factors(group, k));
-  }
+  const std::size_t groups = (recipes.size() + kChunkFaces - 1) / kChunkFaces;
+  std::vector<Factors> all_factors(groups * regions);  // #groups by #regions
+  parallel_for_each(all_factors.size(), [&](std::size_t i) {
+    const std::size_t first = i / regions * kChunkFaces;
+    all_factors[i] =
+        factors(recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first)), i % regions);
+  });
   std::vector<std::vector<bool>> used(regions, std::vector<bool>(field_count(), false));
   for (std::size_t i = 0; i < all_factors.size(); ++i) {
     for (const std::uint32_t field : all_factors[i].fields) used[i % regions][field] = true;
