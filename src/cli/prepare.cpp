@@ -21,7 +21,7 @@ void tell_errors(const Job& job, const Prepared& prepared) {
   const double mm = mm_per(job.config.faces.units);
   for (std::size_t h = 0; h < prepared.levels.size(); ++h) {
     const StoredLevels& levels = prepared.levels[h];
-    log_info(concat(job.names.heads[h], ": ", levels.fields.rank(), " fields, error at most ",
+    log_info(concat(job.names.heads[h], ": ", levels.fields.rank, " fields, error at most ",
                     format_fixed(levels.error.max * mm, 4), " mm (at ", levels.error.level,
                     " iterations), rms ", format_fixed(levels.error.rms * mm, 5), " mm"));
   }

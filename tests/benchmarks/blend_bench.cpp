@@ -24,8 +24,12 @@ double uniform(std::uint64_t index, const char* purpose) {
 struct Crowd {
   Crowd(Index heads, Index rank, Index vertices, std::size_t count) {
     faces.topology.vertex_count = vertices;
-    const std::size_t of_head =
-        LevelFields::size(static_cast<std::size_t>(vertices), static_cast<std::size_t>(rank));
+    const std::size_t tiles = LevelFields::tile_count(static_cast<std::size_t>(vertices));
+    const std::size_t of_head = tiles * static_cast<std::size_t>(rank) * kTileValues;
+    for (std::size_t tile = 0; tile <= tiles; ++tile) {
+      first.push_back(static_cast<std::uint32_t>(tile * static_cast<std::size_t>(rank)));
+    }
+    steps.assign(first.back(), 1.0F / 1024);
     numbers.resize(static_cast<std::size_t>(heads) * of_head);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       numbers[i] = static_cast<std::int16_t>(i * 2654435761U % 1000);
@@ -33,8 +37,7 @@ struct Crowd {
     for (Index h = 0; h < heads; ++h) {
       faces.heads.push_back({"head", Positions::Constant(vertices, 3, static_cast<double>(h))});
       const auto own = std::span(numbers).subspan(static_cast<std::size_t>(h) * of_head, of_head);
-      const std::vector<double> steps(static_cast<std::size_t>(rank), 1e-3);
-      levels.push_back({{vertices, steps, own, {}}, [rank](std::uint64_t level) {
+      levels.push_back({{vertices, rank, first, steps, own, {}}, [rank](std::uint64_t level) {
                           return std::vector<double>(static_cast<std::size_t>(rank),
                                                      1.0 / (1.0 + static_cast<double>(level)));
                         }});
@@ -62,6 +65,8 @@ struct Crowd {
     for (const Recipe& recipe : recipes) pointers.push_back(&recipe);
   }
   FaceSet faces;
+  std::vector<std::uint32_t> first;
+  std::vector<float> steps;
   std::vector<std::int16_t> numbers;
   std::vector<HeadLevels> levels;
   RegionWeights regions;

@@ -49,7 +49,7 @@ Levels exact_levels(const ChebyshevFilter& filter, const Positions& positions,
 
 /// The largest and the root mean square distance from the exact levels.
 template <class Represented>
-void print_row(const char* name, Index rank, const Levels& levels, double seconds,
+void print_row(const char* name, const LevelFields& fields, const Levels& levels, double seconds,
                const Represented& represented) {
   double largest = 0, squares = 0, count = 0;
   std::uint64_t where = 0;
@@ -63,10 +63,12 @@ void print_row(const char* name, Index rank, const Levels& levels, double second
       where = levels.numbers[i];
     }
   }
-  std::printf("| %-28s | %2td | %8.4f at %-6llu | %8.5f | %3td | %5.2f |\n", name, rank,
+  const auto vertices = static_cast<double>(fields.vertex_count);
+  std::printf("| %-22s | %2td | %4.1f | %8.4f at %-6llu | %8.5f | %3.0f | %5.2f |\n", name,
+              fields.rank, static_cast<double>(fields.numbers.size()) / (3 * vertices),
               kMmPerCm * largest, static_cast<unsigned long long>(where),
-              kMmPerCm * std::sqrt(squares / count), rank * 3 * Index{sizeof(std::int16_t)},
-              seconds);
+              kMmPerCm * std::sqrt(squares / count),
+              static_cast<double>(fields.numbers.size_bytes()) / vertices, seconds);
 }
 
 template <class Work>
@@ -100,12 +102,14 @@ void print_table(const Mesh& head) {
   std::printf("%td vertices, L_max %llu, %zu levels compared at every vertex\n",
               head.topology.vertex_count, static_cast<unsigned long long>(max_level),
               levels.numbers.size());
-  std::printf("| representation | rank | largest error, mm | rms, mm | bytes a vertex | s |\n");
+  std::printf(
+      "| representation | fields | at a vertex, mean | largest error, mm | rms, mm | bytes a "
+      "vertex | s |\n");
 
   CubicFit cubic;
   const double cubic_seconds =
       seconds_of([&] { cubic = fit_cubic(filter, head.positions, max_level); });
-  print_row("levels: cubic", CubicFit::kRank, levels, cubic_seconds,
+  print_row("levels: cubic", cubic.fields, levels, cubic_seconds,
             [&](std::uint64_t level) { return testing::evaluate(cubic, head.positions, level); });
   cubic.fields = {};
   const LevelNodes nodes(OperatorKind::kUmbrella, max_level);
@@ -118,7 +122,7 @@ void print_table(const Mesh& head) {
     try {
       const double fit_seconds = seconds_of(
           [&] { basis = fit_level_basis(filter, nodes, fields, tolerance_mm / kMmPerCm); });
-      print_row(name.c_str(), basis.rank(), levels, filter_seconds + fit_seconds,
+      print_row(name.c_str(), basis.fields, levels, filter_seconds + fit_seconds,
                 [&](std::uint64_t level) {
                   return testing::evaluate(basis, nodes, head.positions, level);
                 });

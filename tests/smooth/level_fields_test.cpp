@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/smooth/level_fields.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "crowdface/core/instruction_set.h"
 #include "crowdface/core/random.h"
+#include "crowdface/smooth/field_kernels.h"
 
 namespace crowdface {
 namespace {
@@ -27,29 +29,43 @@ TEST(LevelFields, AreOffByHalfAStepAtMost) {
   for (const Index vertices : {1, 63, 64, 65, 1000}) {
     const std::vector<float> exact = some_fields(vertices);
     const LevelFields fields = in_16_bits(exact, vertices);
-    ASSERT_EQ(fields.rank(), 3);
-    EXPECT_NEAR(fields.steps[0], 80.0 / 32767, 80.0 / 32767);
-    EXPECT_LT(fields.steps[1], 0.0011 * 80.0 / 32767 + fields.steps[0]);
-    EXPECT_EQ(fields.steps[2], 0);
-    auto value = exact.begin();
-    for (Index p = 0; p < fields.rank(); ++p) {
-      const double half = 0.5 * fields.steps[static_cast<std::size_t>(p)];
-      double worst = 0;
-      for (Index i = 0; i < 3 * vertices; ++i) {
-        worst = std::max(worst,
-                         std::abs(fields.value(p, i / 3, i % 3) - static_cast<double>(*value++)));
-      }
-      EXPECT_LE(worst, 1.01 * half) << p << " of " << vertices;
+    ASSERT_EQ(fields.rank, 3);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      const auto at = static_cast<Index>(i) % (3 * vertices);
+      const std::size_t p = i / static_cast<std::size_t>(3 * vertices);
+      const auto tile = static_cast<std::size_t>(at / 3) / kFieldTile;
+      const double half = 0.5 * static_cast<double>(fields.steps[fields.first[tile] + p]);
+      EXPECT_LE(std::abs(fields.value(static_cast<Index>(p), at / 3, at % 3) -
+                         static_cast<double>(exact[i])),
+                half);
     }
   }
 }
 
+TEST(LevelFields, HaveStepsThatAreTheLeastPowersOfTwo) {
+  const auto step_of_one = [](float largest) { return step_of(std::span(&largest, 1)); };
+  EXPECT_EQ(step_of_one(32767), 1);
+  EXPECT_EQ(step_of_one(-32767), 1);
+  EXPECT_EQ(step_of_one(32768), 2);
+  EXPECT_EQ(step_of_one(16384), 1);
+  EXPECT_EQ(step_of_one(16383.5F), 0.5F);
+  EXPECT_EQ(step_of_one(0), 0);
+  EXPECT_EQ(step_of_one(1e-40F), 0) << "whose inverse is no number";
+  for (const float large : {80.0F, 3e-7F, 1e20F}) {
+    const float step = step_of_one(large);
+    EXPECT_LE(std::abs(large / step), 32767.5F);
+    EXPECT_GT(std::abs(large / step), 16383.4F);
+  }
+}
+
 TEST(LevelFields, KeepTheLargestNumberAndZero) {
-  const std::vector<float> values = {0, 0.3F, -0.7F};
+  const std::vector<float> values = {0, 0.25F, -0.75F};
   const LevelFields fields = in_16_bits(values, 1);
-  EXPECT_EQ(fields.number(0, 0, 0), 0);
-  EXPECT_EQ(fields.number(0, 0, 2), -32767);
-  EXPECT_NEAR(fields.value(0, 0, 2), static_cast<double>(values[2]), 1e-12);
+  EXPECT_EQ(fields.numbers[0], 0);
+  EXPECT_EQ(fields.numbers[2], -24576);
+  for (Index c = 0; c < 3; ++c) {
+    EXPECT_EQ(fields.value(0, 0, c), static_cast<double>(values[static_cast<std::size_t>(c)]));
+  }
 }
 
 TEST(LevelFields, AreZeroPastTheLastVertex) {
@@ -65,13 +81,77 @@ TEST(LevelFields, AreZeroPastTheLastVertex) {
   EXPECT_EQ(past, 58U * 3 * 3);
 }
 
+/// Tiles need not have all fields, nor any: the others are zero there.
+TEST(LevelFields, OfATileAreTheFirstFew) {
+  std::vector<float> values(2 * kTileValues, 3.0F);
+  std::fill_n(values.begin(), kTileValues, 5.0F);
+  std::vector<FieldTiles> parts(2);
+  parts[0].add(values, 1);
+  parts[0].add(values, 0);
+  parts[1].add(values, 2);
+  const LevelFields fields = joined(3 * kFieldTile, 2, std::move(parts));
+  for (Index v = 0; v < fields.vertex_count; ++v) {
+    EXPECT_EQ(fields.value(0, v, 1), v / Index{kFieldTile} == 1 ? 0 : 5) << v;
+    EXPECT_EQ(fields.value(1, v, 2), v < 2 * Index{kFieldTile} ? 0 : 3) << v;
+  }
+  EXPECT_EQ(fields.numbers.size(), 3 * kTileValues);
+}
+
+/// Against the plain sum, for every number of fields kept.
+TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
+  constexpr std::size_t kFields = 5, kLevels = 7;
+  std::vector<float> values(kFields * kTileValues), functions(kFields * kLevels);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double size = std::pow(0.2, static_cast<double>(i / kTileValues));
+    values[i] = static_cast<float>(size * random_between({1, i, "value", 0}, -1, 1));
+  }
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    functions[i] = static_cast<float>(random_between({1, i, "function", 0}, -1, 1));
+  }
+  std::vector<double> missed;  // squared, with so many kept
+  std::vector<std::size_t> where;
+  for (std::size_t kept = 0; kept <= kFields; ++kept) {
+    missed.push_back(0);
+    where.push_back(0);
+    for (std::size_t l = 0; l < kLevels; ++l) {
+      for (std::size_t v = 0; v < kFieldTile; ++v) {
+        double squared = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          double sum = 0;
+          for (std::size_t p = kept; p < kFields; ++p) {
+            sum += static_cast<double>(functions[l * kFields + p]) *
+                   static_cast<double>(values[p * kTileValues + c * kFieldTile + v]);
+          }
+          squared += sum * sum;
+        }
+        if (squared > missed.back()) {
+          missed.back() = squared;
+          where.back() = l;
+        }
+      }
+    }
+  }
+  for (const std::string& name : instruction_sets()) {
+    SCOPED_TRACE(name);
+    use_instruction_set(name);
+    for (std::size_t kept = 0; kept <= kFields; ++kept) {
+      const MissedLevel found = keep_fewest(values.data(), kFields, functions.data(), kFields,
+                                            kLevels, static_cast<float>(missed[kept] * 1.001));
+      EXPECT_EQ(found.kept, kept);
+      EXPECT_NEAR(static_cast<double>(found.squared), missed[kept], 1e-5 * missed[kept]);
+      EXPECT_EQ(found.level, where[kept]);
+    }
+  }
+  use_instruction_set(instruction_sets().front());
+}
+
 TEST(LevelFields, AreTheSameOnEveryInstructionSet) {
   const std::vector<float> exact = some_fields(500);
   const LevelFields expected = in_16_bits(exact, 500);
   for (const std::string& name : instruction_sets()) {
     use_instruction_set(name);
     const LevelFields fields = in_16_bits(exact, 500);
-    EXPECT_EQ(fields.steps, expected.steps) << name;
+    EXPECT_TRUE(std::ranges::equal(fields.steps, expected.steps)) << name;
     EXPECT_TRUE(std::ranges::equal(fields.numbers, expected.numbers)) << name;
   }
   use_instruction_set(instruction_sets().front());

@@ -11,7 +11,7 @@ namespace crowdface::testing {
 template <class Functions>
 Positions sum_of_fields(const Positions& x, const Functions& functions, const LevelFields& fields) {
   Positions result = x;
-  for (Index p = 0; p < fields.rank(); ++p) {
+  for (Index p = 0; p < fields.rank; ++p) {
     for (Index i = 0; i < result.size(); ++i) {
       result.data()[i] += functions[static_cast<std::size_t>(p)] * fields.value(p, i / 3, i % 3);
     }

@@ -13,7 +13,6 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kTileValues = 3 * kFieldTile;
 constexpr Index kBlocksATask = 8;
 
 bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
@@ -30,6 +29,24 @@ bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
   return true;
 }
 
+/// A field's numbers from a vertex on to the end of its tile.
+struct TileField {
+  const std::int16_t* numbers;
+  float step;
+};
+
+TileField field_at(const LevelFields& fields, std::size_t field, std::uint32_t vertex) {
+  static constexpr std::array<std::int16_t, kTileValues> kZeros{};
+  const std::size_t tile = vertex / kFieldTile, at = fields.first[tile] + field;
+  if (at >= fields.first[tile + 1]) return {kZeros.data(), 0};
+  return {fields.numbers.data() + at * kTileValues + 3 * (vertex % kFieldTile), fields.steps[at]};
+}
+
+std::size_t count_at(const LevelFields& fields, std::uint32_t vertex) {
+  const std::size_t tile = vertex / kFieldTile;
+  return fields.first[tile + 1] - fields.first[tile];
+}
+
 }  // namespace
 
 CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
@@ -38,18 +55,16 @@ CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
   const Index vertices = faces.topology.vertex_count;
   require(levels_.size() == faces.heads.size(), "blend: fitted levels of ", levels_.size(),
           " heads for ", faces.heads.size());
+  first_field_.push_back(0);
   for (const HeadLevels& head : levels_) {
     const LevelFields& fields = head.fields;
-    const std::size_t rank = fields.steps.size();
-    require(
-        fields.vertex_count == vertices &&
-            fields.numbers.size() == LevelFields::size(static_cast<std::size_t>(vertices), rank),
-        "blend: ", fields.numbers.size(), " numbers for ", rank, " fields of ", vertices,
-        " vertices");
-    for (std::size_t p = 0; p < rank; ++p) {
-      fields_.push_back(
-          {fields.numbers.data() + p * kTileValues, rank * kTileValues, fields.steps[p]});
-    }
+    const std::size_t tiles = LevelFields::tile_count(static_cast<std::size_t>(vertices));
+    require(fields.vertex_count == vertices && fields.first.size() == tiles + 1 &&
+                fields.steps.size() == fields.first.back() &&
+                fields.numbers.size() == fields.steps.size() * kTileValues,
+            "blend: ", fields.numbers.size(), " numbers of ", fields.steps.size(), " fields of ",
+            tiles, " tiles of ", vertices, " vertices");
+    first_field_.push_back(first_field_.back() + static_cast<std::size_t>(fields.rank));
   }
   require(regions.alpha.rows() == vertices, "blend: masks of ", regions.alpha.rows(),
           " vertices for ", vertices);
@@ -82,7 +97,7 @@ void CrowdBlender::cut_into_blocks() {
 }
 
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
-  std::vector<double> sums(fields_.size(), 0.0);
+  std::vector<double> sums(field_count(), 0.0);
   for (const LevelShares& at : level_shares(recipe, region)) {
     // Where a head is both target and source, or lends to two bands alike, the shares are added
     // first, so that the target blended with itself leaves no trace.
@@ -90,22 +105,15 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
     for (const SourceWeight& part : at.shares) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
     }
-    std::size_t first = 0;
     for (std::size_t h = 0; h < shares.size(); ++h) {
-      if (shares[h] != 0) {
-        std::size_t f = first;
-        for (const double function : levels_[h].functions(at.level)) {
-          sums[f++] += shares[h] * function;  // Eq. 5
-        }
+      if (shares[h] == 0) continue;
+      std::size_t f = first_field_[h];
+      for (const double function : levels_[h].functions(at.level)) {
+        sums[f++] += shares[h] * function;  // Eq. 5
       }
-      first += levels_[h].fields.steps.size();
     }
   }
-  std::vector<float> in_steps;
-  for (std::size_t f = 0; f < sums.size(); ++f) {
-    in_steps.push_back(static_cast<float>(sums[f] * fields_[f].step));
-  }
-  return in_steps;
+  return {sums.begin(), sums.end()};
 }
 
 CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recipes,
@@ -114,20 +122,15 @@ CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recip
   of_face.reserve(recipes.size());
   for (const Recipe* recipe : recipes) of_face.push_back(coefficients(*recipe, region));
   Factors factors;
-  for (std::size_t f = 0; f < fields_.size(); ++f) {
+  for (std::size_t f = 0; f < field_count(); ++f) {
     const bool used =
         std::any_of(of_face.begin(), of_face.end(), [&](const auto& face) { return face[f] != 0; });
-    if (!used) continue;
-    factors.fields.push_back(static_cast<std::uint32_t>(f));
+    if (used) factors.fields.push_back(static_cast<std::uint32_t>(f));
     for (std::size_t face = 0; face < kChunkFaces; ++face) {
       factors.coefficients.push_back(face < of_face.size() ? of_face[face][f] : 0.0F);
     }
   }
   return factors;
-}
-
-const std::int16_t* CrowdBlender::Field::at(const Run& run) const {
-  return numbers + run.first / kFieldTile * stride + 3 * (run.first % kFieldTile);
 }
 
 /// Brings the next block's numbers into a core's cache, a few lines at a time, while the product keeps the core
@@ -137,16 +140,15 @@ class CrowdBlender::FieldsAhead {
   /// \param times  how often `fetch_some` will be called
   void aim(const CrowdBlender& blender, const Block& block, std::size_t times) {
     pieces_.clear();
-    std::size_t lines = 0, field = 0;
+    std::size_t lines = 0;
     for (const HeadLevels& head : blender.levels_) {
-      const std::size_t rank = head.fields.steps.size();
       for (const Run& run : block.runs) {
-        if (rank == 0 || run.count < kFieldTile)
+        const std::size_t count = count_at(head.fields, run.first);
+        if (count == 0 || run.count < kFieldTile)
           continue;  // of a part of a tile most is not needed
-        pieces_.push_back({blender.fields_[field].at(run), rank * kTileLines});
-        lines += rank * kTileLines;
+        pieces_.push_back({field_at(head.fields, 0, run.first).numbers, count * kTileLines});
+        lines += count * kTileLines;
       }
-      field += rank;
     }
     a_time_ = times == 0 ? 0 : (lines + times - 1) / times;
     piece_ = line_ = 0;
@@ -172,20 +174,35 @@ class CrowdBlender::FieldsAhead {
   std::size_t a_time_ = 0, piece_ = 0, line_ = 0;
 };
 
-/// The block's values of the fields that are used: #chunks by #fields and one row for what `unpack` writes too
+/// Of all heads' fields, those that any vertex of the block has.
+std::vector<std::uint8_t> CrowdBlender::fields_at(const Block& block) const {
+  std::vector<std::uint8_t> present(field_count(), 0);
+  for (std::size_t h = 0; h < levels_.size(); ++h) {
+    for (const Run& run : block.runs) {
+      const auto first = present.begin() + static_cast<std::ptrdiff_t>(first_field_[h]);
+      std::fill_n(first, count_at(levels_[h].fields, run.first), std::uint8_t{1});
+    }
+  }
+  return present;
+}
+
+/// The block's values of the fields that are wanted: #chunks by #fields and one row for what `unpack` writes too
 /// much; what is past its last vertex, or of another field, is any number.
-void CrowdBlender::pack(const Block& block, const std::vector<bool>& used,
+void CrowdBlender::pack(const Block& block, const std::vector<std::uint8_t>& wanted,
                         std::vector<Chunk>& packed) const {
   packed.resize(kBlockChunks * packed_rows());
-  for (std::size_t field = 0; field < fields_.size(); ++field) {
-    if (!used[field]) continue;
-    std::size_t to = 0;
-    for (const Run& run : block.runs) {
-      const std::size_t count = std::size_t{3} * run.count;
-      unpack(fields_[field].at(run), count, to % kChunkValues,
-             packed[to / kChunkValues * packed_rows() + field].values,
-             packed_rows() * kChunkValues);
-      to += count;
+  for (std::size_t h = 0; h < levels_.size(); ++h) {
+    for (std::size_t field = first_field_[h]; field < first_field_[h + 1]; ++field) {
+      if (!wanted[field]) continue;
+      std::size_t to = 0;
+      for (const Run& run : block.runs) {
+        const std::size_t count = std::size_t{3} * run.count;
+        const TileField from = field_at(levels_[h].fields, field - first_field_[h], run.first);
+        unpack(from.numbers, count, from.step, to % kChunkValues,
+               packed[to / kChunkValues * packed_rows() + field].values,
+               packed_rows() * kChunkValues);
+        to += count;
+      }
     }
   }
 }
@@ -206,17 +223,25 @@ void CrowdBlender::spread_alpha(const Block& block, std::vector<BlockValues>& al
 /// What a group of faces adds to the target at the block's vertices: Σ_k α_k times the product.
 void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& packed,
                                  const std::vector<BlockValues>& alpha,
+                                 const std::vector<std::uint8_t>& wanted,
                                  std::span<const Factors> of_region, FieldsAhead& ahead,
                                  std::array<BlockValues, kChunkFaces>& result) const {
   for (auto& face : result) face.fill(0);
+  std::vector<std::uint32_t> fields;
   for (std::size_t k = 0; k < block.regions.size(); ++k) {
     const Factors& factors = of_region[block.regions[k]];
-    if (factors.fields.empty()) continue;
+    fields.resize(factors.fields.size());
+    std::size_t count = 0;
+    for (const std::uint32_t field : factors.fields) {
+      fields[count] = field;
+      count += wanted[field];
+    }
+    if (count == 0) continue;
     for (std::size_t i = 0; i < 3 * block.count; i += kChunkValues) {
       ahead.fetch_some();
-      add_product(packed[i / kChunkValues * packed_rows()].values, factors.fields.data(),
-                  factors.fields.size(), factors.coefficients.data(), alpha[k].data() + i,
-                  result[0].data() + i, kBlockValues);
+      add_product(packed[i / kChunkValues * packed_rows()].values, fields.data(), count,
+                  factors.coefficients.data(), alpha[k].data() + i, result[0].data() + i,
+                  kBlockValues);
     }
   }
 }
@@ -228,22 +253,27 @@ void CrowdBlender::displacement(const Block& block, const std::vector<BlockValue
                                 BlockValues& result) const {
   result.fill(0);
   BlockValues sums;
+  std::vector<float> in_steps;
   for (std::size_t k = 0; k < block.regions.size(); ++k) {
     sums.fill(0);
-    const float* coefficients = of_region[block.regions[k]].data();
-    const Field* field = fields_.data();
-    for (const HeadLevels& head : levels_) {
-      const std::size_t rank = head.fields.steps.size();
-      if (std::any_of(coefficients, coefficients + rank, [](float c) { return c != 0; })) {
-        std::size_t to = 0;
-        for (const Run& run : block.runs) {
-          const std::size_t count = std::size_t{3} * run.count;
-          add_fields(field->at(run), count, kTileValues, coefficients, rank, sums.data() + to);
-          to += count;
-        }
+    for (std::size_t h = 0; h < levels_.size(); ++h) {
+      const LevelFields& fields = levels_[h].fields;
+      const float* coefficients = of_region[block.regions[k]].data() + first_field_[h];
+      if (std::all_of(coefficients, coefficients + fields.rank, [](float c) { return c == 0; })) {
+        continue;
       }
-      coefficients += rank;
-      field += rank;
+      std::size_t to = 0;
+      for (const Run& run : block.runs) {
+        const std::size_t values = std::size_t{3} * run.count;
+        const std::size_t count = count_at(fields, run.first);
+        in_steps.resize(count);
+        for (std::size_t p = 0; p < count; ++p) {
+          in_steps[p] = coefficients[p] * field_at(fields, p, run.first).step;
+        }
+        add_fields(field_at(fields, 0, run.first).numbers, values, kTileValues, in_steps.data(),
+                   count, sums.data() + to);
+        to += values;
+      }
     }
     for (std::size_t i = 0; i < 3 * block.count; ++i) result[i] += alpha[k][i] * sums[i];
   }
@@ -307,12 +337,14 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
   }
   for (std::size_t f = 0; f < recipes.size(); ++f) prepare(*recipes[f], results[f]);
   const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
-  std::vector<Factors> all_factors;  // #groups by #regions
-  for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
-    const auto group = recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first));
-    for (std::size_t k = 0; k < regions; ++k) all_factors.push_back(factors(group, k));
-  }
-  std::vector<std::vector<bool>> used(regions, std::vector<bool>(fields_.size(), false));
+  const std::size_t groups = (recipes.size() + kChunkFaces - 1) / kChunkFaces;
+  std::vector<Factors> all_factors(groups * regions);  // #groups by #regions
+  parallel_for_each(all_factors.size(), [&](std::size_t i) {
+    const std::size_t first = i / regions * kChunkFaces;
+    all_factors[i] =
+        factors(recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first)), i % regions);
+  });
+  std::vector<std::vector<bool>> used(regions, std::vector<bool>(field_count(), false));
   for (std::size_t i = 0; i < all_factors.size(); ++i) {
     for (const std::uint32_t field : all_factors[i].fields) used[i % regions][field] = true;
   }
@@ -323,11 +355,12 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
     FieldsAhead ahead;
     for (Index b = begin; b < end; ++b) {
       const Block& block = blocks_[static_cast<std::size_t>(b)];
-      std::vector<bool> in_block(fields_.size(), false);
-      for (const std::uint32_t k : block.regions) {
-        for (std::size_t f = 0; f < in_block.size(); ++f) in_block[f] = in_block[f] || used[k][f];
+      std::vector<std::uint8_t> wanted = fields_at(block);
+      for (std::size_t f = 0; f < wanted.size(); ++f) {
+        const auto uses = [&](std::uint32_t k) { return used[k][f]; };
+        if (!std::any_of(block.regions.begin(), block.regions.end(), uses)) wanted[f] = 0;
       }
-      pack(block, in_block, packed);
+      pack(block, wanted, packed);
       spread_alpha(block, alpha);
       if (b + 1 < end) {
         const std::size_t chunks = (3 * block.count + kChunkValues - 1) / kChunkValues;
@@ -335,7 +368,7 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
                   all_factors.size() / regions * block.regions.size() * chunks);
       }
       for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
-        displacements(block, packed, alpha,
+        displacements(block, packed, alpha, wanted,
                       std::span(all_factors).subspan(first / kChunkFaces * regions, regions), ahead,
                       added);
         for (std::size_t f = first; f < std::min(first + kChunkFaces, recipes.size()); ++f) {

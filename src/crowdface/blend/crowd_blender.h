@@ -67,17 +67,10 @@ class CrowdBlender {
     std::size_t count = 0;               ///< of all runs
     std::vector<std::uint32_t> regions;  ///< those with a weight there
   };
-  /// One field of a head: where its first tile is, and how far from one to the next.
-  struct Field {
-    const std::int16_t* numbers;
-    std::size_t stride;
-    double step;
-    const std::int16_t* at(const Run& run) const;
-  };
   /// The coefficients of up to kChunkFaces faces in one region.
   struct Factors {
     std::vector<std::uint32_t> fields;  ///< those that any of the faces uses, ascending
-    std::vector<float> coefficients;    ///< #fields by kChunkFaces
+    std::vector<float> coefficients;    ///< of all heads' fields, by kChunkFaces
   };
   /// Some values of one field, where vector loads can take them aligned.
   struct alignas(64) Chunk {
@@ -94,12 +87,16 @@ class CrowdBlender {
   /// Blends at those of the blocks that are wanted.
   template <class Wanted>
   void blend_one(const Recipe& recipe, const Wanted& wanted, Positions& result) const;
-  std::size_t packed_rows() const { return fields_.size() + 1; }
-  void pack(const Block& block, const std::vector<bool>& used, std::vector<Chunk>& packed) const;
+  std::size_t packed_rows() const { return field_count() + 1; }
+  std::size_t field_count() const { return first_field_.back(); }
+  std::vector<std::uint8_t> fields_at(const Block& block) const;
+  void pack(const Block& block, const std::vector<std::uint8_t>& wanted,
+            std::vector<Chunk>& packed) const;
   void spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const;
   void displacements(const Block& block, const std::vector<Chunk>& packed,
-                     const std::vector<BlockValues>& alpha, std::span<const Factors> of_region,
-                     FieldsAhead& ahead, std::array<BlockValues, kChunkFaces>& result) const;
+                     const std::vector<BlockValues>& alpha, const std::vector<std::uint8_t>& wanted,
+                     std::span<const Factors> of_region, FieldsAhead& ahead,
+                     std::array<BlockValues, kChunkFaces>& result) const;
   void displacement(const Block& block, const std::vector<BlockValues>& alpha,
                     const std::vector<std::vector<float>>& of_region, BlockValues& result) const;
   void write(const Block& block, const Recipe& recipe, const BlockValues& added,
@@ -108,7 +105,8 @@ class CrowdBlender {
   const FaceSet& faces_;
   std::vector<HeadLevels> levels_;
   const RegionWeights& regions_;
-  std::vector<Field> fields_;  ///< of all heads
+  std::vector<std::size_t>
+      first_field_;  ///< #heads + 1: of all heads' fields, which is a head's first
   std::vector<Block> blocks_;
 };
 

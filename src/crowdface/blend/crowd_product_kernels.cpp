@@ -24,17 +24,18 @@ HWY_INLINE hn::VFromD<Lanes> widened(Lanes lanes, const std::int16_t* numbers) {
   return hn::ConvertTo(lanes, hn::PromoteTo(whole, hn::LoadU(narrow, numbers)));
 }
 
-void unpack(const std::int16_t* numbers, std::size_t count, std::size_t in_row, float* row,
-            std::size_t stride) {
+void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
+            float* row, std::size_t stride) {
   const hn::CappedTag<float, kChunkValues / 2> lanes;
   const std::size_t width = hn::Lanes(lanes);
+  const auto factor = hn::Set(lanes, step);
   while (count > 0) {
     const std::size_t here = std::min(kChunkValues - in_row, count);
     std::size_t i = 0;
     for (; i < here && i + width <= count; i += width) {
-      hn::StoreU(widened(lanes, numbers + i), lanes, row + in_row + i);
+      hn::StoreU(hn::Mul(widened(lanes, numbers + i), factor), lanes, row + in_row + i);
     }
-    for (; i < here; ++i) row[in_row + i] = static_cast<float>(numbers[i]);
+    for (; i < here; ++i) row[in_row + i] = static_cast<float>(numbers[i]) * step;
     numbers += here;
     count -= here;
     row += stride;
@@ -93,8 +94,8 @@ void add_product(const float* chunk, const std::uint32_t* fields, std::size_t co
     for (std::size_t face = 0; face < kChunkFaces; ++face) {
       left[face] = right[face] = hn::Zero(lanes);
     }
-    const float* factor = coefficients;
-    for (std::size_t f = 0; f < count; ++f, factor += kChunkFaces) {
+    for (std::size_t f = 0; f < count; ++f) {
+      const float* factor = coefficients + fields[f] * kChunkFaces;
       const float* values = chunk + fields[f] * kChunkValues + begin;
       const V a = hn::Load(lanes, values), b = hn::Load(lanes, values + width);
       for (std::size_t face = 0; face < kChunkFaces; ++face) {
@@ -149,9 +150,9 @@ HWY_EXPORT(add_product);
 HWY_EXPORT(write_sums);
 HWY_EXPORT(finish_writing);
 
-void unpack(const std::int16_t* numbers, std::size_t count, std::size_t in_row, float* row,
-            std::size_t stride) {
-  HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, in_row, row, stride);
+void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
+            float* row, std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, in_row, row, stride);
 }
 
 void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,

@@ -11,21 +11,21 @@ namespace crowdface {
 inline constexpr std::size_t kChunkValues = 32;
 inline constexpr std::size_t kChunkFaces = 6;
 
-/// Numbers of a field into rows of kChunkValues floats, `stride` apart, from place `in_row` of the first on. May
-/// write up to 15 floats past the end of a row.
-void unpack(const std::int16_t* numbers, std::size_t count, std::size_t in_row, float* row,
-            std::size_t stride);
+/// Numbers of a field, times their step, into rows of kChunkValues floats, `stride` apart, from place `in_row` of the first
+/// on. May write up to 15 floats past the end of a row.
+void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
+            float* row, std::size_t stride);
 
 /// sums[i] += Σ_f coefficients[f]·numbers[f][i], for one face, in the order and rounding of `add_product`.
 /// \param numbers  `fields` rows of `count`, `stride` apart
 void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
                 const float* coefficients, std::size_t fields, float* sums);
 
-/// sums[face][i] += alpha[i]·Σ_f coefficients[f][face]·chunk[fields[f]][i] (Eq. 7), the products added
+/// sums[face][i] += alpha[i]·Σ_f coefficients[fields[f]][face]·chunk[fields[f]][i] (Eq. 7), the products added
 /// in the order of f with one rounding a term.
 /// \param chunk         #fields by kChunkValues
-/// \param fields        `count` rows of it
-/// \param coefficients  `count` by kChunkFaces
+/// \param fields        `count` rows of it and of the coefficients
+/// \param coefficients  #fields by kChunkFaces
 /// \param alpha         kChunkValues
 /// \param sums          kChunkFaces rows of kChunkValues, `stride` apart
 void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,

@@ -13,7 +13,7 @@ inline constexpr int kPartsVersion =
 inline constexpr int kMirrorVersion =
     1;  ///< the other side of each vertex; in `settings` where faces may be mirrored
 /// Entries of the cache, and so the faces made of them.
-inline constexpr int kPrepareVersion = 5;
+inline constexpr int kPrepareVersion = 6;
 /// What the cache keeps besides: neighbours, masks at vertices, samples and their cells, the other side.
 inline constexpr int kSharedVersion = 1;
 /// A picture, what is found about a skin, or a mesh file of the same positions.

@@ -223,11 +223,21 @@ std::string EditSession::mesh() const {
 
 std::string EditSession::head(Index head) const {
   const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
-  std::vector<std::int16_t> fields;
-  for (Index p = 0; p < levels.fields.rank(); ++p) {
+  // One step for all of a field's numbers: the page reads them as a texture.
+  std::vector<float> values;
+  for (Index p = 0; p < levels.fields.rank; ++p) {
     for (const std::uint32_t vertex : preview_.vertices) {
-      for (Index c = 0; c < 3; ++c) fields.push_back(levels.fields.number(p, vertex, c));
+      for (Index c = 0; c < 3; ++c) {
+        values.push_back(static_cast<float>(levels.fields.value(p, vertex, c)));
+      }
     }
+  }
+  std::vector<float> steps;
+  std::vector<std::int16_t> fields(values.size());
+  const std::size_t of_field = 3 * preview_.vertices.size();
+  for (std::size_t at = 0; at < values.size(); at += of_field) {
+    steps.push_back(
+        in_16_bits(std::span(std::as_const(values)).subspan(at, of_field), fields.data() + at));
   }
   std::vector<float> functions;
   for (int step = 0; step <= kLevels; ++step) {
@@ -239,8 +249,8 @@ std::string EditSession::head(Index head) const {
   const std::vector<float> positions =
       points(job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions);
   BinaryAnswer answer;
-  answer.head["rank"] = levels.fields.rank();
-  answer.head["scale"] = levels.fields.steps;
+  answer.head["rank"] = levels.fields.rank;
+  answer.head["scale"] = steps;
   answer.add("positions", std::span(positions));
   answer.add("fields", std::span(std::as_const(fields)));
   answer.add("functions", std::span(std::as_const(functions)));

@@ -54,7 +54,7 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
   for (std::size_t h = 0; h < prepared.levels.size(); ++h) {
     const StoredLevels& levels = prepared.levels[h];
     heads.push_back({{"name", job.names.heads[h]},
-                     {"rank", levels.fields.rank()},
+                     {"rank", levels.fields.rank},
                      {"error_max_mm", fine(levels.error.max * mm)},
                      {"error_rms_mm", fine(levels.error.rms * mm)},
                      {"error_max_at_iterations", levels.error.level}});

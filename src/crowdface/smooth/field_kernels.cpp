@@ -5,7 +5,11 @@
 #define HWY_TARGET_INCLUDE "crowdface/smooth/field_kernels.cpp"
 #include "hwy/foreach_target.h"
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "crowdface/smooth/level_fields.h"
 
 #include "hwy/highway.h"
 
@@ -28,6 +32,44 @@ void narrow(const float* from, std::size_t count, float scale, std::int16_t* to)
   for (; i < count; ++i) to[i] = static_cast<std::int16_t>(std::nearbyint(from[i] * scale));
 }
 
+/// Products and sums are rounded one by one: what a tile keeps must not depend on the instruction set.
+MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
+                        std::size_t stride, std::size_t levels, float most) {
+  const Lanes lanes;
+  const std::size_t width = hn::Lanes(lanes);
+  const auto limit = hn::Set(lanes, most);
+  HWY_ALIGN float left[3 * kFieldTile];
+  std::vector<MissedLevel> worst(count + 1);  // with so many fields kept
+  std::size_t kept = 0;
+  for (std::size_t level = 0; level < levels; ++level, functions += stride) {
+    std::fill_n(left, 3 * kFieldTile, 0.0F);
+    for (std::size_t p = count; p-- > kept;) {
+      const auto function = hn::Set(lanes, functions[p]);
+      const float* field = fields + p * 3 * kFieldTile;
+      auto largest = hn::Zero(lanes);
+      for (std::size_t i = 0; i < kFieldTile; i += width) {
+        auto squared = hn::Zero(lanes);
+        for (std::size_t c = 0; c < 3; ++c) {
+          float* to = left + c * kFieldTile + i;
+          const auto value = hn::LoadU(lanes, field + c * kFieldTile + i);
+          const auto sum = hn::Add(hn::Load(lanes, to), hn::Mul(function, value));
+          hn::Store(sum, lanes, to);
+          squared = hn::Add(squared, hn::Mul(sum, sum));
+        }
+        largest = hn::Max(largest, squared);
+      }
+      if (!hn::AllFalse(lanes, hn::Gt(largest, limit))) {
+        kept = p + 1;
+        break;
+      }
+      const float here = hn::GetLane(hn::MaxOfLanes(lanes, largest));
+      if (here > worst[p].squared) worst[p] = {0, here, level};
+    }
+  }
+  worst[kept].kept = kept;
+  return worst[kept];
+}
+
 }  // namespace crowdface::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -35,9 +77,15 @@ HWY_AFTER_NAMESPACE();
 namespace crowdface {
 
 HWY_EXPORT(narrow);
+HWY_EXPORT(keep_fewest);
 
 void narrow(const float* from, std::size_t count, float scale, std::int16_t* to) {
   HWY_DYNAMIC_DISPATCH(narrow)(from, count, scale, to);
+}
+
+MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
+                        std::size_t stride, std::size_t levels, float most) {
+  return HWY_DYNAMIC_DISPATCH(keep_fewest)(fields, count, functions, stride, levels, most);
 }
 
 }  // namespace crowdface

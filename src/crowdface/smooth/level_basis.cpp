@@ -2,14 +2,12 @@
 #include "crowdface/smooth/level_basis.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <numeric>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/smooth/field_kernels.h"
 #include "crowdface/smooth/principal_directions.h"
 
 namespace crowdface {
@@ -22,11 +20,9 @@ using FieldRows = RowArray<float>;
 constexpr double kFieldSeriesTolerance = 1e-6;
 /// Vertices at which the filter itself is kept, to hold the basis against.
 constexpr std::size_t kProbes = 1024;
-/// Vertices that choose the principal directions and the rank; the error is then measured at all.
+/// Vertices that choose the principal directions.
 constexpr std::size_t kSampleRows = 4096;
-constexpr Index kMeasureBlock = 256;
-/// Of the tolerance, what 16 bits may round away.
-constexpr double kRoundingShare = 0.05;
+constexpr Index kTilesATask = 64;
 
 /// Every n-th of `count` rows, `most` at most.
 std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
@@ -63,113 +59,130 @@ NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacemen
   return sample;
 }
 
-/// c_p of the rows [begin, end) for all p, computed from the nodes' displacements.
-class CombinedRows {
+/// Chooses for tiles of vertices how many fields they keep, and keeps them.
+class TileFitter {
  public:
-  CombinedRows(const std::vector<FieldRows>& displacements, const Eigen::MatrixXd& combining)
-      : displacements_(displacements), outputs_(static_cast<std::size_t>(combining.cols())) {
-    for (Index n = 0; n < combining.rows(); ++n) {
-      for (Index p = 0; p < combining.cols(); ++p) {
-        factors_.push_back(static_cast<float>(combining(n, p)));
+  /// \param tolerance  what fields that are left out or rounded may miss
+  TileFitter(const ChebyshevFilter& filter, const std::vector<FieldRows>& displacements,
+             const Directions& directions, double tolerance)
+      : filter_(filter),
+        displacements_(displacements),
+        directions_(directions),
+        count_(static_cast<std::size_t>(directions.functions.cols())),
+        tolerance_(tolerance) {
+    const Eigen::MatrixXd& functions = directions.functions;
+    for (Index l = 0; l < functions.rows(); ++l) {
+      for (Index p = 0; p < functions.cols(); ++p) {
+        functions_.push_back(static_cast<float>(functions(l, p)));
+      }
+    }
+    for (Index p = 0; p < functions.cols(); ++p) {
+      peaks_.push_back(functions.col(p).cwiseAbs().maxCoeff());
+    }
+    for (Index n = 0; n < directions.combining.rows(); ++n) {
+      for (Index p = 0; p < directions.combining.cols(); ++p) {
+        combining_.push_back(static_cast<float>(directions.combining(n, p)));
       }
     }
   }
 
-  void compute(std::size_t begin, std::size_t end) {
-    std::vector<const Row<float>*> inputs;
-    for (const FieldRows& rows : displacements_) inputs.push_back(rows.data() + begin);
-    std::vector<Row<float>*> outputs;
-    for (std::vector<Row<float>>& rows : outputs_) {
-      rows.resize(end - begin);
-      outputs.push_back(rows.data());
+  /// Of some tiles: what they keep, and the most that any vertex misses of any level.
+  struct Fitted {
+    FieldTiles fields;
+    double missed = 0;
+    std::size_t level = 0;  ///< among the tested ones
+  };
+  Fitted fit(Index first_tile, Index end_tile) const {
+    Fitted fitted;
+    std::vector<float> by_coordinate, by_vertex;
+    for (Index tile = first_tile; tile < end_tile; ++tile) {
+      combine(tile, by_coordinate, by_vertex);
+      const auto of_field = [&](std::size_t p) {
+        return std::span(std::as_const(by_vertex)).subspan(p * kTileValues, kTileValues);
+      };
+      // What the last fields add at most, one by one, is so little that they are left out unseen.
+      std::size_t looked_at = count_;
+      double unseen = 0;
+      for (; looked_at > 0; --looked_at) {
+        const double more = peaks_[looked_at - 1] * longest(of_field(looked_at - 1));
+        if (unseen + more > kUnseenShare * tolerance_) break;
+        unseen += more;
+      }
+      std::vector<double> rounded = {0};  // away, by the first so many fields
+      for (std::size_t p = 0; p < looked_at; ++p) {
+        const double half_a_step = 0.5 * static_cast<double>(step_of(of_field(p)));
+        rounded.push_back(rounded.back() + peaks_[p] * std::sqrt(3.0) * half_a_step);
+      }
+      const double most =
+          std::min(tolerance_ - rounded.back(), kLeftOutShare * tolerance_) - unseen;
+      const MissedLevel left_out =
+          keep_fewest(by_coordinate.data(), looked_at, functions_.data(), count_,
+                      static_cast<std::size_t>(directions_.functions.rows()),
+                      most > 0 ? static_cast<float>(most * most) : 0.0F);
+      fitted.fields.add(by_vertex, left_out.kept);
+      const double missed =
+          std::sqrt(static_cast<double>(left_out.squared)) + unseen + rounded[left_out.kept];
+      if (missed > fitted.missed) {
+        fitted.missed = missed;
+        fitted.level = left_out.level;
+      }
     }
-    combine_rows(inputs.data(), inputs.size(), factors_.data(), outputs.size(), end - begin,
-                 outputs.data());
-  }
-
-  /// c_p of row begin + i.
-  const float* at(Index p, std::size_t i) const {
-    return outputs_[static_cast<std::size_t>(p)][i].value;
+    return fitted;
   }
 
  private:
+  /// Vertices beside each other that leave out different fields would show a crease. With an eighth normals are as near to
+  /// the exact ones as with one number of fields for all (docs/method.md).
+  static constexpr double kLeftOutShare = 0.125;
+  static constexpr double kUnseenShare = 0.01;
+
+  static double longest(std::span<const float> vectors) {
+    float most = 0;
+    for (std::size_t i = 0; i < vectors.size(); i += 3) {
+      const float* v = &vectors[i];
+      most = std::max(most, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    return std::sqrt(static_cast<double>(most));
+  }
+
+  /// c_p at the tile's vertices for all p: #p by 3 by kFieldTile, and #p by kFieldTile by 3; zero past the last.
+  void combine(Index tile, std::vector<float>& by_coordinate, std::vector<float>& by_vertex) const {
+    const std::size_t begin = static_cast<std::size_t>(tile) * kFieldTile;
+    const std::size_t count =
+        std::min(kFieldTile, static_cast<std::size_t>(filter_.vertex_count()) - begin);
+    std::vector<Row<float>> in(count_ * kFieldTile), out(count_ * kFieldTile);
+    std::vector<const Row<float>*> inputs;
+    std::vector<Row<float>*> outputs;
+    for (std::size_t n = 0; n < count_; ++n) {
+      for (std::size_t i = 0; i < count; ++i) {
+        in[n * kFieldTile + i] = displacements_[n][filter_.row_of_vertex()[begin + i]];
+      }
+      inputs.push_back(&in[n * kFieldTile]);
+      outputs.push_back(&out[n * kFieldTile]);
+    }
+    combine_rows(inputs.data(), count_, combining_.data(), count_, count, outputs.data());
+    by_coordinate.assign(count_ * kTileValues, 0.0F);
+    by_vertex.assign(count_ * kTileValues, 0.0F);
+    for (std::size_t p = 0; p < count_; ++p) {
+      for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const float value = out[p * kFieldTile + i].value[c];
+          by_coordinate[p * kTileValues + c * kFieldTile + i] = value;
+          by_vertex[p * kTileValues + 3 * i + c] = value;
+        }
+      }
+    }
+  }
+
+  const ChebyshevFilter& filter_;
   const std::vector<FieldRows>& displacements_;
-  std::vector<float> factors_;
-  std::vector<std::vector<Row<float>>> outputs_;
+  const Directions& directions_;
+  std::size_t count_;  ///< of directions, which are as many as nodes
+  double tolerance_;
+  std::vector<float> functions_;  ///< #levels by #directions
+  std::vector<double> peaks_;     ///< of |φ_p| over the levels
+  std::vector<float> combining_;
 };
-
-/// The largest distance that something misses, and at which tested level.
-struct Worst {
-  double squared = 0;
-  Index level = 0;
-  void see(double squared_distance, Index at) {
-    if (squared_distance > squared || (squared_distance == squared && at < level)) {
-      squared = squared_distance;
-      level = at;
-    }
-  }
-};
-
-/// What the directions from `rank` on contribute to one vertex, over all tested levels.
-Worst worst_missed(const Directions& directions, const CombinedRows& fields, std::size_t row,
-                   Index rank) {
-  Worst worst;
-  for (Index l = 0; l < directions.functions.rows(); ++l) {
-    double missed[3] = {};
-    for (Index p = rank; p < directions.functions.cols(); ++p) {
-      const float* c = fields.at(p, row);
-      for (int i = 0; i < 3; ++i)
-        missed[i] += directions.functions(l, p) * static_cast<double>(c[i]);
-    }
-    worst.see(missed[0] * missed[0] + missed[1] * missed[1] + missed[2] * missed[2], l);
-  }
-  return worst;
-}
-
-/// Writes the fields of the first `rank` directions in the order of vertices, and measures what the
-/// others would have added, at every vertex; gives up as soon as that exceeds the budget.
-Worst write_fields(const ChebyshevFilter& filter, const Directions& directions,
-                   const std::vector<FieldRows>& displacements, Index rank, double budget,
-                   std::vector<float>& fields) {
-  const Index nodes = directions.functions.cols(), vertices = filter.vertex_count();
-  std::vector<double> peak;  // of |φ_p| over the levels
-  for (Index p = 0; p < nodes; ++p) {
-    peak.push_back(directions.functions.col(p).cwiseAbs().maxCoeff());
-  }
-  fields.resize(static_cast<std::size_t>(3 * rank * vertices));
-  Worst worst;  // what the sample knows spares looking closely at most vertices
-  const double known = directions.missed.col(rank).maxCoeff(&worst.level);
-  const Index worst_of_sample = worst.level;
-  worst.squared = known * known;
-  std::mutex mutex;
-  std::atomic<bool> too_few = false;
-  parallel_blocks(vertices, kMeasureBlock, [&](Index begin, Index end) {
-    if (too_few) return;
-    CombinedRows rows(displacements, directions.combining);
-    rows.compute(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
-    Worst mine{known * known, worst_of_sample};
-    for (Index r = begin; r < end; ++r) {
-      const auto local = static_cast<std::size_t>(r - begin);
-      const Index vertex = filter.vertex_of_row()[static_cast<std::size_t>(r)];
-      for (Index p = 0; p < rank; ++p) {
-        std::copy_n(rows.at(p, local), 3, fields.data() + 3 * (p * vertices + vertex));
-      }
-      double bound = 0;
-      for (Index p = rank; p < nodes; ++p) {
-        const float* c = rows.at(p, local);
-        bound += peak[static_cast<std::size_t>(p)] *
-                 std::sqrt(static_cast<double>(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]));
-      }
-      if (bound * bound < mine.squared) continue;  // cannot be the worst
-      const Worst here = worst_missed(directions, rows, local, rank);
-      mine.see(here.squared, here.level);
-    }
-    const std::lock_guard lock(mutex);
-    worst.see(mine.squared, mine.level);
-    if (worst.squared > budget * budget) too_few = true;
-  });
-  return worst;
-}
 
 /// The filter's own displacements at the probes, #levels by 3·#probes.
 Columns exact_displacements(const Probes& probes, OperatorKind kind,
@@ -210,56 +223,6 @@ ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
     }
   }
   return {std::sqrt(most), std::sqrt(sum / static_cast<double>(probes * exact.rows()))};
-}
-
-/// How far each field, rounded to whole steps, may take a vertex away: √3 times half a step in each
-/// coordinate, at the level that uses it most.
-std::vector<double> rounding_of(const LevelFields& fields, const Eigen::MatrixXd& functions) {
-  std::vector<double> rounding;
-  for (Index p = 0; p < functions.cols(); ++p) {
-    rounding.push_back(functions.col(p).cwiseAbs().maxCoeff() * std::sqrt(0.75) *
-                       fields.steps[static_cast<std::size_t>(p)]);
-  }
-  return rounding;
-}
-
-double sum_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-/// The fields in 16 bits. Where that rounds away more than it may, what is left of the fields that lose most
-/// becomes fields of their own, with the same functions.
-/// \param fields     #columns by #V by 3
-/// \param functions  #levels by #columns, and columns of the mixing likewise; grow with the fields.
-/// \return what may be rounded away.
-double round_fields(std::vector<float>& fields, double most, Index vertex_count,
-                    Eigen::MatrixXd& functions, Eigen::MatrixXd& mixing, LevelFields& rounded) {
-  rounded = in_16_bits(fields, vertex_count);
-  std::vector<double> rounding = rounding_of(rounded, functions);
-  std::vector<Index> lossy;
-  for (double left = sum_of(rounding); left > most;) {
-    const auto worst = std::max_element(rounding.begin(), rounding.end());
-    left -= *worst;
-    *worst = 0;
-    lossy.push_back(worst - rounding.begin());
-  }
-  if (lossy.empty()) return sum_of(rounding);
-  for (const Index p : lossy) {
-    for (Index v = 0; v < vertex_count; ++v) {
-      for (Index c = 0; c < 3; ++c) {
-        const float value = fields[static_cast<std::size_t>(3 * (p * vertex_count + v) + c)];
-        fields.push_back(static_cast<float>(static_cast<double>(value) - rounded.value(p, v, c)));
-      }
-    }
-    for (Eigen::MatrixXd* matrix : {&functions, &mixing}) {
-      matrix->conservativeResize(Eigen::NoChange, matrix->cols() + 1);
-      matrix->rightCols(1) = matrix->col(p);
-    }
-  }
-  rounded = in_16_bits(fields, vertex_count);
-  std::vector<double> left = rounding_of(rounded, functions);
-  for (const Index p : lossy) left[static_cast<std::size_t>(p)] = 0;
-  return sum_of(left);
 }
 
 }  // namespace
@@ -305,33 +268,42 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
         const std::uint32_t vertex = probes.vertices[static_cast<std::size_t>(v)];
         return displacements[static_cast<std::size_t>(n)][filter.row_of_vertex()[vertex]].value[c];
       });
-  const double rounding = kRoundingShare * tolerance;
-  const double budget = tolerance - of_nodes.max - rounding;
-  constexpr double kMargin = 0.9;  // for vertices beside the sample
+  const double budget = tolerance - of_nodes.max;
   const Directions directions =
-      principal_directions(tested, sample_displacements(displacements), kMargin * budget);
+      principal_directions(tested, sample_displacements(displacements), budget);
+  const TileFitter fitter(filter, displacements, directions, budget);
+  const auto tiles =
+      static_cast<Index>(LevelFields::tile_count(static_cast<std::size_t>(filter.vertex_count())));
+  std::vector<TileFitter::Fitted> parts(
+      static_cast<std::size_t>((tiles + kTilesATask - 1) / kTilesATask));
+  parallel_blocks(tiles, kTilesATask, [&](Index begin, Index end) {
+    parts[static_cast<std::size_t>(begin / kTilesATask)] = fitter.fit(begin, end);
+  });
 
   LevelBasis basis;
   basis.max_level = nodes.max_level();
-  std::vector<float> fields;
-  for (Index rank = directions.rank; rank <= directions.mixing.cols(); ++rank) {
-    const Worst worst = write_fields(filter, directions, displacements, rank, budget, fields);
-    if (std::sqrt(worst.squared) > budget) continue;  // a vertex beside the sample is worse
-    Eigen::MatrixXd functions = directions.functions.leftCols(rank);
-    basis.mixing = directions.mixing.leftCols(rank);
-    const double rounded = round_fields(fields, rounding, filter.vertex_count(), functions,
-                                        basis.mixing, basis.fields);
-    basis.error.max = std::sqrt(worst.squared) + of_nodes.max + rounded;
-    basis.error.level = tested.levels[static_cast<std::size_t>(worst.level)];
-    basis.error.rms = probe_error(exact, functions, [&](Index v, Index p, Index c) {
-                        const auto vertex =
-                            static_cast<Index>(probes.vertices[static_cast<std::size_t>(v)]);
-                        return basis.fields.value(p, vertex, c);
-                      }).rms;
-    return basis;
+  std::uint32_t rank = 0;
+  std::vector<FieldTiles> fields;
+  TileFitter::Fitted worst;
+  for (TileFitter::Fitted& part : parts) {
+    for (const std::uint32_t count : part.fields.counts) rank = std::max(rank, count);
+    if (part.missed > worst.missed) worst = {{}, part.missed, part.level};
+    fields.push_back(std::move(part.fields));
   }
-  throw InvalidInput(concat("expected levels within ", tolerance, ", reached ", of_nodes.max,
-                            " with ", nodes.levels().size(), " fields"));
+  basis.error.max = worst.missed + of_nodes.max;
+  if (basis.error.max > tolerance) {
+    throw InvalidInput(concat("expected levels within ", tolerance, ", reached ", basis.error.max,
+                              " with ", nodes.levels().size(), " fields"));
+  }
+  basis.error.level = tested.levels[worst.level];
+  basis.mixing = directions.mixing.leftCols(rank);
+  basis.fields = joined(filter.vertex_count(), rank, std::move(fields));
+  basis.error.rms =
+      probe_error(exact, directions.functions.leftCols(rank), [&](Index v, Index p, Index c) {
+        const auto vertex = static_cast<Index>(probes.vertices[static_cast<std::size_t>(v)]);
+        return basis.fields.value(p, vertex, c);
+      }).rms;
+  return basis;
 }
 
 }  // namespace crowdface

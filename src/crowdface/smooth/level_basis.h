@@ -44,11 +44,11 @@ NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions);
 
 /// Fits one head: finds the directions in which its own vertices move most (principal_directions),
-/// and keeps as few as keep the error under the tolerance. The error is measured: what the rank
-/// leaves out at every vertex and every tested level, and on top of it what the nodes leave out, at
-/// the probes against the filter itself, and what 16 bits may round away.
+/// and keeps of each tile of vertices as few as keep the error under the tolerance, and under an eighth of it what
+/// is left out. The error is measured: what a tile leaves out at every vertex and every tested level, and on top of it what
+/// the nodes leave out, at the probes against the filter itself, and what 16 bits may round away.
 /// \param tolerance  in the positions' unit, > 0.
-/// \throws InvalidInput if no rank reaches the tolerance: the message says what was reached.
+/// \throws InvalidInput if no number of fields reaches the tolerance: the message says what was reached.
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
                            const NodeFields& fields, double tolerance);
 

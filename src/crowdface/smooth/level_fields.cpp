@@ -11,37 +11,78 @@
 namespace crowdface {
 namespace {
 
-/// The largest number's step: 0 if all are zero.
-double step_of(std::span<const float> field) {
-  float largest = 0;
-  for (const float value : field) largest = std::max(largest, std::abs(value));
-  return static_cast<double>(largest) / std::numeric_limits<std::int16_t>::max();
-}
+struct OwnedFields {
+  std::vector<std::uint32_t> first;
+  std::vector<float> steps;
+  std::vector<std::int16_t> numbers;
+};
 
 }  // namespace
+
+double LevelFields::value(Index field, Index vertex, Index coordinate) const {
+  const auto v = static_cast<std::size_t>(vertex), tile = v / kFieldTile;
+  const std::size_t at = first[tile] + static_cast<std::size_t>(field);
+  if (at >= first[tile + 1]) return 0;
+  const std::size_t place =
+      at * kTileValues + 3 * (v % kFieldTile) + static_cast<std::size_t>(coordinate);
+  return static_cast<double>(steps[at]) * static_cast<double>(numbers[place]);
+}
+
+float step_of(std::span<const float> values) {
+  constexpr float kMost = std::numeric_limits<std::int16_t>::max();
+  float largest = 0;
+  for (const float value : values) largest = std::max(largest, std::abs(value));
+  if (largest < 1e-30F) return 0;  // a step whose inverse is no number
+  int exponent = 0;                // largest/kMost = m·2^exponent with m from ½ to below 1
+  const float m = std::frexp(largest / kMost, &exponent);
+  return std::ldexp(1.0F, m == 0.5F ? exponent - 1 : exponent);
+}
+
+float in_16_bits(std::span<const float> values, std::int16_t* numbers) {
+  const float step = step_of(values);
+  narrow(values.data(), values.size(), step > 0 ? 1 / step : 0, numbers);
+  return step;
+}
+
+void FieldTiles::add(std::span<const float> values, std::size_t count) {
+  counts.push_back(static_cast<std::uint32_t>(count));
+  numbers.resize(numbers.size() + count * kTileValues);
+  std::int16_t* to = numbers.data() + numbers.size() - count * kTileValues;
+  for (std::size_t p = 0; p < count; ++p) {
+    const std::size_t at = p * kTileValues;
+    steps.push_back(in_16_bits(values.subspan(at, kTileValues), to + at));
+  }
+}
+
+LevelFields joined(Index vertex_count, Index rank, std::vector<FieldTiles> tiles) {
+  auto all = std::make_shared<OwnedFields>();
+  all->first.push_back(0);
+  for (FieldTiles& part : tiles) {
+    for (const std::uint32_t count : part.counts) all->first.push_back(all->first.back() + count);
+    all->steps.insert(all->steps.end(), part.steps.begin(), part.steps.end());
+  }
+  all->numbers.reserve(all->steps.size() * kTileValues);
+  for (FieldTiles& part : tiles) {
+    all->numbers.insert(all->numbers.end(), part.numbers.begin(), part.numbers.end());
+    part = FieldTiles();
+  }
+  return {vertex_count, rank, all->first, all->steps, all->numbers, all};
+}
 
 LevelFields in_16_bits(std::span<const float> fields, Index vertex_count) {
   const std::size_t values = 3 * static_cast<std::size_t>(vertex_count);
   const std::size_t rank = values == 0 ? 0 : fields.size() / values;
-  LevelFields result{vertex_count, std::vector<double>(rank), {}, {}};
-  const auto field = [&](std::size_t p) { return fields.subspan(p * values, values); };
-  parallel_for_each(rank, [&](std::size_t p) { result.steps[p] = step_of(field(p)); });
-
-  constexpr std::size_t kTileValues = 3 * kFieldTile;
-  auto numbers = std::make_shared<std::vector<std::int16_t>>(
-      LevelFields::size(static_cast<std::size_t>(vertex_count), rank));
-  parallel_for_each((values + kTileValues - 1) / kTileValues, [&](std::size_t tile) {
+  std::vector<FieldTiles> tiles(LevelFields::tile_count(static_cast<std::size_t>(vertex_count)));
+  parallel_for_each(tiles.size(), [&](std::size_t tile) {
     const std::size_t first = tile * kTileValues;
+    std::vector<float> of_tile(rank * kTileValues, 0.0F);
     for (std::size_t p = 0; p < rank; ++p) {
-      const double step = result.steps[p];
-      narrow(fields.data() + p * values + first, std::min(kTileValues, values - first),
-             step > 0 ? static_cast<float>(1 / step) : 0,
-             numbers->data() + (tile * rank + p) * kTileValues);
+      std::copy_n(fields.data() + p * values + first, std::min(kTileValues, values - first),
+                  of_tile.data() + p * kTileValues);
     }
+    tiles[tile].add(of_tile, rank);
   });
-  result.numbers = *numbers;
-  result.owner = std::move(numbers);
-  return result;
+  return joined(vertex_count, static_cast<Index>(rank), std::move(tiles));
 }
 
 }  // namespace crowdface

@@ -14,33 +14,46 @@ namespace crowdface {
 /// Vertices whose numbers of all fields stand together, so that blending them reads one piece of memory
 /// a head.
 inline constexpr std::size_t kFieldTile = 64;
+inline constexpr std::size_t kTileValues = 3 * kFieldTile;
 
-/// Fields c_0 … c_{R−1} of one head, #V by 3 each, as whole numbers of 16 bits times a step a field:
-/// half of what single precision takes to read. A field is off by half its step at most.
+/// Fields c_0 … c_{R−1} of one head, #V by 3 each. A tile of vertices has the first of them, as many as it needs;
+/// the others are zero there. Values are whole numbers of 16 bits times a step of their tile and field: a power of two, so
+/// that a product with it is exact, or zero. A value is off by half its step at most.
 struct LevelFields {
   Index vertex_count = 0;
-  std::vector<double> steps;  ///< #R, in the positions' unit
-  /// #tiles by #R by kFieldTile by 3; past the last vertex zero.
-  std::span<const std::int16_t> numbers;
-  std::shared_ptr<const void> owner;  ///< of the numbers
+  Index rank = 0;  ///< R
+  /// #tiles + 1: of all tiles' fields, one tile after the other, which is a tile's first.
+  std::span<const std::uint32_t> first;
+  std::span<const float> steps;           ///< of all tiles' fields, in the positions' unit
+  std::span<const std::int16_t> numbers;  ///< of each kFieldTile by 3; past the last vertex zero
+  std::shared_ptr<const void> owner;      ///< of all three
 
-  Index rank() const { return static_cast<Index>(steps.size()); }
-  /// How many numbers so many fields take.
-  static std::size_t size(std::size_t vertices, std::size_t rank) {
-    return (vertices + kFieldTile - 1) / kFieldTile * rank * kFieldTile * 3;
+  static std::size_t tile_count(std::size_t vertices) {
+    return (vertices + kFieldTile - 1) / kFieldTile;
   }
-  std::int16_t number(Index field, Index vertex, Index coordinate) const {
-    const auto v = static_cast<std::size_t>(vertex), p = static_cast<std::size_t>(field);
-    const std::size_t row = (v / kFieldTile * steps.size() + p) * kFieldTile + v % kFieldTile;
-    return numbers[3 * row + static_cast<std::size_t>(coordinate)];
-  }
-  double value(Index field, Index vertex, Index coordinate) const {
-    return steps[static_cast<std::size_t>(field)] *
-           static_cast<double>(number(field, vertex, coordinate));
-  }
+  double value(Index field, Index vertex, Index coordinate) const;
 };
 
-/// \param fields  #R by #V by 3, finite.
+/// Fields of tiles that follow each other.
+struct FieldTiles {
+  std::vector<std::uint32_t> counts;  ///< of each tile
+  std::vector<float> steps;
+  std::vector<std::int16_t> numbers;
+
+  /// \param values  `count` by kTileValues, finite
+  void add(std::span<const float> values, std::size_t count);
+};
+
+/// The least power of two that values can be told in with 16 bits; zero if there is none worth telling.
+float step_of(std::span<const float> values);
+
+/// Values as whole numbers, as many. \return their step.
+float in_16_bits(std::span<const float> values, std::int16_t* numbers);
+
+/// \param tiles  together all of the mesh, in order
+LevelFields joined(Index vertex_count, Index rank, std::vector<FieldTiles> tiles);
+
+/// \param fields  #R by #V by 3, finite; every tile has them all.
 LevelFields in_16_bits(std::span<const float> fields, Index vertex_count);
 
 }  // namespace crowdface
