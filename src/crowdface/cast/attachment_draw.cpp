@@ -2,7 +2,7 @@
 #include "crowdface/cast/attachment_draw.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <utility>
 
 #include "crowdface/cast/quotas.h"
@@ -37,16 +37,12 @@ bool says_colour(const std::string& tag, const std::string& colour) {
   return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
 }
 
-/// \param drawn  from 0 to 1
-const AttachmentItem* one_of(const Items& items, double drawn) {
-  double sum = 0;
-  for (const AttachmentItem* item : items) sum += item->share;
-  double left = drawn * sum;
-  for (const AttachmentItem* item : items) {
-    if (left < item->share) return item;
-    left -= item->share;
-  }
-  return items.back();
+/// How often each item, by name, was given to faces of a kind.
+using Turns = std::map<std::string, int>;
+
+int turns_of(const Turns& turns, const std::string& name) {
+  const auto found = turns.find(name);
+  return found == turns.end() ? 0 : found->second;
 }
 
 /// The quotas of one kind.
@@ -86,7 +82,10 @@ class Drawing {
     Items worn;
     for (const std::string& kind : kinds_) {
       const AttachmentItem* one = draw_one(kind, face, worn);
-      if (one != nullptr) worn.push_back(one);
+      if (one == nullptr) continue;
+      worn.push_back(one);
+      ++turns_[alike(face)][one->name];
+      if (face.index) ++all_turns_[one->name];
     }
     std::vector<std::string> names = without_excluded(worn);
     worn_[face.id] = those(worn, [&](const auto& item) { return contains(names, item.name); });
@@ -122,10 +121,39 @@ class Drawing {
     if (items.empty()) return nullptr;
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
-    const auto drawn = random_pair({draw_.seed, face.index.value_or(0), purpose});
-    if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
+    const double drawn = random_unit({draw_.seed, face.index.value_or(0), purpose});
+    if (!serve_quotas(kind, face, drawn, items)) return nullptr;
     match_colours(kind, face, worn, items);
-    return one_of(items, drawn[1]);
+    return next_of(items, face, purpose);
+  }
+
+  /// Whom a face takes turns with: others that look like it.
+  std::string alike(const CastFace& face) const {
+    if (face.index) return concat("head/", heads_.at(face.id));
+    return face.family ? concat("family/", *face.family) : concat("face/", face.id);
+  }
+
+  /// The item whose turn it is; among equals drawn.
+  const AttachmentItem* next_of(const Items& items, const CastFace& face,
+                                const std::string& purpose) const {
+    const auto own = turns_.find(alike(face));
+    const auto of_all = [&](const AttachmentItem* item) {
+      return face.index ? turns_of(all_turns_, item->name) : 0;
+    };
+    int most = 0;
+    for (const AttachmentItem* item : items) most = std::max(most, of_all(item));
+    const AttachmentItem* next = nullptr;
+    double least = HUGE_VAL;
+    for (const AttachmentItem* item : items) {
+      const double drawn = random_unit(
+          {draw_.seed, face.index.value_or(0), concat(purpose, "/of/", item->name)});
+      const double before = own == turns_.end() ? 0 : turns_of(own->second, item->name);
+      const double waits = (before + (of_all(item) + drawn) / (most + 1)) / item->share;
+      if (waits >= least) continue;
+      least = waits;
+      next = item;
+    }
+    return next;
   }
 
   /// Leaves what quotas allow. \return whether the face wears any.
@@ -252,6 +280,8 @@ class Drawing {
   std::map<std::string, Items> worn_;                  ///< by face
   std::map<std::string, Index> heads_;                 ///< whose tags a face has
   std::map<std::pair<std::string, std::string>, std::string> families_;  ///< colours by kinds
+  std::map<std::string, Turns> turns_;                                   ///< by who is alike
+  Turns all_turns_;                                                      ///< of sampled faces
 };
 
 }  // namespace
@@ -261,9 +291,29 @@ bool is_called(const AttachmentItem& item, const std::string& word) {
 }
 
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<CastFace>& crowd) {
+                      std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected) {
   Drawing drawing(draw, groups);
-  for (CastFace& face : crowd) face.attachments = drawing.of(face);
+  std::map<std::string, std::vector<const CastFace*>> before;  // of a redrawn face, by its id
+  for (const CastFace& face : rejected) {
+    if (face.index) before[face.id].push_back(&face);
+  }
+  std::map<std::string, CastFace*> redrawn;
+  for (CastFace& face : crowd) {
+    const auto found = before.find(face.id);
+    if (found == before.end()) {
+      face.attachments = drawing.of(face);
+      continue;
+    }
+    drawing.of(*found->second.front());
+    found->second.push_back(&face);
+    redrawn[face.id] = &face;
+  }
+  std::map<std::string, std::size_t> times;
+  for (const CastFace& face : rejected) {
+    if (!redrawn.contains(face.id)) continue;
+    const CastFace& next = *before[face.id][++times[face.id]];
+    redrawn[face.id]->attachments = drawing.of(next);
+  }
 }
 
 }  // namespace crowdface
