@@ -2,7 +2,6 @@
 #include "crowdface/cast/attachment_draw.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "crowdface/cast/quotas.h"
@@ -37,12 +36,36 @@ bool says_colour(const std::string& tag, const std::string& colour) {
   return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
 }
 
-/// How often each item, by name, was given to faces of a kind.
+/// \param drawn  from 0 to 1
+const AttachmentItem* one_of(const Items& items, double drawn) {
+  double sum = 0;
+  for (const AttachmentItem* item : items) sum += item->share;
+  double left = drawn * sum;
+  for (const AttachmentItem* item : items) {
+    if (left < item->share) return item;
+    left -= item->share;
+  }
+  return items.back();
+}
+
+/// How often each item, by name, was given to some faces.
 using Turns = std::map<std::string, int>;
 
-int turns_of(const Turns& turns, const std::string& name) {
-  const auto found = turns.find(name);
-  return found == turns.end() ? 0 : found->second;
+/// Leaves the items of which one more is due, by their shares, when the next face has got its own.
+void leave_due(const Turns& turns, Items& items) {
+  constexpr double kRounding = 1e-9;
+  const auto given = [&](const AttachmentItem* item) {
+    const auto found = turns.find(item->name);
+    return found == turns.end() ? 0 : found->second;
+  };
+  double shares = 0, faces = 1;
+  for (const AttachmentItem* item : items) {
+    shares += item->share;
+    faces += given(item);
+  }
+  std::erase_if(items, [&](const AttachmentItem* item) {
+    return faces * item->share / shares - given(item) < kRounding;
+  });
 }
 
 /// The quotas of one kind.
@@ -121,10 +144,10 @@ class Drawing {
     if (items.empty()) return nullptr;
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
-    const double drawn = random_unit({draw_.seed, face.index.value_or(0), purpose});
-    if (!serve_quotas(kind, face, drawn, items)) return nullptr;
+    const auto drawn = random_pair({draw_.seed, face.index.value_or(0), purpose});
+    if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
     match_colours(kind, face, worn, items);
-    return next_of(items, face, purpose);
+    return next_of(items, face, drawn[1]);
   }
 
   /// Whom a face takes turns with: others that look like it.
@@ -133,27 +156,12 @@ class Drawing {
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// The item whose turn it is; among equals drawn.
-  const AttachmentItem* next_of(const Items& items, const CastFace& face,
-                                const std::string& purpose) const {
-    const auto own = turns_.find(alike(face));
-    const auto of_all = [&](const AttachmentItem* item) {
-      return face.index ? turns_of(all_turns_, item->name) : 0;
-    };
-    int most = 0;
-    for (const AttachmentItem* item : items) most = std::max(most, of_all(item));
-    const AttachmentItem* next = nullptr;
-    double least = HUGE_VAL;
-    for (const AttachmentItem* item : items) {
-      const double drawn = random_unit(
-          {draw_.seed, face.index.value_or(0), concat(purpose, "/of/", item->name)});
-      const double before = own == turns_.end() ? 0 : turns_of(own->second, item->name);
-      const double waits = (before + (of_all(item) + drawn) / (most + 1)) / item->share;
-      if (waits >= least) continue;
-      least = waits;
-      next = item;
-    }
-    return next;
+  /// One whose turn it is among faces that look alike, and then among all; drawn by shares.
+  const AttachmentItem* next_of(const Items& items, const CastFace& face, double drawn) const {
+    Items next = items;
+    if (const auto own = turns_.find(alike(face)); own != turns_.end()) leave_due(own->second, next);
+    if (face.index) leave_due(all_turns_, next);
+    return one_of(next, drawn);
   }
 
   /// Leaves what quotas allow. \return whether the face wears any.

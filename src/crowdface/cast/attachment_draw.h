@@ -43,8 +43,8 @@ bool is_called(const AttachmentItem& item, const std::string& word);
 ///   colour; but not that of an old parent, who may be grey, unless it is old itself,
 /// - quotas serve the m-th sampled face of a group whatever else is drawn; one that may not wear what
 ///   a quota asks for goes as if it were not asked,
-/// - sampled faces on one head, and the members of a family, take turns: what fewest of those before have comes
-///   first, and then what fewest of all sampled faces have.
+/// - sampled faces on one head, and the members of a family, take turns: of what those before have had their share of no
+///   more is given, nor, where there is a choice, of what all sampled faces have had theirs of.
 /// Then each in turn takes away what it excludes.
 /// \param crowd     in the order of the plan.
 /// \param groups    of sampled faces 1, 2, …: quota or group, or −1; empty: they are of none.

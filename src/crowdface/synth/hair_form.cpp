@@ -19,6 +19,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr Index kCapLayout = 12'000;
+constexpr double kCapEdge = 0.45;    // centimetres, about its quads' size
+constexpr double kRim = 0.55;        // centimetres by which thin hair runs beyond the edge
 constexpr double kStripWidth = 1.5;  // centimetres of the cap that a strip is laid over
 
 /// To and fro between 0 and 1, so that a strip meets itself.
@@ -83,13 +85,13 @@ Mesh hair_cap(const HairCut& cut) {
   for (std::size_t v = 0; v < place.size(); ++v) {
     const SkinPoint skin = mean_skin_with_sockets(layout.addresses[v]);
     const double within = form.within(skin.position);
-    if (skin.relief < 0.5 || within < -0.1) continue;
+    if (skin.relief < 0.5 || within < -kRim - kCapEdge) continue;
     place[v] = static_cast<std::uint32_t>(points.size());
     points.emplace_back(skin.position + (0.03 + form.stand_off(skin.position)) * skin.normal);
     const double u = 0.03 + 0.94 * to_and_fro(across_hair(cut, skin.position) / kStripWidth);
     const double v_of_tips = 0.02, inner = 0.75;
     uvs.emplace_back((kCardStrips + u) / kHairStrips,
-                     v_of_tips + inner * std::clamp((within + 0.1) / 1.6, 0.0, 1.0));
+                     v_of_tips + inner * std::clamp((within + kRim) / 1.7, 0.0, 1.0));
   }
   for (Index f = 0; f < layout.topology.face_count(); ++f) {
     std::vector<std::uint32_t> corners;
