@@ -47,9 +47,8 @@ std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
   const synth::Complexion look = synth::draw_complexion(seed, index);
   const std::string skin = skin_tag(look.tone);
   const bool bald = look.receding > kBald;
-  const Wish wish{synth::draw_person(seed, index).male < 0,
-                  !bald && synth::has_curls(seed, index), bald,
-                  std::string(synth::nearest_hair_colour(look.hair).name)};
+  const Wish wish{synth::draw_person(seed, index).male < 0, !bald && synth::has_curls(seed, index),
+                  bald, std::string(synth::nearest_hair_colour(look.hair).name)};
   wishes_.insert(wish);
   return concat(skin, ", ", wish.colour, "_hair, ", form_tag(wish.curly, wish.bald));
 }
@@ -72,9 +71,8 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
   std::map<const synth::HairCut*, std::shared_ptr<const Mesh>> meshes;
   std::vector<const synth::HairCut*> cuts;
   for (const synth::HairCut& cut : synth::hair_cuts()) {
-    const bool wished = std::ranges::any_of(wishes_, [&](const Wish& wish) {
-      return is_for(cut, wish.female, wish.curly, wish.bald);
-    });
+    const bool wished = std::ranges::any_of(
+        wishes_, [&](const Wish& wish) { return is_for(cut, wish.female, wish.curly, wish.bald); });
     if (wished) cuts.push_back(&cut);
   }
   std::vector<std::shared_ptr<const Mesh>> of_cuts(cuts.size());
@@ -91,15 +89,15 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
       pictures.insert(picture);
       files.push_back({folder / concat(name, ".obj"), [mesh = meshes.at(&cut), name] {
                          return encode_obj(
-                             *mesh,
-                             concat(name, " on base.obj, made by crowdface synth; cm"),
+                             *mesh, concat(name, " on base.obj, made by crowdface synth; cm"),
                              {{"hair", 0}}, concat(name, ".mtl"));
                        }});
       files.push_back(text_file(folder / concat(name, ".mtl"),
                                 concat("newmtl hair\nKd 1 1 1\nmap_Kd textures/", picture, '\n')));
-      section += concat("    - {name: ", name, ", kind: hair, file: attachments/", name,
-                        ".obj, tags: [", wish.female ? "female" : "male", ", ", wish.colour,
-                        "_hair, ", form_tag(wish.curly, wish.bald), "], colour: ", wish.colour, "}\n");
+      section +=
+          concat("    - {name: ", name, ", kind: hair, file: attachments/", name, ".obj, tags: [",
+                 wish.female ? "female" : "male", ", ", wish.colour, "_hair, ",
+                 form_tag(wish.curly, wish.bald), "], colour: ", wish.colour, "}\n");
     }
   }
   for (const synth::HairColour& colour : synth::hair_colours()) {

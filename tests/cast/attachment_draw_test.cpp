@@ -163,8 +163,8 @@ TEST(AttachmentDraw, TurnsFollowShares) {
 }
 
 TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
-  const AttachmentDraw draw = draw_of(
-      {{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
+  const AttachmentDraw draw =
+      draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
   const auto sisters = [](const std::string& family) {
     std::vector<CastFace> faces(3, face_of(1));
     for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -190,8 +190,8 @@ TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
 
 /// A review draws some faces anew, on other heads; all others keep what they wear.
 TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
-  const AttachmentDraw draw = draw_of(
-      {{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
+  const AttachmentDraw draw =
+      draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
   std::vector<CastFace> before = crowd_of(20);
   draw_attachments(draw, {}, before);
   std::vector<CastFace> after = crowd_of(20);

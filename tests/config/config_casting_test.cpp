@@ -80,7 +80,7 @@ TEST_F(ConfigTest, GroupsTakeWhatTheyDoNotSayFromSampling) {
   EXPECT_FALSE(kin.parents[0].group);
   EXPECT_EQ(kin.parents[1].group, 0U);
   EXPECT_EQ(kin.max_distance_mm, 2.5);
-  EXPECT_EQ(kin.min_distance_mm, 2.5 / 4);
+  EXPECT_EQ(kin.min_distance_mm, 0.4 * 2.5);
 
   const std::string written = effective_config(*config, folder_);
   const auto again = read(written);
@@ -94,12 +94,13 @@ const std::string kTagged =
     "faces: {directory: heads, units: cm, tags: {ann: [old, female], bob: [old], cyd: [female]}}\n";
 
 TEST_F(ConfigTest, GroupsLeaveOutHeadsWithATag) {
-  const auto config = read(kTagged +
-                           "sampling: {targets: {ann: 1, cyd: 3}, bands: {skin: 8 mm}}\n"
-                           "groups:\n"
-                           "  - {name: women, share: 0.4, tags: [female], without: [old]}\n"
-                           "  - {name: not_old, share: 0.3, without: [old]}\n"
-                           "  - {name: men, sources: [ann, bob], targets: all, without: [female]}\n");
+  const auto config =
+      read(kTagged +
+           "sampling: {targets: {ann: 1, cyd: 3}, bands: {skin: 8 mm}}\n"
+           "groups:\n"
+           "  - {name: women, share: 0.4, tags: [female], without: [old]}\n"
+           "  - {name: not_old, share: 0.3, without: [old]}\n"
+           "  - {name: men, sources: [ann, bob], targets: all, without: [female]}\n");
   ASSERT_TRUE(config) << told();
   const SamplingOptions& women = config->groups[0].sampling;
   EXPECT_THAT(women.sources, ElementsAre(2));

@@ -159,7 +159,8 @@ class Drawing {
   /// One whose turn it is among faces that look alike, and then among all; drawn by shares.
   const AttachmentItem* next_of(const Items& items, const CastFace& face, double drawn) const {
     Items next = items;
-    if (const auto own = turns_.find(alike(face)); own != turns_.end()) leave_due(own->second, next);
+    if (const auto own = turns_.find(alike(face)); own != turns_.end())
+      leave_due(own->second, next);
     if (face.index) leave_due(all_turns_, next);
     return one_of(next, drawn);
   }

@@ -77,10 +77,10 @@ class GalleryMeshes {
   FacesAround around_;
   PackingFrame frame_;
   ShownAttachments attachments_;
-  VertexColours colours_;       ///< of the surfaces themselves, one a vertex of the reduced mesh
-  std::vector<float> open_;     ///< how much light arrives there, on the mean head
+  VertexColours colours_;    ///< of the surfaces themselves, one a vertex of the reduced mesh
+  std::vector<float> open_;  ///< how much light arrives there, on the mean head
   std::vector<TexturePlace> corner_;  ///< where each lies in a texture
-  Eigen::Vector3d low_, high_;  ///< of the heads' boxes
+  Eigen::Vector3d low_, high_;        ///< of the heads' boxes
 
   /// What the reduced mesh has of a shape's vertices.
   struct ShownMoves {

@@ -63,9 +63,10 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
   return bytes;
 }
 
-std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
-                      const PackingFrame& frame, const Positions& positions,
-                      const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean) {
+std::string pack_face(
+    const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
+    const PackingFrame& frame, const Positions& positions,
+    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
   std::string bytes = pack_points(mesh.vertices, frame, positions);

@@ -41,8 +41,7 @@ std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<Mesh
 }
 
 AttachmentWriters::AttachmentWriters(const Inputs& inputs, std::span<const MeshFormat> formats,
-                                     const std::string& shared,
-                                     std::span<const WornLevel> levels)
+                                     const std::string& shared, std::span<const WornLevel> levels)
     : formats_(formats.begin(), formats.end()), inputs_(inputs), levels_(levels) {
   for (const Attachment& item : inputs.attachments.items) {
     forms_.emplace(
@@ -63,10 +62,10 @@ void AttachmentWriters::add_level_forms(const WornLevel& level) {
         face_materials(item.file.materials, item.file.topology.face_count());
     using Normals = PlainObjTemplate::Normals;
     const bool normals = !item.file.corner_normals.empty();
-    LevelForm form{PlainObjTemplate(here->topology, here->uvs,
-                                    material_ranges(materials, here->faces),
-                                    normals ? Normals::kVertex : Normals::kNone),
-                   {}};
+    LevelForm form{
+        PlainObjTemplate(here->topology, here->uvs, material_ranges(materials, here->faces),
+                         normals ? Normals::kVertex : Normals::kNone),
+        {}};
     if (normals) form.fans.emplace(here->topology);
     forms.emplace(&item, std::move(form));
   }

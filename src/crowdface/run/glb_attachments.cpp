@@ -146,8 +146,9 @@ GlbPart part_of(const Attachment& item, const Look& look, const Inputs& inputs,
   }
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return {item.name,   level.topology, level.uvs,         look.materials, on_level(level, look.of_face),
-          look.images, influences,     std::move(targets)};
+  return {
+      item.name,   level.topology, level.uvs,         look.materials, on_level(level, look.of_face),
+      look.images, influences,     std::move(targets)};
 }
 
 }  // namespace
@@ -157,9 +158,8 @@ std::vector<GlbAttachments> glb_attachments(const Inputs& inputs,
   std::map<const Attachment*, Look> looks;
   for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
   std::vector<GlbAttachments> all;
-  all.emplace_back(inputs.attachments, [&](const Attachment& item) {
-    return part_of(item, looks.at(&item), inputs);
-  });
+  all.emplace_back(inputs.attachments,
+                   [&](const Attachment& item) { return part_of(item, looks.at(&item), inputs); });
   for (const WornLevel& worn : levels) {
     all.emplace_back(inputs.attachments, [&](const Attachment& item) -> std::optional<GlbPart> {
       const DetailLevel* level = worn.find(item);

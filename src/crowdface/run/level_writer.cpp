@@ -102,7 +102,8 @@ std::size_t LevelWriter::memory_bytes() const {
   std::size_t bytes = 0;
   for (const PlainObjTemplate& obj : obj_) bytes += obj.memory_bytes();
   return bytes + (ply_ ? ply_->memory_bytes() : 0) + (glb_ ? glb_->memory_bytes() : 0) +
-         (usd_ ? usd_->memory_bytes() : 0) + (worn_.glb != nullptr ? worn_.glb->memory_bytes() : 0) +
+         (usd_ ? usd_->memory_bytes() : 0) +
+         (worn_.glb != nullptr ? worn_.glb->memory_bytes() : 0) +
          (worn_.usd != nullptr ? worn_.usd->memory_bytes() : 0);
 }
 

@@ -190,7 +190,7 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
   }
   const Positions moved = in_shape(face, mesh.shape);
   const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
-  const WholeFace acting{face.id,       face.target,        moved,       normals, face.moves,
+  const WholeFace acting{face.id,       face.target,        moved,       normals,     face.moves,
                          face.textures, face.texture_names, face.points, face.joints, face.worn};
   return level.encode(mesh, acting, had_normals(face.target));
 }

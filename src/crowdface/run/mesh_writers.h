@@ -93,8 +93,9 @@ class MeshWriters {
       libraries_;  ///< the line that names its material files, if they lie elsewhere
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
-  std::vector<WornLevel> worn_levels_;           ///< #levels
-  std::vector<GlbAttachments> glb_attachments_;  ///< whole, then on each level; none: there are none
+  std::vector<WornLevel> worn_levels_;  ///< #levels
+  std::vector<GlbAttachments>
+      glb_attachments_;  ///< whole, then on each level; none: there are none
   std::vector<UsdAttachments> usd_attachments_;  ///< likewise
   std::optional<UsdaTemplate> usd_;
   std::vector<MeshName> names_;

@@ -65,9 +65,8 @@ Look look_of(const Attachment& item, std::string prim, const std::string& shared
 }  // namespace
 
 std::size_t usd_bytes_worn_at_most(const UsdAttachments& attachments) {
-  return worn_at_most(attachments.all(), [](const Attachment&, const UsdaPart& part) {
-    return part.encode_bytes();
-  });
+  return worn_at_most(attachments.all(),
+                      [](const Attachment&, const UsdaPart& part) { return part.encode_bytes(); });
 }
 
 std::vector<UsdAttachments> usd_attachments(const Inputs& inputs, const std::string& shared,

@@ -13,17 +13,17 @@ namespace {
 
 std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const MeasuredLevel> levels) {
   const Topology& topology = item.file.topology;
-  const auto triangles =
-      static_cast<double>(topology.corner_count() - 2 * topology.face_count());
+  const auto triangles = static_cast<double>(topology.corner_count() - 2 * topology.face_count());
   std::vector<double> shares;
   for (const MeasuredLevel& level : levels) {
-    shares.push_back(std::min(1.0, std::max(level.level.share,
-                                            WornLevel::kFewestTriangles / triangles)));
+    shares.push_back(
+        std::min(1.0, std::max(level.level.share, WornLevel::kFewestTriangles / triangles)));
   }
   const auto faces = topology.face_count();
   std::vector<std::uint32_t> looks = face_materials(item.file.materials, faces).of_face;
   looks.resize(static_cast<std::size_t>(faces));
-  return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}}, looks, shares);
+  return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}}, looks,
+                       shares);
 }
 
 }  // namespace

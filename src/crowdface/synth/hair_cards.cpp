@@ -23,9 +23,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kPieces = 9, kPiecesOfShort = 6, kPiecesOfCurl = 6;  // quads along a card
-constexpr double kShort = 10;       // centimetres
-constexpr double kBetween = 0.78;   // centimetres from root to root
-constexpr double kCardWidth = 1.1;  // centimetres
+constexpr double kShort = 10;                                      // centimetres
+constexpr double kBetween = 0.78;                                  // centimetres from root to root
+constexpr double kCardWidth = 1.1;                                 // centimetres
 
 struct Root {
   Vector3d place, normal;
@@ -34,12 +34,13 @@ struct Root {
 /// Evenly over the scalp, none nearer to another than kBetween.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
   const HairForm form(cut);
-  const double least = cut.has_fringe() || cut.layers > 1 ? 0.5 : 0.3;
+  const double least = cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
   for (const Address& address : make_layout(24'000).addresses) {
     const SkinPoint skin = mean_skin_with_sockets(address);
     const Vector3d& p = skin.position;
-    if (skin.relief < 0.5 || form.within(p) < least) continue;
+    const bool at_nape = cut.layers > 1 && p.y() < 0;  // curls would stand off the neck
+    if (skin.relief < 0.5 || form.within(p) < (at_nape ? 0.6 : least)) continue;
     const bool near = std::ranges::any_of(roots, [&](const Root& other) {
       return (other.place - p).squaredNorm() < kBetween * kBetween;
     });
@@ -190,7 +191,8 @@ void add_card(const Card& card, double width, int strip, bool turned, std::vecto
     const double half = width / 2 * (0.7 + 0.3 * smooth_step(0, 0.3, t)) * (1 - 0.35 * t * t);
     for (const double side : {-1.0, 1.0}) {
       points.emplace_back(card.middle[i] + side * half * card.across[i]);
-      uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kHairStrips, 0.998 - 0.996 * t);
+      uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kHairStrips,
+                       0.998 - 0.996 * t);
     }
   }
   for (std::uint32_t i = 0; i < pieces; ++i) {

@@ -19,7 +19,7 @@ std::span<const HairCut> hair_cuts() {
               .volume = 0.9, .wave = 0.05},
       HairCut{.name = "tied_back", .female = true, .sideways = 0.3, .back = 1, .length = 15, .sides = 11, .hem = -3.5,
               .volume = 0.7, .wave = 0.04, .tied = true},
-      HairCut{.name = "pixie", .female = true, .parting = 2.4, .back = 0.25, .length = 9, .sides = 4.5, .hem = -2.5,
+      HairCut{.name = "pixie", .female = true, .parting = 2.4, .back = 0.25, .length = 9, .sides = 4.5, .hem = -1,
               .wave = 0.08},
       HairCut{.name = "waves", .female = true, .curly = true, .parting = 1.5, .back = 0.3, .length = 26, .sides = 16,
               .hem = -14, .volume = 1.7, .wave = 0.35},

@@ -31,7 +31,8 @@ double to_and_fro(double x) {
 
 /// Centimetres across the hair, as it is mostly combed.
 double across_hair(const HairCut& cut, const Vector3d& p) {
-  if (cut.back >= 0.8) return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
+  if (cut.back >= 0.8)
+    return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
   return p.z() - std::abs(p.x()) * smooth_step(-3, -7, p.z());
 }
 
@@ -57,7 +58,8 @@ double HairForm::stand_off(const Vector3d& p) const {
   const double rises = smooth_step(0, 2.6, within(p)), top = smooth_step(3, 8, p.y());
   if (cut_.layers > 1) return 0.5 * cut_.volume * rises * (0.45 + 0.35 * smooth_step(1, 7, p.y()));
   const bool parted = cut_.back < 0.8 && !cut_.has_fringe();
-  const double parting = smooth_step(2.2, 0, std::abs(p.x() - cut_.parting)) * smooth_step(-6, -2, p.z());
+  const double parting =
+      smooth_step(2.2, 0, std::abs(p.x() - cut_.parting)) * smooth_step(-6, -2, p.z());
   return 0.7 * cut_.volume * rises * (0.55 + 0.45 * top) * (parted ? 1 - 0.55 * parting : 1);
 }
 
@@ -96,7 +98,8 @@ Mesh hair_cap(const HairCut& cut) {
   for (Index f = 0; f < layout.topology.face_count(); ++f) {
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t v : layout.topology.face(f)) corners.push_back(place[v]);
-    if (std::ranges::find(corners, kNoIndex) == corners.end()) cap.topology.add_face(corners, corners);
+    if (std::ranges::find(corners, kNoIndex) == corners.end())
+      cap.topology.add_face(corners, corners);
   }
   cap.topology.vertex_count = static_cast<Index>(points.size());
   cap.positions.resize(cap.topology.vertex_count, 3);

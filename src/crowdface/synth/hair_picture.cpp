@@ -64,7 +64,8 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
         light += inside * (strand.light * (1 - 0.25 * std::min(1.0, across * across)) - light);
         cover = std::max(cover, inside);
       }
-      if (!below) light *= 0.7 + 0.3 * smooth_step(0, 0.35, t);  // roots lie in the shade of the rest
+      if (!below)
+        light *= 0.7 + 0.3 * smooth_step(0, 0.35, t);  // roots lie in the shade of the rest
       std::uint8_t* texel = &bytes[4 * (y * side + x)];
       for (Eigen::Index c = 0; c < 3; ++c)
         texel[c] = to_byte(std::clamp(colour[c] * light, 0.0, 1.0));

@@ -32,7 +32,7 @@ class Relief {
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
     double lane = 0, length = 0;  ///< where it is broken; length 0: nowhere
-    Eigen::AlignedBox2d reach;  ///< where it has any effect
+    Eigen::AlignedBox2d reach;    ///< where it has any effect
   };
   double grain(const Eigen::Vector3d& position) const;
   double press(const Stroke& stroke, const Eigen::Vector2d& place) const;
