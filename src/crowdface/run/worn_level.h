@@ -24,7 +24,7 @@ class WornLevel {
   std::vector<WornAttachment> of(std::span<const WornAttachment> worn) const;
 
  private:
-  friend std::vector<WornLevel> worn_levels(const Inputs&, std::span<const CastFace>);
+  friend std::vector<WornLevel> worn_levels(const Inputs& inputs, std::span<const CastFace> crowd);
   std::map<const Attachment*, DetailLevel> items_;
 };
 
