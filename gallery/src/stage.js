@@ -98,6 +98,20 @@ export function paintEyes(material, geometry, places, eyes) {
   };
 }
 
+/// The attribute `rough` says how rough a surface is; painted eyes (paintEyes comes first) say it themselves.
+export function roughAtVertices(material) {
+  const before = material.onBeforeCompile;
+  material.onBeforeCompile = (shader, renderer) => {
+    before.call(material, shader, renderer);
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', '#include <common>\nattribute float rough;\nvarying float vRough;')
+      .replace('#include <project_vertex>', 'vRough = rough;\n#include <project_vertex>');
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', '#include <common>\nvarying float vRough;')
+      .replace('#include <roughnessmap_fragment>', '#include <roughnessmap_fragment>\nroughnessFactor = vRough;');
+  };
+}
+
 /// A head to turn. Up is +Y, front +Z, and the frame of all heads a box of two units.
 export class Stage {
   /// \throws if the browser has no WebGL.

@@ -5,12 +5,12 @@ import { BufferAttribute, BufferGeometry, Mesh } from 'three';
 import { bytesOf } from './bytes.js';
 import { loadScript } from './dom.js';
 import { normalsOf } from './normals.js';
-import { linearColours, paintEyes, skinMaterial, Stage } from './stage.js';
+import { linearColours, paintEyes, roughAtVertices, skinMaterial, Stage } from './stage.js';
 import { pointsOf, Worn } from './worn.js';
 
 /// Points: three whole numbers of 16 bits each, steps from the frame's low corner; then normals,
 /// two numbers each on the unfolded octahedron (Meyer et al. 2010, "On floating-point normal
-/// vectors"); where the face has textures a colour for each point, three bytes.
+/// vectors"); where the face has textures a colour for each point, three bytes, and perhaps its roughness, one.
 export function unpackFace(base64, mesh) {
   const bytes = bytesOf(base64);
   const count = mesh.vertices;
@@ -28,8 +28,9 @@ export function unpackFace(base64, mesh) {
     const length = Math.hypot(x, y, z);
     normals.set([x / length, y / length, z / length], 3 * i);
   }
-  const colours = bytes.length > 10 * count ? linearColours(bytes.subarray(10 * count)) : null;
-  return { points, normals, colours };
+  const colours = bytes.length > 10 * count ? linearColours(bytes.subarray(10 * count, 13 * count)) : null;
+  const roughness = bytes.length > 13 * count ? Float32Array.from(bytes.subarray(13 * count), (value) => value / 255) : null;
+  return { points, normals, colours, roughness };
 }
 
 /// The face's expression shapes: for each its number, the vertices that it moves (the same in all faces) and how far.
@@ -87,6 +88,8 @@ export class Turntable extends Stage {
       paintEyes(material, geometry,
         Float32Array.from(places, (value) => value / mesh.eyes.steps - 4), mesh.eyes);
     }
+    roughAtVertices(material);
+    this.evenly = new Float32Array(mesh.vertices).fill(material.roughness);
     this.object = new Mesh(geometry, material);
     this.worn = new Worn();
     this.group.add(this.object, this.worn.node);
@@ -104,10 +107,11 @@ export class Turntable extends Stage {
     await this.prepare();
     await loadScript(path);
     const worn = await this.attachments(name);
-    const { points, normals, colours } = unpackFace(window.crowdface.faces[name], this.mesh);
+    const { points, normals, colours, roughness } = unpackFace(window.crowdface.faces[name], this.mesh);
     const moves = window.crowdface.moves[name];
     this.face = { points, normals, shapes: moves ? unpackMoves(moves, this.mesh) : [] };
     this.face.colours = colours ?? this.colours;
+    this.object.geometry.setAttribute('rough', new BufferAttribute(roughness ?? this.evenly, 1));
     this.shown = name;
     this.face.worn = worn;
     this.act(this.values);

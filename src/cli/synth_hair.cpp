@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/synth_hair.h"
 
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/synth/complexion.h"
 #include "crowdface/synth/hair.h"
 #include "crowdface/synth/hair_cards.h"
+#include "crowdface/synth/hair_picture.h"
 #include "crowdface/synth/identity.h"
 
 namespace crowdface::cli {
@@ -16,7 +22,8 @@ namespace fs = std::filesystem;
 constexpr int kPictureSize = 512;
 constexpr double kBald = 0.55;  // of a hairline's way back
 
-const char* curl_tag(bool curly) {
+const char* form_tag(bool curly, bool bald) {
+  if (bald) return "bald";
   return curly ? "curly_hair" : "straight_hair";
 }
 
@@ -24,6 +31,10 @@ const char* curl_tag(bool curly) {
 const char* skin_tag(double tone) {
   if (tone < 1 / 3.0) return "light_skin";
   return tone < 2 / 3.0 ? "medium_skin" : "dark_skin";
+}
+
+bool is_for(const synth::HairCut& cut, bool female, bool curly, bool bald) {
+  return cut.female == female && cut.curly == curly && cut.crown_bald == bald;
 }
 
 std::string picture_name(const std::string& colour, bool curly) {
@@ -35,11 +46,11 @@ std::string picture_name(const std::string& colour, bool curly) {
 std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
   const synth::Complexion look = synth::draw_complexion(seed, index);
   const std::string skin = skin_tag(look.tone);
-  if (look.receding > kBald) return concat(skin, ", bald");
-  const Wish wish{synth::draw_person(seed, index).male < 0, synth::has_curls(seed, index),
-                  std::string(synth::nearest_hair_colour(look.hair).name)};
+  const bool bald = look.receding > kBald;
+  const Wish wish{synth::draw_person(seed, index).male < 0, !bald && synth::has_curls(seed, index),
+                  bald, std::string(synth::nearest_hair_colour(look.hair).name)};
   wishes_.insert(wish);
-  return concat(skin, ", ", wish.colour, "_hair, ", curl_tag(wish.curly));
+  return concat(skin, ", ", wish.colour, "_hair, ", form_tag(wish.curly, wish.bald));
 }
 
 void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads,
@@ -56,24 +67,37 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
       "attachments:\n  fitted_to: attachments/base.obj\n  items:";
   if (wishes_.empty()) section += " []";
   section += '\n';
+  // A cut is the same mesh in each colour.
+  std::map<const synth::HairCut*, std::shared_ptr<const Mesh>> meshes;
+  std::vector<const synth::HairCut*> cuts;
+  for (const synth::HairCut& cut : synth::hair_cuts()) {
+    const bool wished = std::ranges::any_of(
+        wishes_, [&](const Wish& wish) { return is_for(cut, wish.female, wish.curly, wish.bald); });
+    if (wished) cuts.push_back(&cut);
+  }
+  std::vector<std::shared_ptr<const Mesh>> of_cuts(cuts.size());
+  parallel_for_each(cuts.size(), [&](std::size_t c) {
+    of_cuts[c] = std::make_shared<const Mesh>(synth::head_of_hair(*cuts[c]));
+  });
+  for (std::size_t c = 0; c < cuts.size(); ++c) meshes[cuts[c]] = of_cuts[c];
   std::set<std::string> pictures;
   for (const Wish& wish : wishes_) {
     for (const synth::HairCut& cut : synth::hair_cuts()) {
-      if (cut.female != wish.female || cut.curly != wish.curly) continue;
+      if (!is_for(cut, wish.female, wish.curly, wish.bald)) continue;
       const std::string name = concat(cut.name, "_", wish.colour);
       const std::string picture = picture_name(wish.colour, wish.curly);
       pictures.insert(picture);
-      files.push_back({folder / concat(name, ".obj"), [&cut, name] {
+      files.push_back({folder / concat(name, ".obj"), [mesh = meshes.at(&cut), name] {
                          return encode_obj(
-                             synth::hair_cards(cut),
-                             concat(name, " on base.obj, made by crowdface synth; cm"),
+                             *mesh, concat(name, " on base.obj, made by crowdface synth; cm"),
                              {{"hair", 0}}, concat(name, ".mtl"));
                        }});
       files.push_back(text_file(folder / concat(name, ".mtl"),
                                 concat("newmtl hair\nKd 1 1 1\nmap_Kd textures/", picture, '\n')));
-      section += concat("    - {name: ", name, ", kind: hair, file: attachments/", name,
-                        ".obj, tags: [", wish.female ? "female" : "male", ", ", wish.colour,
-                        "_hair, ", curl_tag(wish.curly), "], colour: ", wish.colour, "}\n");
+      section +=
+          concat("    - {name: ", name, ", kind: hair, file: attachments/", name, ".obj, tags: [",
+                 wish.female ? "female" : "male", ", ", wish.colour, "_hair, ",
+                 form_tag(wish.curly, wish.bald), "], colour: ", wish.colour, "}\n");
     }
   }
   for (const synth::HairColour& colour : synth::hair_colours()) {

@@ -18,7 +18,7 @@ namespace crowdface::cli {
 /// Hair in cards for synthetic heads, as attachments: in each cut that somebody may wear, in the colour that they have.
 class SynthHair {
  public:
-  /// Notes what a head may wear. \return its tags: "brown_hair, straight_hair", or "bald".
+  /// Notes what a head may wear. \return its tags: "light_skin, brown_hair, straight_hair"; "bald" in place of the last where the crown is.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
   /// The folder `attachments` beside the heads: meshes, materials, textures, the average head on which they sit,
@@ -28,7 +28,7 @@ class SynthHair {
 
  private:
   struct Wish {
-    bool female, curly;
+    bool female, curly, bald;
     std::string colour;
     auto operator<=>(const Wish&) const = default;  // NOLINT(modernize-use-nullptr)
   };

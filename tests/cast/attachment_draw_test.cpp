@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -107,7 +108,7 @@ TEST(AttachmentDraw, TakesAwayWhatIsExcluded) {
       << "of two that exclude each other the first stays";
 }
 
-/// Face 7 keeps its hair whatever else is drawn for it, how it was found and how many faces there are.
+/// Face 7 keeps its hair whatever else is drawn for it, how it was found and how many faces come after it.
 TEST(AttachmentDraw, DependsOnIndexAndKindAlone) {
   const std::vector<AttachmentItem> hair = {{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}};
   std::vector<AttachmentItem> more = hair;
@@ -124,6 +125,92 @@ TEST(AttachmentDraw, DependsOnIndexAndKindAlone) {
   }
   EXPECT_GT(bobs, 60U);
   EXPECT_LT(bobs, 140U);
+}
+
+/// Faces on one head are much alike: unlike hair tells them apart.
+TEST(AttachmentDraw, FacesOnOneHeadTakeTurns) {
+  const AttachmentDraw draw = draw_of({{"bob", "hair", {}, 1, {}},
+                                       {"bun", "hair", {}, 1, {}},
+                                       {"mop", "hair", {}, 1, {}},
+                                       {"curls", "hair", {}, 1, {}}});
+  std::vector<CastFace> crowd = crowd_of(16);
+  draw_attachments(draw, {}, crowd);
+  for (const Index head : {0, 1}) {
+    std::vector<std::string> worn;
+    for (const CastFace& face : crowd) {
+      if (face.recipe.target == head) worn.push_back(face.attachments.at(0));
+    }
+    ASSERT_EQ(worn.size(), 8U);
+    for (std::size_t i = 0; i < worn.size(); i += 4) {
+      EXPECT_EQ(std::set<std::string>(worn.begin() + i, worn.begin() + i + 4).size(), 4U)
+          << "head " << head << ", from its face " << i;
+    }
+  }
+  for (const char* name : {"bob", "bun", "mop", "curls"}) EXPECT_EQ(count(crowd, name), 4U);
+  std::vector<CastFace> small = crowd_of(7);
+  draw_attachments(draw, {}, small);
+  for (std::size_t i = 0; i < small.size(); ++i)
+    EXPECT_EQ(small[i].attachments, crowd[i].attachments) << "a larger crowd changes nobody";
+}
+
+TEST(AttachmentDraw, TurnsFollowShares) {
+  const AttachmentDraw draw =
+      draw_of({{"bob", "hair", {}, 3, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 0, {}}});
+  std::vector<CastFace> crowd = crowd_of(80);
+  draw_attachments(draw, {}, crowd);
+  EXPECT_NEAR(static_cast<double>(count(crowd, "bob")), 60, 2);
+  EXPECT_NEAR(static_cast<double>(count(crowd, "bun")), 20, 2);
+}
+
+TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
+  const AttachmentDraw draw =
+      draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
+  const auto sisters = [](const std::string& family) {
+    std::vector<CastFace> faces(3, face_of(1));
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      faces[i].index.reset();
+      faces[i].id = family + std::to_string(i);
+      faces[i].family = family;
+    }
+    return faces;
+  };
+  std::vector<CastFace> alone = sisters("kin");
+  draw_attachments(draw, {}, alone);
+  std::set<std::string> worn;
+  for (const CastFace& face : alone) worn.insert(face.attachments.at(0));
+  EXPECT_EQ(worn.size(), 3U);
+  std::vector<CastFace> crowd = sisters("others");
+  const std::vector<CastFace> kin = sisters("kin");
+  crowd.insert(crowd.end(), kin.begin(), kin.end());
+  crowd.push_back(face_of(1));
+  draw_attachments(draw, {}, crowd);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(crowd[3 + i].attachments, alone[i].attachments);
+  EXPECT_EQ(crowd[6].attachments, worn_by(draw, face_of(1))) << "families change no sampled face";
+}
+
+/// A review draws some faces anew, on other heads; all others keep what they wear.
+TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
+  const AttachmentDraw draw =
+      draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
+  std::vector<CastFace> before = crowd_of(20);
+  draw_attachments(draw, {}, before);
+  std::vector<CastFace> after = crowd_of(20);
+  std::vector<CastFace> rejected = {after[2], after[5]};
+  after[2].recipe.target = 1 - after[2].recipe.target;
+  after[5].recipe.target = 1 - after[5].recipe.target;
+  draw_attachments(draw, {}, after, rejected);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_EQ(after[i].attachments.size(), 1U) << i;
+    if (i != 2 && i != 5) EXPECT_EQ(after[i].attachments, before[i].attachments) << i;
+  }
+  // A second review does not change what the first has changed.
+  std::vector<CastFace> twice = after;
+  rejected.push_back(after[5]);
+  twice[5].recipe.target = 1 - twice[5].recipe.target;
+  draw_attachments(draw, {}, twice, rejected);
+  for (std::size_t i = 0; i < twice.size(); ++i) {
+    if (i != 5) EXPECT_EQ(twice[i].attachments, after[i].attachments) << i;
+  }
 }
 
 TEST(AttachmentDraw, GoesByTheIdOfFacesThatAreNotSampled) {

@@ -80,12 +80,57 @@ TEST_F(ConfigTest, GroupsTakeWhatTheyDoNotSayFromSampling) {
   EXPECT_FALSE(kin.parents[0].group);
   EXPECT_EQ(kin.parents[1].group, 0U);
   EXPECT_EQ(kin.max_distance_mm, 2.5);
-  EXPECT_EQ(kin.min_distance_mm, 2.5 / 4);
+  EXPECT_EQ(kin.min_distance_mm, 0.4 * 2.5);
 
   const std::string written = effective_config(*config, folder_);
   const auto again = read(written);
   ASSERT_TRUE(again) << told() << written;
   EXPECT_EQ(effective_config(*again, folder_), written);
+}
+
+/// Tagged heads for a config whose groups leave some out.
+const std::string kTagged =
+    "schema: 1\ncrowd: {name: mob, count: 10}\n"
+    "faces: {directory: heads, units: cm, tags: {ann: [old, female], bob: [old], cyd: [female]}}\n";
+
+TEST_F(ConfigTest, GroupsLeaveOutHeadsWithATag) {
+  const auto config =
+      read(kTagged +
+           "sampling: {targets: {ann: 1, cyd: 3}, bands: {skin: 8 mm}}\n"
+           "groups:\n"
+           "  - {name: women, share: 0.4, tags: [female], without: [old]}\n"
+           "  - {name: not_old, share: 0.3, without: [old]}\n"
+           "  - {name: men, sources: [ann, bob], targets: all, without: [female]}\n");
+  ASSERT_TRUE(config) << told();
+  const SamplingOptions& women = config->groups[0].sampling;
+  EXPECT_THAT(women.sources, ElementsAre(2));
+  ASSERT_EQ(women.targets.size(), 1U);
+  EXPECT_EQ(women.targets[0].head, 2);
+  const SamplingOptions& not_old = config->groups[1].sampling;
+  EXPECT_THAT(not_old.sources, ElementsAre(2));
+  ASSERT_EQ(not_old.targets.size(), 1U);
+  EXPECT_EQ(not_old.targets[0].weight, 3) << "weights stay";
+  const SamplingOptions& men = config->groups[2].sampling;
+  EXPECT_THAT(men.sources, ElementsAre(1)) << "of named heads, too";
+  ASSERT_EQ(men.targets.size(), 1U);
+  EXPECT_EQ(men.targets[0].head, 1);
+
+  const std::string written = effective_config(*config, folder_);
+  const auto again = read(written);
+  ASSERT_TRUE(again) << told() << written;
+  EXPECT_EQ(effective_config(*again, folder_), written);
+}
+
+TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
+  const auto refused = [&](const std::string& group, const std::string& phrase) {
+    EXPECT_FALSE(read(kTagged + "groups: [{name: a, " + group + "}]\n")) << group;
+    EXPECT_THAT(told(), HasSubstr(phrase)) << group;
+  };
+  refused("without: [purple]", "no head has the tag \"purple\"");
+  refused("tags: [old], without: [old]", "every head that the group could have");
+  refused("sources: [ann], without: [female]", "every head that the group could have");
+  refused("without: old", "a list of tags");
+  refused("without: [not old]", "name");
 }
 
 TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {

@@ -89,7 +89,7 @@ std::string complete(const std::string& block) {
   };
   add("schema:", "1");
   add("crowd:", "{name: a, count: 1}");
-  add("faces:", "{directory: heads, units: cm, tags: {ann: [old, female]}}");
+  add("faces:", "{directory: heads, units: cm, tags: {ann: [old, female], bob: [female]}}");
   add("regions:", "{names: [top, middle, bottom], mask: mask.png}");
   return text;
 }

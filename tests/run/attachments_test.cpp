@@ -189,6 +189,70 @@ TEST_F(AttachmentsOfACrowd, GoAlongWithExpressionsInFilesOfTheirOwn) {
   EXPECT_EQ(faces_built(), 1);
 }
 
+TEST_F(AttachmentsOfACrowd, AreReducedOnLevelsOfDetailUnlessTheyAreSmall) {
+  constexpr int kSide = 24;
+  std::string veil = "mtllib cap.mtl\n";
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const double x = (i % kSide - 11.5) / 12, y = (i / kSide - 11.5) / 12;
+    veil += concat("v ", x, ' ', y, ' ', 1.4 + 0.1 * x * y, "\nvt ", (x + 1) / 2, ' ', (y + 1) / 2,
+                   '\n');
+  }
+  veil += "usemtl hair\n";
+  for (int i = 0; i < kSide * (kSide - 1); ++i) {
+    if (i % kSide == kSide - 1) continue;
+    veil += 'f';
+    for (const int v : {i + 1, i + 2, i + kSide + 2, i + kSide + 1}) veil += concat(' ', v, '/', v);
+    veil += '\n';
+  }
+  folder_.folder().write("wear/veil.obj", veil);
+  const std::vector<std::string> set = {
+      "attachments={fitted_to: ann, items: [{name: veil, kind: hair, file: wear/veil.obj}, "
+      "{name: rod, kind: glasses, file: wear/rod.obj, moves: rigid}]}",
+      "output.meshes=[obj, glb, usd]", "output.lods=[60 %, 10 %]"};
+  run(set);
+  const ObjFile whole = read_obj(mesh("herself+veil.obj"));
+  const Index triangles = 2 * whole.topology.face_count();
+  Index before = triangles;
+  for (const std::string level : {"LOD1", "LOD2"}) {
+    const ObjFile veiled = read_obj(mesh("herself+" + level + "+veil.obj"));
+    EXPECT_LT(veiled.topology.face_count(), 0.7 * before);
+    before = veiled.topology.face_count();
+    for (Index v = 0; v < veiled.positions.rows(); ++v) {
+      EXPECT_EQ((whole.positions.rowwise() - veiled.positions.row(v)).rowwise().norm().minCoeff(),
+                0)
+          << "its vertices are the whole mesh's own";
+    }
+    EXPECT_THAT(testing::read_text(mesh("herself+" + level + "+veil.obj")),
+                HasSubstr("mtllib attachments/veil/cap.mtl\n"));
+    EXPECT_EQ(veiled.materials.at(0).name, "hair");
+    EXPECT_EQ(read_obj(mesh("herself+" + level + "+rod.obj")).topology.face_count(), 1);
+    const auto scene = testing::read_glb(mesh("herself+" + level + ".glb")).scene;
+    std::vector<std::string> below;
+    for (const auto& child : scene.at("nodes").at(0).at("children")) {
+      below.push_back(scene.at("nodes").at(child.get<std::size_t>()).at("name"));
+    }
+    EXPECT_THAT(below, ::testing::ElementsAre("veil", "rod"));
+    const auto& veil_mesh = scene.at("meshes").at(1).at("primitives").at(0);
+    EXPECT_EQ(scene.at("accessors").at(veil_mesh.at("indices").get<std::size_t>()).at("count"),
+              3 * veiled.topology.face_count());
+    const std::string usd = testing::read_text(mesh("herself+" + level + ".usda"));
+    EXPECT_THAT(usd, HasSubstr("def Mesh \"veil\""));
+    EXPECT_THAT(usd, HasSubstr("def Mesh \"rod\""));
+  }
+  EXPECT_GT(before, 280) << "hardly fewer triangles than such a small mesh may have";
+  EXPECT_TRUE(testing::read_json(folder_.out() / "report.json")
+                  .at("faces")
+                  .at(0)
+                  .at("lods")
+                  .contains("LOD1+veil.obj"));
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  fs::remove(mesh("herself+LOD2+veil.obj"));
+  EXPECT_THAT(verify_crowd(folder_.out()).missing,
+              ::testing::ElementsAre("meshes/herself+LOD2+veil.obj"));
+  run(set);
+  EXPECT_EQ(faces_built(), 1);
+}
+
 TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
   run();
   const auto whole = testing::crowd_files(folder_.out());

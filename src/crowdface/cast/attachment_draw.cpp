@@ -2,7 +2,6 @@
 #include "crowdface/cast/attachment_draw.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "crowdface/cast/quotas.h"
@@ -49,6 +48,26 @@ const AttachmentItem* one_of(const Items& items, double drawn) {
   return items.back();
 }
 
+/// How often each item, by name, was given to some faces.
+using Turns = std::map<std::string, int>;
+
+/// Leaves the items of which one more is due, by their shares, when the next face has got its own.
+void leave_due(const Turns& turns, Items& items) {
+  constexpr double kRounding = 1e-9;
+  const auto given = [&](const AttachmentItem* item) {
+    const auto found = turns.find(item->name);
+    return found == turns.end() ? 0 : found->second;
+  };
+  double shares = 0, faces = 1;
+  for (const AttachmentItem* item : items) {
+    shares += item->share;
+    faces += given(item);
+  }
+  std::erase_if(items, [&](const AttachmentItem* item) {
+    return faces * item->share / shares - given(item) < kRounding;
+  });
+}
+
 /// The quotas of one kind.
 struct KindQuotas {
   std::vector<std::string> words;
@@ -86,7 +105,10 @@ class Drawing {
     Items worn;
     for (const std::string& kind : kinds_) {
       const AttachmentItem* one = draw_one(kind, face, worn);
-      if (one != nullptr) worn.push_back(one);
+      if (one == nullptr) continue;
+      worn.push_back(one);
+      ++turns_[alike(face)][one->name];
+      if (face.index) ++all_turns_[one->name];
     }
     std::vector<std::string> names = without_excluded(worn);
     worn_[face.id] = those(worn, [&](const auto& item) { return contains(names, item.name); });
@@ -125,7 +147,22 @@ class Drawing {
     const auto drawn = random_pair({draw_.seed, face.index.value_or(0), purpose});
     if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
     match_colours(kind, face, worn, items);
-    return one_of(items, drawn[1]);
+    return next_of(items, face, drawn[1]);
+  }
+
+  /// Whom a face takes turns with: others that look like it.
+  std::string alike(const CastFace& face) const {
+    if (face.index) return concat("head/", heads_.at(face.id));
+    return face.family ? concat("family/", *face.family) : concat("face/", face.id);
+  }
+
+  /// One whose turn it is among faces that look alike, and then among all; drawn by shares.
+  const AttachmentItem* next_of(const Items& items, const CastFace& face, double drawn) const {
+    Items next = items;
+    if (const auto own = turns_.find(alike(face)); own != turns_.end())
+      leave_due(own->second, next);
+    if (face.index) leave_due(all_turns_, next);
+    return one_of(next, drawn);
   }
 
   /// Leaves what quotas allow. \return whether the face wears any.
@@ -252,6 +289,8 @@ class Drawing {
   std::map<std::string, Items> worn_;                  ///< by face
   std::map<std::string, Index> heads_;                 ///< whose tags a face has
   std::map<std::pair<std::string, std::string>, std::string> families_;  ///< colours by kinds
+  std::map<std::string, Turns> turns_;                                   ///< by who is alike
+  Turns all_turns_;                                                      ///< of sampled faces
 };
 
 }  // namespace
@@ -261,9 +300,29 @@ bool is_called(const AttachmentItem& item, const std::string& word) {
 }
 
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<CastFace>& crowd) {
+                      std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected) {
   Drawing drawing(draw, groups);
-  for (CastFace& face : crowd) face.attachments = drawing.of(face);
+  std::map<std::string, std::vector<const CastFace*>> before;  // of a redrawn face, by its id
+  for (const CastFace& face : rejected) {
+    if (face.index) before[face.id].push_back(&face);
+  }
+  std::map<std::string, CastFace*> redrawn;
+  for (CastFace& face : crowd) {
+    const auto found = before.find(face.id);
+    if (found == before.end()) {
+      face.attachments = drawing.of(face);
+      continue;
+    }
+    drawing.of(*found->second.front());
+    found->second.push_back(&face);
+    redrawn[face.id] = &face;
+  }
+  std::map<std::string, std::size_t> times;
+  for (const CastFace& face : rejected) {
+    if (!redrawn.contains(face.id)) continue;
+    const CastFace& next = *before[face.id][++times[face.id]];
+    redrawn[face.id]->attachments = drawing.of(next);
+  }
 }
 
 }  // namespace crowdface

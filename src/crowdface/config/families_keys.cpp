@@ -192,10 +192,10 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
     family.inherit.assign(config.part_names().size(), -1);
     if (!read_keys(item, family_keys(), family, draft)) continue;
     if (!family.name.empty()) check_name(item.find("name")->value, family, draft);
-    constexpr double kTwinsMm = 0.1;
+    constexpr double kTwinsMm = 0.1, kChildren = 0.4;
     if (item.find("min_distance") == nullptr && !family.parents.empty()) {
       family.min_distance_mm =
-          std::min(family.twins ? kTwinsMm : HUGE_VAL, family.max_distance_mm / 4);
+          std::min(family.twins ? kTwinsMm : HUGE_VAL, kChildren * family.max_distance_mm);
     }
     if (family.max_distance_mm > 0 && family.min_distance_mm > 2 * family.max_distance_mm) {
       draft.complaints.about(item.find("min_distance")->value,

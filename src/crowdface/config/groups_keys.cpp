@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
+#include "crowdface/core/contains.h"
 
 namespace crowdface {
 namespace {
@@ -25,6 +26,30 @@ void read_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   }
 }
 
+/// Neither targets nor sources are heads that have one of these tags.
+void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
+  const auto tags = list(name(), "a list of tags, [old, bearded]").read(node, draft);
+  if (!tags) return;
+  const bool known = draft.heads_known && draft.tags_known;
+  SamplingOptions& sampling = group.sampling;
+  const bool had_some = !sampling.targets.empty() && !sampling.sources.empty();
+  for (const std::string& tag : *tags) {
+    const std::vector<Eigen::Index> tagged = heads_with({tag}, draft.config.faces);
+    if (known && tagged.empty()) {
+      draft.complaints.about(node, concat("no head has the tag ", quoted(tag)));
+    }
+    const auto is_tagged = [&](Eigen::Index head) { return contains(tagged, head); };
+    std::erase_if(sampling.targets, [&](const auto& target) { return is_tagged(target.head); });
+    std::erase_if(sampling.sources, is_tagged);
+    for (BandSampling& band : sampling.bands) {
+      if (band.sources) std::erase_if(*band.sources, is_tagged);
+    }
+  }
+  if (known && had_some && (sampling.targets.empty() || sampling.sources.empty())) {
+    draft.complaints.about(node, "every head that the group could have has one of these tags");
+  }
+}
+
 const Keys<Group>& group_keys() {
   static const Keys<Group> keys = [] {
     constexpr std::uint64_t kMostFaces = 1'000'000;
@@ -42,6 +67,8 @@ const Keys<Group>& group_keys() {
                        return write(group.sampling, writing);
                      }});
     }
+    // After all that names heads.
+    own.push_back({"without", read_without, [](const auto&...) { return ""; }});
     return own;
   }();
   return keys;

@@ -223,18 +223,18 @@ std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried)
   return bytes;
 }
 
-std::vector<GalleryMeshes::Corner> GalleryMeshes::find_corners(const FaceSet& faces) const {
+std::vector<TexturePlace> GalleryMeshes::find_corners(const FaceSet& faces) const {
   const Topology& topology = faces.topology;
-  std::vector<Corner> of_vertex(static_cast<std::size_t>(topology.vertex_count));
+  std::vector<TexturePlace> of_vertex(static_cast<std::size_t>(topology.vertex_count));
   for (Index f = 0; faces.uvs.rows() > 0 && f < topology.face_count(); ++f) {
     const auto uvs = topology.face_uvs(f);
     for (std::size_t c = 0; c < uvs.size(); ++c) {
-      Corner& corner = of_vertex[topology.face(f)[c]];
+      TexturePlace& corner = of_vertex[topology.face(f)[c]];
       if (uvs[c] == kNoIndex || corner.face >= 0) continue;
       corner = {f, faces.uvs.row(uvs[c]).transpose().cast<float>()};
     }
   }
-  std::vector<Corner> corners;
+  std::vector<TexturePlace> corners;
   for (const std::uint32_t vertex : mesh_.vertices) corners.push_back(of_vertex[vertex]);
   return corners;
 }
@@ -251,6 +251,17 @@ VertexColours GalleryMeshes::textured(const TextureCoat& coat) const {
   return colours;
 }
 
+std::string GalleryMeshes::roughness(const TextureCoat& coat) const {
+  std::string bytes;
+  if (coat.roughness.of_face.empty()) return bytes;
+  constexpr float kSkin = 0.56F;  // as the page has it of skin without a map
+  for (const TexturePlace& place : corner_) {
+    const float rough = roughness_at(coat, place).value_or(kSkin);
+    bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * rough)));
+  }
+  return bytes;
+}
+
 std::string GalleryMeshes::shades(const VertexColours& colours) const {
   std::string bytes;
   for (Index v = 0; v < colours.rows(); ++v) {
@@ -265,7 +276,10 @@ std::string GalleryMeshes::shades(const VertexColours& colours) const {
 std::optional<TextureCoat> GalleryMeshes::coat_of(Index head) const {
   const Config::ContactSheet& sheet = *config_.output.contact_sheet;
   if (sheet.texture == SheetTexture::kNo) return std::nullopt;
-  return coat_of_head(inputs_.textures, head, shown_texels(sheet));
+  const int most_px = shown_texels(sheet);
+  std::optional<TextureCoat> coat = coat_of_head(inputs_.textures, head, most_px);
+  if (coat) add_finish_of_head(inputs_.maps, head, most_px, *coat);
+  return coat;
 }
 
 std::string GalleryMeshes::shared_script() const {
@@ -300,8 +314,14 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
                                        std::span<const Displacements> moves,
                                        const TextureCoat* coat,
                                        const std::vector<WornAttachment>& worn) const {
-  std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions);
-  if (coat != nullptr) bytes += shades(textured(*coat));
+  std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
+  if (coat != nullptr) {
+    lean = [&](std::size_t v, const Eigen::Vector3d& normal) {
+      return leaning_normal(*coat, inputs_.faces, corner_[v], positions, normal);
+    };
+  }
+  std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions, lean);
+  if (coat != nullptr) bytes += concat(shades(textured(*coat)), roughness(*coat));
   std::string more;
   if (!shown_.empty()) more = concat(",\"", base64(packed_shapes(moves)), '"');
   if (!worn.empty()) {

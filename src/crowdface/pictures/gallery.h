@@ -14,6 +14,7 @@
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/shown_attachments.h"
+#include "crowdface/pictures/vertex_finish.h"
 #include "crowdface/pictures/worn_surfaces.h"
 #include "crowdface/preview/packed_face.h"
 #include "crowdface/render/texture.h"
@@ -38,12 +39,6 @@ Digest gallery_page_digest(const Config& config);
 /// The meshes of a gallery: reduced, and packed into scripts, because a page opened from disk may
 /// load nothing else. What all faces share is prepared once.
 class GalleryMeshes {
-  /// Of a vertex: a face at it, and its place in that face's texture.
-  struct Corner {
-    Index face = -1;
-    Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-  };
-
  public:
   /// \param inputs  must outlive this object.
   GalleryMeshes(const Config& config, const Inputs& inputs);
@@ -69,7 +64,9 @@ class GalleryMeshes {
   /// Colours as the page shows them, three bytes a vertex, darker where little light arrives.
   std::string shades(const VertexColours& colours) const;
   VertexColours textured(const TextureCoat& coat) const;
-  std::vector<Corner> find_corners(const FaceSet& faces) const;
+  /// A byte a vertex; of a coat without roughness none.
+  std::string roughness(const TextureCoat& coat) const;
+  std::vector<TexturePlace> find_corners(const FaceSet& faces) const;
   double least_move() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
   std::string packed_shapes(std::span<const Displacements> carried) const;
@@ -80,10 +77,10 @@ class GalleryMeshes {
   FacesAround around_;
   PackingFrame frame_;
   ShownAttachments attachments_;
-  VertexColours colours_;       ///< of the surfaces themselves, one a vertex of the reduced mesh
-  std::vector<float> open_;     ///< how much light arrives there, on the mean head
-  std::vector<Corner> corner_;  ///< where each lies in a texture
-  Eigen::Vector3d low_, high_;  ///< of the heads' boxes
+  VertexColours colours_;    ///< of the surfaces themselves, one a vertex of the reduced mesh
+  std::vector<float> open_;  ///< how much light arrives there, on the mean head
+  std::vector<TexturePlace> corner_;  ///< where each lies in a texture
+  Eigen::Vector3d low_, high_;        ///< of the heads' boxes
 
   /// What the reduced mesh has of a shape's vertices.
   struct ShownMoves {

@@ -63,13 +63,17 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
   return bytes;
 }
 
-std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
-                      const PackingFrame& frame, const Positions& positions) {
+std::string pack_face(
+    const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
+    const PackingFrame& frame, const Positions& positions,
+    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
   std::string bytes = pack_points(mesh.vertices, frame, positions);
-  for (const std::uint32_t vertex : mesh.vertices) {
-    const Eigen::Vector2d square = unfolded(normal_at(topology, positions, around.of(vertex)));
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    Eigen::Vector3d normal = normal_at(topology, positions, around.of(mesh.vertices[v]));
+    if (lean) normal = lean(v, normal);
+    const Eigen::Vector2d square = unfolded(normal);
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);
   }
   return bytes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -23,8 +24,11 @@ struct PackingFrame {
 /// corner (clamped to it), then two a vertex, its unit normal on the octahedron unfolded over a
 /// square (Meyer et al. 2010, "On floating-point normal vectors"), 0 … 65,535 for −1 … 1.
 /// \param around  of the whole mesh, so that a preview is shaded as smoothly as the mesh itself.
-std::string pack_face(const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
-                      const PackingFrame& frame, const Positions& positions);
+/// \param lean    of a vertex of the reduced mesh with this normal, the one that is to be shown; may be empty.
+std::string pack_face(
+    const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
+    const PackingFrame& frame, const Positions& positions,
+    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean = {});
 
 /// The first part of that alone: the positions of some vertices.
 /// \param vertices  rows of `positions`.

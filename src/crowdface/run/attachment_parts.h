@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crowdface/heads/face_attachments.h"
@@ -31,10 +33,13 @@ std::size_t worn_at_most(const std::map<const Attachment*, Form>& forms, const S
 template <class Part, class Placed>
 class AttachmentParts {
  public:
-  /// \param make  makes the part of an attachment.
+  /// \param make  makes the part of an attachment, or nothing.
   template <class Make>
   AttachmentParts(const AttachmentSet& set, const Make& make) {
-    for (const Attachment& item : set.items) parts_.emplace(&item, make(item));
+    for (const Attachment& item : set.items) {
+      std::optional<Part> part = make(item);
+      if (part) parts_.emplace(&item, std::move(*part));
+    }
   }
 
   /// What a face wears; refers to both.

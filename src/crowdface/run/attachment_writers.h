@@ -2,13 +2,17 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/io/obj_template.h"
+#include "crowdface/io/plain_obj_template.h"
+#include "crowdface/mesh/normals.h"
 #include "crowdface/run/mesh_writers.h"
+#include "crowdface/run/worn_level.h"
 
 namespace crowdface {
 
@@ -23,12 +27,12 @@ std::vector<MeshName> mesh_names_of(const CastFace& face, const std::vector<Mesh
 class AttachmentWriters {
  public:
   /// \param inputs  must outlive this object and all that it encodes. \param formats  of the faces.
-  /// \param shared  as MeshWriters takes it
+  /// \param shared  as MeshWriters takes it \param levels  of detail; must outlive this object, too.
   AttachmentWriters(const Inputs& inputs, std::span<const MeshFormat> formats,
-                    const std::string& shared = {});
+                    const std::string& shared = {}, std::span<const WornLevel> levels = {});
 
-  /// Adds the files of what a face wears, if there are any: at rest, and where it bends in each of the shapes that faces have
-  /// files of.
+  /// Adds the files of what a face wears, if there are any, whole and then level by level: at rest, and where it bends in
+  /// each of the shapes that faces have files of.
   /// \param id  the face's, for messages.
   void add_to(std::vector<EncodedMesh>& meshes, const std::string& id,
               std::span<const WornAttachment> worn) const;
@@ -41,9 +45,22 @@ class AttachmentWriters {
     ObjTemplate obj;
     std::string libraries;  ///< the line that names material files; empty: there is none
   };
+  /// Of an attachment on a level.
+  struct LevelForm {
+    PlainObjTemplate obj;
+    std::optional<NormalFans> fans;  ///< none: files have no normals
+  };
+  using LevelForms = std::map<const Attachment*, LevelForm>;
+
+  void add_level(std::vector<EncodedMesh>& meshes, std::size_t level, const std::string& id,
+                 std::span<const WornAttachment> worn) const;
+  void add_level_forms(const WornLevel& level);
+
   std::vector<MeshFormat> formats_;
   const Inputs& inputs_;
   std::map<const Attachment*, Form> forms_;
+  std::span<const WornLevel> levels_;
+  std::vector<LevelForms> level_forms_;  ///< #levels
 };
 
 }  // namespace crowdface

@@ -358,7 +358,7 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   result.crowd = std::move(crowd.crowd);
   round_as_planned(result.crowd);
   if (!config.attachments.items.empty()) {
-    draw_attachments(attachment_draw(config), crowd.kinds, result.crowd);
+    draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected);
   }
   for (FamilyCast& family : crowd.families) {
     result.founders.push_back({family.name, std::move(family.founder)});

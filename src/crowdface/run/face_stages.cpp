@@ -337,7 +337,8 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
       textures_(textures),
       attachments_(attachments),
       shapes_(shapes),
-      attachment_writers_(inputs, config.output.meshes, directory_of(config).shared_from_mesh()),
+      attachment_writers_(inputs, config.output.meshes, directory_of(config).shared_from_mesh(),
+                          writers_.worn_on_levels()),
       meshes_(config.output.meshes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + writers_.memory_bytes() + shapes.memory_bytes();

@@ -107,29 +107,67 @@ Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
   return influences;
 }
 
-GlbPart part_of(const Attachment& item, const Inputs& inputs) {
-  const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+/// What an attachment is made of.
+struct Look {
   std::vector<GlbPartMaterial> materials;
+  std::vector<std::uint32_t> of_face;
   std::vector<GlbImage> images;
+};
+
+Look look_of(const Attachment& item) {
+  FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+  Look look;
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
-    materials.emplace_back();
-    materials.back().name = material.name;
+    look.materials.emplace_back();
+    look.materials.back().name = material.name;
     try {
-      materials.back() = material_of(material, images);
+      look.materials.back() = material_of(material, look.images);
     } catch (const InvalidInput& error) {
       log_warning(concat(error.what(), "; GLB files do without"));
     }
   }
+  look.of_face = std::move(named.of_face);
+  return look;
+}
+
+GlbPart part_of(const Attachment& item, const Look& look, const Inputs& inputs) {
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return {item.name, item.file.topology,          item.file.uvs,     materials, named.of_face,
-          images,    influences_of(item, inputs), std::move(targets)};
+  return {item.name,   item.file.topology,          item.file.uvs,     look.materials, look.of_face,
+          look.images, influences_of(item, inputs), std::move(targets)};
+}
+
+GlbPart part_of(const Attachment& item, const Look& look, const Inputs& inputs,
+                const DetailLevel& level) {
+  const Grouped<Influence> whole = influences_of(item, inputs);
+  Grouped<Influence> influences;
+  if (whole.group_count() > 0) {
+    for (const std::uint32_t vertex : level.vertices) influences.add_group(whole.of(vertex));
+  }
+  std::vector<std::string> targets;
+  for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
+  return {
+      item.name,   level.topology, level.uvs,         look.materials, on_level(level, look.of_face),
+      look.images, influences,     std::move(targets)};
 }
 
 }  // namespace
 
-GlbAttachments glb_attachments(const Inputs& inputs) {
-  return {inputs.attachments, [&](const Attachment& item) { return part_of(item, inputs); }};
+std::vector<GlbAttachments> glb_attachments(const Inputs& inputs,
+                                            std::span<const WornLevel> levels) {
+  std::map<const Attachment*, Look> looks;
+  for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
+  std::vector<GlbAttachments> all;
+  all.emplace_back(inputs.attachments,
+                   [&](const Attachment& item) { return part_of(item, looks.at(&item), inputs); });
+  for (const WornLevel& worn : levels) {
+    all.emplace_back(inputs.attachments, [&](const Attachment& item) -> std::optional<GlbPart> {
+      const DetailLevel* level = worn.find(item);
+      if (level == nullptr) return std::nullopt;
+      return part_of(item, looks.at(&item), inputs, *level);
+    });
+  }
+  return all;
 }
 
 }  // namespace crowdface

@@ -10,7 +10,12 @@
 namespace crowdface {
 namespace {
 
-/// As face_materials has them of the whole mesh; runs of one material after the other.
+bool is_same(const MaterialRange& a, const MaterialRange& b) {
+  return a.name == b.name && a.first_face == b.first_face;
+}
+
+}  // namespace
+
 std::vector<MaterialRange> material_ranges(const FaceMaterials& materials,
                                            const std::vector<std::uint32_t>& faces) {
   std::vector<MaterialRange> ranges;
@@ -23,16 +28,10 @@ std::vector<MaterialRange> material_ranges(const FaceMaterials& materials,
   return ranges;
 }
 
-bool is_same(const MaterialRange& a, const MaterialRange& b) {
-  return a.name == b.name && a.first_face == b.first_face;
-}
-
-}  // namespace
-
 LevelWriter::LevelWriter(const Config& config, const Inputs& inputs, std::size_t level,
                          const std::vector<MeshFormat>& formats, const std::vector<Index>& targets,
-                         const std::string& shared)
-    : inputs_(inputs), level_(inputs.levels[level - 1].level) {
+                         const std::string& shared, const LevelAttachments& worn)
+    : inputs_(inputs), level_(inputs.levels[level - 1].level), worn_(worn) {
   for (const MeshFormat format : formats) {
     if (format == MeshFormat::kObj) {
       add_obj_templates(targets);
@@ -77,9 +76,16 @@ EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
   if (name.format == MeshFormat::kGlb || name.format == MeshFormat::kUsd) {
     std::vector<Displacements> moves;
     for (const Displacements& shape : face.moves) moves.push_back(level_.of(shape));
-    return name.format == MeshFormat::kGlb
-               ? glb_->encode(positions, normals, id, moves, face.textures, {}, {}, face.joints)
-               : usd_->encode(positions, normals, id, moves, face.texture_names);
+    std::vector<WornAttachment> worn;
+    if (worn_.worn != nullptr) worn = worn_.worn->of(face.worn);
+    if (name.format == MeshFormat::kGlb) {
+      std::vector<PlacedGlbPart> parts;
+      if (worn_.glb != nullptr) parts = worn_.glb->parts(worn);
+      return glb_->encode(positions, normals, id, moves, face.textures, {}, parts, face.joints);
+    }
+    std::vector<PlacedUsdaPart> parts;
+    if (worn_.usd != nullptr) parts = worn_.usd->parts(worn);
+    return usd_->encode(positions, normals, id, moves, face.texture_names, {}, parts);
   }
   require(name.format == MeshFormat::kObj, "LevelWriter: a format without faces");
   std::string head;
@@ -96,7 +102,9 @@ std::size_t LevelWriter::memory_bytes() const {
   std::size_t bytes = 0;
   for (const PlainObjTemplate& obj : obj_) bytes += obj.memory_bytes();
   return bytes + (ply_ ? ply_->memory_bytes() : 0) + (glb_ ? glb_->memory_bytes() : 0) +
-         (usd_ ? usd_->memory_bytes() : 0);
+         (usd_ ? usd_->memory_bytes() : 0) +
+         (worn_.glb != nullptr ? worn_.glb->memory_bytes() : 0) +
+         (worn_.usd != nullptr ? worn_.usd->memory_bytes() : 0);
 }
 
 std::size_t LevelWriter::encode_bytes() const {
@@ -104,7 +112,8 @@ std::size_t LevelWriter::encode_bytes() const {
   for (const PlainObjTemplate& form : obj_) obj = std::max(obj, form.encode_bytes());
   return (1 + inputs_.shapes.shapes.size()) * obj +
          (ply_ ? ply_->encode_bytes(PlyTemplate::Normals::kVertex) : 0) +
-         (glb_ ? glb_->encode_bytes() : 0) + (usd_ ? usd_->encode_bytes() : 0);
+         (glb_ ? glb_->encode_bytes() : 0) + (usd_ ? usd_->encode_bytes() : 0) +
+         (worn_.usd != nullptr ? usd_bytes_worn_at_most(*worn_.usd) : 0);
 }
 
 }  // namespace crowdface

@@ -16,6 +16,9 @@
 #include "crowdface/io/ply_template.h"
 #include "crowdface/io/usda_template.h"
 #include "crowdface/run/face_files.h"
+#include "crowdface/run/glb_attachments.h"
+#include "crowdface/run/usd_attachments.h"
+#include "crowdface/run/worn_level.h"
 
 namespace crowdface {
 
@@ -29,10 +32,20 @@ struct WholeFace {
   std::span<const std::string_view> textures;  ///< files of its own pictures, or none …
   std::span<const std::string> texture_names;  ///< … and where they lie, from its mesh
   const Positions& points;                     ///< that follow it, or none
-  std::span<const PlacedGlbPart> parts;        ///< what it wears, as GLB files have it …
-  std::span<const PlacedUsdaPart> usd_parts;   ///< … and as USD layers
   const Positions& joints;                     ///< of its rig, or none
+  std::span<const WornAttachment> worn;        ///< what it wears
 };
+
+/// What files of faces on a level hold of attachments; null where they have none.
+struct LevelAttachments {
+  const WornLevel* worn = nullptr;
+  const GlbAttachments* glb = nullptr;
+  const UsdAttachments* usd = nullptr;
+};
+
+/// The materials of a level's faces, runs of one after the other, as face_materials has them of the whole mesh.
+std::vector<MaterialRange> material_ranges(const FaceMaterials& materials,
+                                           const std::vector<std::uint32_t>& faces);
 
 /// Writes faces on one level of detail, in the formats that hold faces.
 class LevelWriter {
@@ -41,9 +54,10 @@ class LevelWriter {
   /// \param level    from 1
   /// \param targets  of all faces that will be encoded.
   /// \param shared   as MeshWriters takes it
+  /// \param worn     must outlive this object, too.
   LevelWriter(const Config& config, const Inputs& inputs, std::size_t level,
               const std::vector<MeshFormat>& formats, const std::vector<Index>& targets,
-              const std::string& shared);
+              const std::string& shared, const LevelAttachments& worn);
 
   /// \param name  of this level. \param ply_normals  whether PLY files have any.
   EncodedFile encode(const MeshName& name, const WholeFace& face, bool ply_normals) const;
@@ -57,6 +71,7 @@ class LevelWriter {
 
   const Inputs& inputs_;
   const DetailLevel& level_;
+  LevelAttachments worn_;
   std::vector<PlainObjTemplate> obj_;    ///< one for targets whose materials are the same
   std::map<Index, std::size_t> obj_of_;  ///< of a target
   std::optional<PlyTemplate> ply_;

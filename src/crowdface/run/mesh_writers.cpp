@@ -51,8 +51,14 @@ std::size_t normals_bytes(const Topology& topology) {
 }  // namespace
 
 std::string part_of(const MeshName& name) {
-  const std::string of = name.level == 0 ? name.attachment : concat("LOD", name.level);
-  return concat(of, of.empty() || name.shape.empty() ? "" : "+", name.shape);
+  std::string part;
+  const auto add = [&](const std::string& word) {
+    if (!word.empty()) part += concat(part.empty() ? "" : "+", word);
+  };
+  if (name.level > 0) add(concat("LOD", name.level));
+  add(name.attachment);
+  add(name.shape);
+  return part;
 }
 
 std::string file_end(const MeshName& name) {
@@ -93,6 +99,7 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
     : config_(config),
       inputs_(inputs),
       formats_(std::move(formats)),
+      worn_levels_(worn_levels(inputs, crowd)),
       names_(mesh_names(formats_, inputs)) {
   const FaceSet& faces = inputs.faces;
   std::set<Index> targets;
@@ -111,13 +118,13 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
-    if (!inputs.attachments.empty()) glb_attachments_ = glb_attachments(inputs);
+    if (!inputs.attachments.empty()) glb_attachments_ = glb_attachments(inputs, worn_levels_);
   }
   if (has(MeshFormat::kUsd)) {
     usd_.emplace(faces.topology, faces.uvs, glb_options(config, inputs, shared),
                  config.output.subdivision);
     if (!inputs.attachments.empty()) {
-      usd_attachments_ = usd_attachments(inputs, shared.empty() ? "." : shared);
+      usd_attachments_ = usd_attachments(inputs, shared.empty() ? "." : shared, worn_levels_);
     }
   }
   if (need_normals) fans_.emplace(faces.topology);
@@ -125,8 +132,17 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   if (!inputs.rig.empty() && glb_)
     joints_.emplace(inputs.rig.points, inputs.parts, skin_of(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
-    levels_.emplace_back(config, inputs, level, formats_, all_targets, shared);
+    levels_.emplace_back(config, inputs, level, formats_, all_targets, shared,
+                         attachments_on(level));
   }
+}
+
+LevelAttachments MeshWriters::attachments_on(std::size_t level) const {
+  LevelAttachments on;
+  on.worn = &worn_levels_[level - 1];
+  if (!glb_attachments_.empty()) on.glb = &glb_attachments_[level];
+  if (!usd_attachments_.empty()) on.usd = &usd_attachments_[level];
+  return on;
 }
 
 void MeshWriters::add_obj_templates(const std::vector<Index>& targets) {
@@ -174,16 +190,15 @@ EncodedFile MeshWriters::encode_level(const MeshName& mesh, const WholeFace& fac
   }
   const Positions moved = in_shape(face, mesh.shape);
   const Positions normals = vertex_normals(*fans_, inputs_.faces.topology, moved);
-  const WholeFace acting{face.id,       face.target,        moved,       normals, face.moves,
-                         face.textures, face.texture_names, face.points, {},      {},
-                         face.joints};
+  const WholeFace acting{face.id,       face.target,        moved,       normals,     face.moves,
+                         face.textures, face.texture_names, face.points, face.joints, face.worn};
   return level.encode(mesh, acting, had_normals(face.target));
 }
 
 EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) const {
   if (mesh.level > 0) return encode_level(mesh, face);
-  const auto& [id, target, positions, normals, moves, textures, texture_names, points, parts,
-               usd_parts, joints] = face;
+  const auto& [id, target, positions, normals, moves, textures, texture_names, points, joints,
+               worn] = face;
   switch (mesh.format) {
     case MeshFormat::kObj: {
       if (mesh.shape.empty()) return obj_.at(target).encode(positions, id);
@@ -191,10 +206,16 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) con
     }
     case MeshFormat::kPly:
       return ply_->encode(positions, had_normals(target) ? normals : Positions(), id);
-    case MeshFormat::kGlb:
+    case MeshFormat::kGlb: {
+      std::vector<PlacedGlbPart> parts;
+      if (!glb_attachments_.empty()) parts = glb_attachments_[0].parts(worn);
       return glb_->encode(positions, normals, id, moves, textures, points, parts, joints);
-    case MeshFormat::kUsd:
-      return usd_->encode(positions, normals, id, moves, texture_names, points, usd_parts);
+    }
+    case MeshFormat::kUsd: {
+      std::vector<PlacedUsdaPart> parts;
+      if (!usd_attachments_.empty()) parts = usd_attachments_[0].parts(worn);
+      return usd_->encode(positions, normals, id, moves, texture_names, points, parts);
+    }
     case MeshFormat::kPoints:
       if (mesh.shape == kFollowingPoints) return encode_points(inputs_.points.names, points, id);
       return mesh.shape.empty() ? encode_npy(positions, id) : encode_npy(moves, id);
@@ -215,13 +236,8 @@ std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positio
   Positions joints;
   if (joints_) joints = joints_->carry(face.recipe.target, positions);
   const std::vector<std::string> texture_names = own_texture_names(config_, inputs_, face.id);
-  std::vector<PlacedGlbPart> parts;
-  if (glb_attachments_) parts = glb_attachments_->parts(worn);
-  std::vector<PlacedUsdaPart> usd_parts;
-  if (usd_attachments_) usd_parts = usd_attachments_->parts(worn);
-  const WholeFace whole{face.id, face.recipe.target, positions,     normals,
-                        moves,   textures,           texture_names, points,
-                        parts,   usd_parts,          joints};
+  const WholeFace whole{face.id,  face.recipe.target, positions, normals, moves,
+                        textures, texture_names,      points,    joints,  worn};
   std::vector<EncodedMesh> meshes;
   for (const MeshName& name : names_) {
     meshes.push_back({name, encode(name, whole)});
@@ -241,9 +257,9 @@ std::size_t MeshWriters::memory_bytes() const {
   for (const auto& [target, form] : obj_) bytes += form.memory_bytes();
   if (ply_) bytes += ply_->memory_bytes();
   if (glb_) bytes += glb_->memory_bytes();
-  if (glb_attachments_) bytes += glb_attachments_->memory_bytes();
+  if (!glb_attachments_.empty()) bytes += glb_attachments_[0].memory_bytes();
   if (usd_) bytes += usd_->memory_bytes();
-  if (usd_attachments_) bytes += usd_attachments_->memory_bytes();
+  if (!usd_attachments_.empty()) bytes += usd_attachments_[0].memory_bytes();
   for (const LevelWriter& level : levels_) bytes += level.memory_bytes();
   return bytes;
 }
@@ -257,11 +273,7 @@ std::size_t MeshWriters::encode_bytes() const {
   if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
   if (glb_) bytes += glb_->encode_bytes();
   if (usd_) bytes += usd_->encode_bytes();
-  if (usd_attachments_) {
-    bytes += worn_at_most(usd_attachments_->all(), [](const Attachment&, const UsdaPart& part) {
-      return part.encode_bytes();
-    });
-  }
+  if (!usd_attachments_.empty()) bytes += usd_bytes_worn_at_most(usd_attachments_[0]);
   for (const LevelWriter& level : levels_) bytes += level.encode_bytes();
   if (has(MeshFormat::kPoints)) bytes += npy_encode_bytes(inputs_.faces.topology.vertex_count);
   return bytes;

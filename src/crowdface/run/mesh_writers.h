@@ -26,6 +26,7 @@
 #include "crowdface/run/glb_attachments.h"
 #include "crowdface/run/level_writer.h"
 #include "crowdface/run/usd_attachments.h"
+#include "crowdface/run/worn_level.h"
 #include "crowdface/shapes/point_carrier.h"
 
 namespace crowdface {
@@ -64,6 +65,9 @@ class MeshWriters {
                                   std::span<const std::string_view> textures = {},
                                   std::span<const WornAttachment> worn = {}) const;
 
+  /// What faces wear on each level of detail.
+  std::span<const WornLevel> worn_on_levels() const { return worn_levels_; }
+
   /// Whether there are shapes that a format holds.
   bool holds_shapes() const;
 
@@ -72,6 +76,7 @@ class MeshWriters {
   std::size_t encode_bytes() const;
 
  private:
+  LevelAttachments attachments_on(std::size_t level) const;
   void add_obj_templates(const std::vector<Index>& targets);
   bool has(MeshFormat format) const;
   EncodedFile encode(const MeshName& mesh, const WholeFace& face) const;
@@ -88,8 +93,10 @@ class MeshWriters {
       libraries_;  ///< the line that names its material files, if they lie elsewhere
   std::optional<PlyTemplate> ply_;
   std::optional<GlbTemplate> glb_;
-  std::optional<GlbAttachments> glb_attachments_;  ///< if there are any
-  std::optional<UsdAttachments> usd_attachments_;  ///< likewise
+  std::vector<WornLevel> worn_levels_;  ///< #levels
+  std::vector<GlbAttachments>
+      glb_attachments_;  ///< whole, then on each level; none: there are none
+  std::vector<UsdAttachments> usd_attachments_;  ///< likewise
   std::optional<UsdaTemplate> usd_;
   std::vector<MeshName> names_;
   std::optional<PointCarrier> points_, joints_;  ///< if there are any

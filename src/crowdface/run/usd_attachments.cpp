@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
@@ -35,39 +37,66 @@ UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   return surface;
 }
 
-/// \param name  the prim's
-UsdaPart part_of(const Attachment& item, std::string name, const Inputs& inputs,
-                 const std::string& shared) {
-  const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+/// An attachment as a prim.
+struct Look {
+  std::string prim;
+  std::vector<UsdaPart::Material> materials;
+  std::vector<std::uint32_t> of_face;
+};
+
+Look look_of(const Attachment& item, std::string prim, const std::string& shared) {
+  FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   const auto file_of = [&](const fs::path& from) {
     const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::from);
     return (fs::path(shared) / attachment_folder(item.name) / file->relative).generic_string();
   };
-  std::vector<UsdaPart::Material> materials;
+  Look look{std::move(prim), {}, std::move(named.of_face)};
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
-    materials.push_back({material.name, {}});
+    look.materials.push_back({material.name, {}});
     try {
-      materials.back().surface = surface_of(material, file_of);
+      look.materials.back().surface = surface_of(material, file_of);
     } catch (const InvalidInput& error) {
       log_warning(concat(error.what(), "; USD layers do without"));
     }
   }
-  std::vector<std::string> targets;
-  for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return {std::move(name),      item.file.topology, item.file.uvs,
-          std::move(materials), named.of_face,      targets};
+  return look;
 }
 
 }  // namespace
 
-UsdAttachments usd_attachments(const Inputs& inputs, const std::string& shared) {
+std::size_t usd_bytes_worn_at_most(const UsdAttachments& attachments) {
+  return worn_at_most(attachments.all(),
+                      [](const Attachment&, const UsdaPart& part) { return part.encode_bytes(); });
+}
+
+std::vector<UsdAttachments> usd_attachments(const Inputs& inputs, const std::string& shared,
+                                            std::span<const WornLevel> levels) {
   UsdaNames names;
   for (const char* taken : {"face", "mesh", "materials", "skeleton", "animation", "points"}) {
     names.add(taken);
   }
-  return {inputs.attachments, [&](const Attachment& item) {
-            return part_of(item, names.add(item.name), inputs, shared);
-          }};
+  std::map<const Attachment*, Look> looks;
+  for (const Attachment& item : inputs.attachments.items) {
+    looks.emplace(&item, look_of(item, names.add(item.name), shared));
+  }
+  std::vector<std::string> targets;
+  for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
+  std::vector<UsdAttachments> all;
+  all.emplace_back(inputs.attachments, [&](const Attachment& item) {
+    const Look& look = looks.at(&item);
+    return UsdaPart(look.prim, item.file.topology, item.file.uvs, look.materials, look.of_face,
+                    targets);
+  });
+  for (const WornLevel& worn : levels) {
+    all.emplace_back(inputs.attachments, [&](const Attachment& item) -> std::optional<UsdaPart> {
+      const DetailLevel* level = worn.find(item);
+      if (level == nullptr) return std::nullopt;
+      const Look& look = looks.at(&item);
+      return UsdaPart(look.prim, level->topology, level->uvs, look.materials,
+                      on_level(*level, look.of_face), targets);
+    });
+  }
+  return all;
 }
 
 }  // namespace crowdface

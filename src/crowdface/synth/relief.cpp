@@ -28,6 +28,7 @@ struct Fold {
   double base, aged, spread;  ///< depth's factor at 40, its change to 60, what is drawn around it
   double bulge;               ///< ridge beside it, away from the curve's left, as part of the depth
   bool paired = true;
+  double wander = 0;  ///< centimetres by which somebody's line lies elsewhere; it is broken, too
 };
 
 // clang-format off
@@ -37,18 +38,18 @@ auto make_fold_list() {
     Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.06, 0.3, 0.5, 0.2, 0},
     Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.5}, 0.48, 0.13, 0.35, 0.5, 0.2, 0.6},
     Fold{"marionette", {2.65, -7.4}, {2.95, -8.2}, {2.8, -9.4}, 0.36, 0.08, 0.1, 0.6, 0.2, 0.4},
-    Fold{"frown", {0.42, 1.2}, {0.6, 2.0}, {0.5, 3.0}, 0.22, 0.06, 0.1, 0.5, 0.3, 0},
-    Fold{"crow_upper", {4.95, 0.3}, {5.4, 0.5}, {5.9, 1.0}, 0.15, 0.04, 0, 0.6, 0.2, 0},
-    Fold{"crow_middle", {5.05, 0.0}, {5.5, -0.05}, {6.1, 0.0}, 0.15, 0.04, 0, 0.6, 0.2, 0},
-    Fold{"crow_lower", {4.95, -0.3}, {5.3, -0.7}, {5.7, -1.3}, 0.15, 0.04, 0, 0.6, 0.2, 0},
+    Fold{"frown", {0.42, 1.2}, {0.6, 2.0}, {0.5, 3.0}, 0.16, 0.05, 0.1, 0.5, 0.3, 0, true, 0.12},
+    Fold{"crow_upper", {4.95, 0.3}, {5.4, 0.5}, {5.9, 1.0}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
+    Fold{"crow_middle", {5.05, 0.0}, {5.5, -0.05}, {6.1, 0.0}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
+    Fold{"crow_lower", {4.95, -0.3}, {5.3, -0.7}, {5.7, -1.3}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
     Fold{"cheek_line", {4.2, -3.6}, {4.9, -5.0}, {4.6, -6.8}, 0.55, 0.05, 0, 0.5, 0.3, 0.3},
     Fold{"philtrum_ridge", {0.3, -4.95}, {0.42, -5.5}, {0.5, -6.15}, 0.26, -0.045, 1, -0.3, 0.3, 0},
     Fold{"wing_crease", {1.25, -3.0}, {2.0, -3.5}, {1.8, -4.5}, 0.24, 0.05, 0.8, 0.2, 0.2, 0},
     Fold{"lip_edge", {0.4, -6.08}, {1.0, -6.15}, {2.3, -6.85}, 0.14, -0.035, 1, -0.3, 0.2, 0},
-    Fold{"brow_one", {-4.2, 3.4}, {0, 4.1}, {4.2, 3.4}, 0.26, 0.05, 0.1, 0.5, 0.25, 0, false},
-    Fold{"brow_two", {-4.2, 4.2}, {0, 4.9}, {4.2, 4.2}, 0.26, 0.05, 0.1, 0.5, 0.25, 0, false},
-    Fold{"brow_three", {-3.8, 5.1}, {0, 5.7}, {3.8, 5.1}, 0.26, 0.05, 0, 0.5, 0.25, 0, false},
-    Fold{"brow_four", {-3.3, 6.0}, {0, 6.5}, {3.3, 6.0}, 0.26, 0.045, -0.2, 0.5, 0.3, 0, false},
+    Fold{"brow_one", {-4.2, 3.4}, {0, 4.1}, {4.2, 3.4}, 0.17, 0.03, 0.1, 0.5, 0.25, 0, false, 0.16},
+    Fold{"brow_two", {-4.2, 4.2}, {0, 4.9}, {4.2, 4.2}, 0.17, 0.03, 0.1, 0.5, 0.25, 0, false, 0.16},
+    Fold{"brow_three", {-3.8, 5.1}, {0, 5.7}, {3.8, 5.1}, 0.17, 0.03, 0, 0.5, 0.25, 0, false, 0.2},
+    Fold{"brow_four", {-3.3, 6.0}, {0, 6.5}, {3.3, 6.0}, 0.17, 0.025, -0.2, 0.5, 0.3, 0, false, 0.2},
     Fold{"chin_crease", {-1.8, -8.9}, {0, -8.35}, {1.8, -8.9}, 0.5, 0.07, 0.6, 0.1, 0.4, 0, false},
     Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.05, 0.3, 0.4, 0.3, 0, false},
     Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.05, 0.2, 0.4, 0.3, 0, false},
@@ -79,6 +80,8 @@ double carried(double wavelength, double edge) {
 Relief::Relief(const Identity& identity, double edge_cm)
     : waver_x_(mix(identity.seed(), identity.index(), 11), 1.4),
       waver_y_(mix(identity.seed(), identity.index(), 12), 1.4),
+      wander_(mix(identity.seed(), identity.index(), 14), 1.1),
+      breaks_(mix(identity.seed(), identity.index(), 15), 0.9),
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
   const std::uint64_t seed = identity.seed(), index = identity.index();
   const double aged = identity.person().aged();
@@ -92,7 +95,10 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.base + 1.25 * fold.aged * aged +
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      if (factor > 0.02) add_stroke(i, side, 1.5 * fold.depth * std::min(factor, 2.2) * lopsided);
+      // Narrow lines on a coarse mesh would be rows of steps.
+      const double drawn = fold.wander > 0 ? carried(4 * fold.width, edge_cm) : 1;
+      const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
+      if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
     }
   }
   const double rough = 1 + 0.25 * aged + 0.15 * identity.person().male;
@@ -111,10 +117,14 @@ Relief::Relief(const Identity& identity, double edge_cm)
 
 void Relief::add_stroke(std::size_t which, double side, double depth) {
   const Fold& fold = fold_list()[which];
-  Stroke stroke{{}, fold.width, depth, fold.bulge * side, {}};
+  const double lane = 20 * static_cast<double>(which) + 10 * side;
+  const double length = fold.wander > 0 ? (fold.end - fold.start).norm() : 0;
+  Stroke stroke{{}, fold.width, depth, fold.bulge * side, lane, length, {}};
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;
     Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
+    p += fold.wander * Vector2d(0.5 * wander_.at({stroke.lane, 0.5 * p.y(), 5}),
+                                wander_.at({0.5 * p.x(), stroke.lane, 0}));
     p.x() *= side;
     stroke.points[static_cast<std::size_t>(i)] = p;
   }
@@ -124,7 +134,7 @@ void Relief::add_stroke(std::size_t which, double side, double depth) {
   strokes_.push_back(stroke);
 }
 
-double Relief::press(const Stroke& stroke, const Vector2d& place) {
+double Relief::press(const Stroke& stroke, const Vector2d& place) const {
   if (!stroke.reach.contains(place)) return 0;
   double nearest = 1e30, along = 0, side = 1;
   for (std::size_t i = 0; i < Stroke::kPieces; ++i) {
@@ -137,7 +147,9 @@ double Relief::press(const Stroke& stroke, const Vector2d& place) {
     side = ab.x() * ap.y() - ab.y() * ap.x() > 0 ? 1 : -1;
   }
   const double distance = std::sqrt(nearest);
-  const double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
+  double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
+  if (stroke.length > 0)
+    taper *= smooth_step(-0.7, 0.3, breaks_.at({along * stroke.length, stroke.lane, 0}));
   double height = -bump(distance / stroke.width);
   const double beside = side * distance * (stroke.bulge < 0 ? -1 : 1);
   height += std::abs(stroke.bulge) * bump((beside - 1.5 * stroke.width) / (1.5 * stroke.width));

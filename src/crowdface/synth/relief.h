@@ -31,14 +31,15 @@ class Relief {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    Eigen::AlignedBox2d reach;  ///< where it has any effect
+    double lane = 0, length = 0;  ///< where it is broken; length 0: nowhere
+    Eigen::AlignedBox2d reach;    ///< where it has any effect
   };
   double grain(const Eigen::Vector3d& position) const;
-  static double press(const Stroke& stroke, const Eigen::Vector2d& place);
+  double press(const Stroke& stroke, const Eigen::Vector2d& place) const;
   void add_stroke(std::size_t which, double side, double depth);
 
   std::vector<Stroke> strokes_;
-  SmoothNoise waver_x_, waver_y_;
+  SmoothNoise waver_x_, waver_y_, wander_, breaks_;
   struct Octave {
     SmoothNoise noise;
     double amplitude;

@@ -15,6 +15,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double kFinest = 0.02;  // centimetres: all folds and lines
+
 /// 1 in the middle of an ellipse seen from the front, 0 from its edge on. On both sides of the face.
 double patch(const Vector3d& p, const Vector2d& centre, const Vector2d& radii) {
   const Vector2d from = (Vector2d(std::abs(p.x()), p.y()) - centre).cwiseQuotient(radii);
@@ -65,7 +67,7 @@ SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index)
       index_(index),
       person_(draw_person(seed, index)),
       look_(draw_complexion(seed, index)),
-      relief_(Identity(seed, index), 1),
+      relief_(Identity(seed, index), kFinest),
       mottle_(noise(1, 1.1)),
       blotch_(noise(2, 0.35)),
       pores_(noise(3, 0.06)),
@@ -91,7 +93,7 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
   tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
   // Lines and hollows keep their colour from the sun and hold shade.
   const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
-  tint(colour, {0.86, 0.78, 0.76}, hollow);
+  tint(colour, {0.88, 0.81, 0.79}, hollow);
   return colour;
 }
 
@@ -103,8 +105,8 @@ void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
   }
   if (look_.age_spots > 0) {
     const double where = smooth_step(2.5, 6, p.y()) + 0.8 * patch(p, {6, -2}, {4, 5});
-    const double spot = smooth_step(0.62, 0.8, spots_.at(p));
-    tint(colour, {0.78, 0.68, 0.60}, 0.75 * look_.age_spots * std::min(1.0, where) * spot);
+    const double spot = smooth_step(0.7, 1.0, spots_.at(p));
+    tint(colour, {0.80, 0.70, 0.62}, 0.6 * look_.age_spots * std::min(1.0, where) * spot);
   }
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/vertex_finish.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The layer's picture at a place, or null.
+const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
+  if (place.face < 0 || layer.of_face.empty()) return nullptr;
+  const std::uint32_t picture = layer.of_face[static_cast<std::size_t>(place.face)];
+  return picture == TextureLayer::kNone ? nullptr : layer.textures[picture].get();
+}
+
+/// The mean of some texels around a place: of a 512th of the picture's side to either side.
+Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
+  constexpr float kReach = 1.0F / 512;
+  Light sum = Light::Zero();
+  for (const float x : {-kReach, 0.0F, kReach}) {
+    for (const float y : {-kReach, 0.0F, kReach}) {
+      sum += colour_at(texture, uv + Eigen::Vector2f(x, y));
+    }
+  }
+  return sum / 9;
+}
+
+}  // namespace
+
+Vector3d leaning_normal(const TextureCoat& coat, const FaceSet& faces, const TexturePlace& place,
+                        const Positions& positions, const Vector3d& normal) {
+  const Texture* slopes = picture_at(coat.slopes, place);
+  if (slopes == nullptr) return normal;
+  // The triangle of the face's first corners tells where the picture's axes run.
+  const auto vertices = faces.topology.face(place.face);
+  const auto uvs = faces.topology.face_uvs(place.face);
+  const std::size_t last = vertices.size() - 1;
+  if (std::ranges::find(uvs, kNoIndex) != uvs.end()) return normal;
+  const Vector3d origin = row3(positions, vertices[0]);
+  const Vector3d one = row3(positions, vertices[1]) - origin;
+  const Vector3d other = row3(positions, vertices[last]) - origin;
+  const Eigen::Vector2d uv_one = (faces.uvs.row(uvs[1]) - faces.uvs.row(uvs[0])).transpose();
+  const Eigen::Vector2d uv_other = (faces.uvs.row(uvs[last]) - faces.uvs.row(uvs[0])).transpose();
+  const double area = uv_one.x() * uv_other.y() - uv_other.x() * uv_one.y();
+  if (area == 0) return normal;
+  const double sign = area > 0 ? 1 : -1;
+  const auto along = [&](const Vector3d& axis) -> Vector3d {
+    const Vector3d flat = axis - axis.dot(normal) * normal;
+    const double length = flat.norm();
+    return length > 0 ? Vector3d(sign / length * flat) : Vector3d(Vector3d::Zero());
+  };
+  const Light lean = mean_around(*slopes, place.uv);
+  return (normal + double{lean[0]} * along(uv_other.y() * one - uv_one.y() * other) +
+          double{lean[1]} * along(uv_one.x() * other - uv_other.x() * one))
+      .normalized();
+}
+
+std::optional<float> roughness_at(const TextureCoat& coat, const TexturePlace& place) {
+  const Texture* roughness = picture_at(coat.roughness, place);
+  if (roughness == nullptr) return std::nullopt;
+  return std::clamp(mean_around(*roughness, place.uv)[0], 0.0F, 1.0F);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/worn_level.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/io/material_files.h"
+
+namespace crowdface {
+namespace {
+
+std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const MeasuredLevel> levels) {
+  const Topology& topology = item.file.topology;
+  const auto triangles = static_cast<double>(topology.corner_count() - 2 * topology.face_count());
+  std::vector<double> shares;
+  for (const MeasuredLevel& level : levels) {
+    shares.push_back(
+        std::min(1.0, std::max(level.level.share, WornLevel::kFewestTriangles / triangles)));
+  }
+  const auto faces = topology.face_count();
+  std::vector<std::uint32_t> looks = face_materials(item.file.materials, faces).of_face;
+  looks.resize(static_cast<std::size_t>(faces));
+  return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}}, looks,
+                       shares);
+}
+
+}  // namespace
+
+const DetailLevel* WornLevel::find(const Attachment& item) const {
+  const auto found = items_.find(&item);
+  return found == items_.end() ? nullptr : &found->second;
+}
+
+std::vector<WornAttachment> WornLevel::of(std::span<const WornAttachment> worn) const {
+  std::vector<WornAttachment> reduced;
+  for (const WornAttachment& one : worn) {
+    const DetailLevel& level = items_.at(one.item);
+    reduced.push_back({one.item, level.of(one.positions)});
+    for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
+  }
+  return reduced;
+}
+
+std::vector<std::uint32_t> on_level(const DetailLevel& level,
+                                    std::span<const std::uint32_t> of_face) {
+  std::vector<std::uint32_t> some;
+  for (const std::uint32_t face : level.faces) some.push_back(of_face[face]);
+  return some;
+}
+
+std::vector<WornLevel> worn_levels(const Inputs& inputs, std::span<const CastFace> crowd) {
+  std::vector<WornLevel> levels(inputs.levels.size());
+  if (levels.empty()) return levels;
+  std::set<std::string> names;
+  for (const CastFace& face : crowd) names.insert(face.attachments.begin(), face.attachments.end());
+  std::vector<const Attachment*> items;
+  for (const std::string& name : names) items.push_back(&inputs.attachments.at(name));
+  std::vector<std::vector<DetailLevel>> of_items(items.size());
+  parallel_for_each(items.size(),
+                    [&](std::size_t i) { of_items[i] = levels_of(*items[i], inputs.levels); });
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+      levels[l].items_.emplace(items[i], std::move(of_items[i][l]));
+    }
+  }
+  return levels;
+}
+
+}  // namespace crowdface

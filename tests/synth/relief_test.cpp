@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/synth/relief.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace crowdface::synth {
+namespace {
+
+constexpr std::uint64_t kSeed = 5;
+
+std::vector<std::uint64_t> old_heads() {
+  std::vector<std::uint64_t> heads;
+  for (std::uint64_t h = 0; h < 60; ++h) {
+    if (draw_person(kSeed, h).age > 62) heads.push_back(h);
+  }
+  return heads;
+}
+
+/// How deep the deepest line of the forehead is at x, and at which height.
+struct Line {
+  double depth = 0, y = 0;
+};
+Line deepest(const Relief& relief, double x) {
+  Line line;
+  for (double y = 3; y < 7; y += 0.02) {
+    const double depth = -relief.folds({x, y, 9});
+    if (depth > line.depth) line = {depth, y};
+  }
+  return line;
+}
+
+/// On edges of 2.5 mm lines that are no wider were rows of steps, which looked like bricks.
+TEST(Relief, NarrowLinesAreLeftToFineSurfaces) {
+  for (const std::uint64_t head : old_heads()) {
+    const Identity identity(kSeed, head);
+    double fine = 0, coarse = 0;
+    for (double x = -3; x <= 3; x += 0.25) {
+      fine = std::max(fine, deepest(Relief(identity, 0.02), x).depth);
+      coarse = std::max(coarse, deepest(Relief(identity, 0.25), x).depth);
+    }
+    EXPECT_GT(fine, 0.01) << head;
+    EXPECT_LT(coarse, 0.5 * fine) << head;
+  }
+}
+
+TEST(Relief, LinesOfAForeheadAreUnevenAndEachHeadsOwn) {
+  int broken = 0, elsewhere = 0;
+  const std::vector<std::uint64_t> heads = old_heads();
+  Line before;
+  for (const std::uint64_t head : heads) {
+    const Relief relief(Identity(kSeed, head), 0.02);
+    double least = 1e9, most = 0;
+    for (double x = -2.5; x <= 2.5; x += 0.1) {
+      const double depth = deepest(relief, x).depth;
+      least = std::min(least, depth);
+      most = std::max(most, depth);
+    }
+    broken += least < 0.6 * most ? 1 : 0;
+    const Line middle = deepest(relief, 0);
+    elsewhere += std::abs(middle.y - before.y) > 0.05 ? 1 : 0;
+    before = middle;
+  }
+  const auto count = static_cast<int>(heads.size());
+  ASSERT_GT(count, 5);
+  EXPECT_GT(broken, count / 2);
+  EXPECT_GT(elsewhere, count / 2);
+}
+
+}  // namespace
+}  // namespace crowdface::synth
