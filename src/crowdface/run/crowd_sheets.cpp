@@ -122,6 +122,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   }
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   refuse_other_heads(job.settings, directory, Replace::kRefuse);
+  refuse_other_inputs(job.inputs, directory);
   std::vector<CastFace> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {
