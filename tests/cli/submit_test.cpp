@@ -49,7 +49,8 @@ TEST(Submit, WritesNothingBehindALinkThatLeadsOutOfTheCrowd) {
     fs::create_directories(elsewhere);
     fs::create_directories((folder.out() / link).parent_path());
     fs::create_directory_symlink(elsewhere, folder.out() / link);
-    crowdface(73, {"submit", folder.config().string(), "--print"}, {"submit", "a link that leads out"});
+    crowdface(73, {"submit", folder.config().string(), "--print"},
+              {"submit", "a link that leads out"});
     EXPECT_TRUE(fs::is_empty(elsewhere));
     fs::remove_all(folder.out());
   }

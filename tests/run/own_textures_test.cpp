@@ -185,8 +185,8 @@ TEST_F(OwnTextures, AHeadWithoutOneIsToldAndADamagedOneEndsTheRun) {
   std::string damaged = whole;
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] + 1);
   // What was cut counted as no image, and its head went without.
-  for (const std::string& bytes :
-       {damaged, whole.substr(0, whole.size() - 1), whole.substr(0, 20), std::string("II*\0\x08", 5)}) {
+  for (const std::string& bytes : {damaged, whole.substr(0, whole.size() - 1), whole.substr(0, 20),
+                                   std::string("II*\0\x08", 5)}) {
     folder_.folder().write("heads/cyd.png", bytes);
     testing::expect_error(ExitCode::kBadData, {"cyd.png", "damaged"}, [&] { run(folder_); });
   }

@@ -218,9 +218,9 @@ FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) 
             };
             return corner.size() == vertices && std::ranges::all_of(corner, is_place) &&
                    share.size() == vertices && std::ranges::all_of(share, are_shares) &&
-                   all_below(lacking, vertices) &&
-                   added.size() == 3 * lacking.size() && are_coordinates(std::span(added)) &&
-                   count.size() == 2 && measure.size() == 6 && are_coordinates(std::span(measure));
+                   all_below(lacking, vertices) && added.size() == 3 * lacking.size() &&
+                   are_coordinates(std::span(added)) && count.size() == 2 && measure.size() == 6 &&
+                   are_coordinates(std::span(measure));
           });
   FoundMirror found;
   found.map.plane = {{measures[0], measures[1], measures[2]}, measures[3]};

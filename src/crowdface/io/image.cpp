@@ -100,9 +100,10 @@ void check_png_claim(const path& file, std::string_view bytes, const PictureFact
   const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
   const std::uint64_t claimed = row * static_cast<std::uint64_t>(spec.height);
   if (claimed <= kMostOfOneByte * bytes.size() + row) return;
-  refuse_damaged(file, concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
-                      " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
-                      " bytes, found ", bytes.size(), " (cut short?)"));
+  refuse_damaged(
+      file, concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
+                   " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
+                   " bytes, found ", bytes.size(), " (cut short?)"));
 }
 
 void check_kind(const path& file, std::string_view format, const PictureFacts& spec) {

@@ -67,11 +67,12 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
 }
 
 std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs) {
-  std::vector<std::pair<std::string, Digest>> digests = {{"textures", inputs.textures.digest},
-                                                         {"shapes", inputs.shapes_digest},
-                                                         {"points", inputs.points_digest},
-                                                         {"rig", inputs.rig.digest},
-                                                         {"attachments", inputs.attachments.digest}};
+  std::vector<std::pair<std::string, Digest>> digests = {
+      {"textures", inputs.textures.digest},
+      {"shapes", inputs.shapes_digest},
+      {"points", inputs.points_digest},
+      {"rig", inputs.rig.digest},
+      {"attachments", inputs.attachments.digest}};
   for (const HeadTextures& maps : inputs.maps) {
     const TextureKind kind = maps.names.front().kind;
     digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);
@@ -94,7 +95,8 @@ void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) 
   }
   if (changed.empty()) return;
   throw UsageError(concat(directory.root.string(), ": its faces were made with other ",
-                          join(changed), " than there are now (\"inputs\" in its report.json); run "
+                          join(changed),
+                          " than there are now (\"inputs\" in its report.json); run "
                           "crowdface generate, which makes them anew"));
 }
 
