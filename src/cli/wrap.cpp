@@ -42,7 +42,6 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
 std::vector<Task> tasks_of(const WrapOptions& options) {
   if (options.batch.empty()) {
     const fs::path head = output_file(options.out);
-    refuse_to_write_over({options.shape, options.scan}, head);
     return {make_task(options.scan, head, head.parent_path())};
   }
   std::vector<Task> tasks;
@@ -51,6 +50,19 @@ std::vector<Task> tasks_of(const WrapOptions& options) {
                               fs::path(options.out) / "reports"));
   }
   return tasks;
+}
+
+void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<Task>& tasks) {
+  std::vector<fs::path> inputs = {options.shape, options.landmarks, options.ignore};
+  if (!options.model.empty()) {
+    for (fs::path& head : files_of(options.model, {".obj"})) inputs.push_back(std::move(head));
+  }
+  std::vector<fs::path> outputs;
+  for (const Task& task : tasks) {
+    inputs.insert(inputs.end(), {task.scan, task.own_landmarks});
+    outputs.insert(outputs.end(), {task.head, task.report, task.picture});
+  }
+  refuse_to_write_over(inputs, outputs);
 }
 
 Digest inputs_of(const WrapInputs& shared, const Task& task) {
@@ -153,6 +165,7 @@ void check_one(const WrapInputs& shared, const Task& task) {
 void wrap_all(const WrapOptions& options) {
   const WrapInputs shared = read_wrap_inputs(options);
   const std::vector<Task> tasks = tasks_of(options);
+  refuse_to_write_over_inputs(options, tasks);
   if (!options.dry_run && !options.batch.empty()) {
     make_directories(fs::path(options.out) / "reports");
     remove_leftovers(options.out);

@@ -42,6 +42,20 @@ TEST(Submit, RefusesWhatCannotBeMeant) {
   EXPECT_FALSE(fs::exists(folder.out()));
 }
 
+TEST(Submit, WritesNothingBehindALinkThatLeadsOutOfTheCrowd) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  const fs::path elsewhere = folder / "elsewhere";
+  for (const char* link : {"submit", "submit/log"}) {
+    fs::create_directories(elsewhere);
+    fs::create_directories((folder.out() / link).parent_path());
+    fs::create_directory_symlink(elsewhere, folder.out() / link);
+    crowdface(73, {"submit", folder.config().string(), "--print"},
+              {"submit", "a link that leads out"});
+    EXPECT_TRUE(fs::is_empty(elsewhere));
+    fs::remove_all(folder.out());
+  }
+}
+
 TEST(Status, OfNoCrowdIs66) {
   const SmallCrowdFolder folder(SmallCrowd{});
   crowdface(66, {"status", (folder / "heads").string()}, {"a crowd's folder"});

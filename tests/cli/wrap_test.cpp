@@ -89,6 +89,42 @@ TEST_F(Wrap, RefusalsSayWhatToDo) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+// The heads of a model, scans and template were replaced without a word.
+TEST_F(Wrap, WritesOverNoneOfItsInputs) {
+  fs::copy(head(2), scans_ / "synth_02.obj");
+  const auto expect_refused = [&](const fs::path& input, const std::vector<std::string>& more,
+                                  const fs::path& out) {
+    const std::string before = read_file(input);
+    std::vector<std::string> arguments = {"wrap", "--landmarks", landmarks_.string(), "-o",
+                                          out.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    crowdface(64, arguments, {input.filename().string(), "is an input"});
+    EXPECT_EQ(read_file(input), before);
+  };
+  const std::vector<std::string> batch = {"--batch", scans_.string(), "--template"};
+  const auto batch_of = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), batch.begin(), batch.end());
+    return more;
+  };
+  expect_refused(scans_ / "synth_02.obj", batch_of({head(1).string()}), scans_);
+  expect_refused(head(2), batch_of({head(2).string()}), heads_);
+  expect_refused(head(2), batch_of({head(1).string(), "--model", heads_.string()}), heads_);
+  expect_refused(head(3),
+                 {head(1).string(), (scans_ / "synth_02.obj").string(), "--model", heads_.string()},
+                 head(3));
+  EXPECT_FALSE(fs::exists(heads_ / "reports"));
+}
+
+// A scan without area, or none that is a head, gave the template as it was, and was done.
+TEST_F(Wrap, AScanThatShowsNothingOfTheSkinIsRefused) {
+  const fs::path scan = folder_.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  crowdface(65,
+            {"wrap", head(1).string(), scan.string(), "-o", folder_ / "head.obj", "--scan-up", "+Y",
+             "--scan-front", "+Z"},
+            {"one.obj", "shows nothing of the skin"});
+  EXPECT_FALSE(fs::exists(folder_ / "head.obj"));
+}
+
 TEST_F(Wrap, WhatCannotBePickedOnIsRefusedBeforeThePageOpens) {
   const auto pick = [&](const fs::path& scan, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"wrap", "--pick", head(1).string(), scan.string(),

@@ -92,7 +92,7 @@ TEST_F(Status, AKilledShardIsKnownByItsSilence) {
 
 TEST_F(Status, TheReasonOfAFailureIsTold) {
   folder_.write("progress-1of2.json",
-                format_shard_notes({ShardState::kFailed, 4, 0, 0, 0, "a", "disk full"}));
+                format_shard_notes({ShardState::kFailed, 4, 0, 0, 0, "a\xC2\x9B", "disk full"}));
   folder_.write("submit/job.json", R"({"shards":2})");
   folder_.write("submit/log/blend-2.log",
                 "=== blend 2, attempt 1\nerror: no heads\n=== ended with code 66\n");
@@ -103,7 +103,10 @@ TEST_F(Status, TheReasonOfAFailureIsTold) {
   EXPECT_EQ(found.shards[1].state, ShardState::kFailed);
   EXPECT_EQ(found.shards[1].reason, "no heads");
   EXPECT_EQ(found.failures, std::vector<std::string>{"prepare-3: ended with code 74: x"});
-  const auto json = nlohmann::json::parse(format_status_json(found));
+  const std::string text = format_status_json(found);
+  EXPECT_EQ(printable(text), text) << "it would be escaped once more, and be no JSON";
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["shards"][0]["machine"], "a\xC2\x9B");
   EXPECT_EQ(json["shards"][1]["reason"], "no heads");
   EXPECT_EQ(json["shards"][0]["state"], "failed");
 }

@@ -7,6 +7,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 
+#include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
 namespace crowdface {
@@ -182,6 +183,14 @@ TEST(LedgerLine, DeepValuesAreLeftOut) {
   constexpr std::size_t kDepth = 1'000'000;
   body += concat(",\"note\":", std::string(kDepth, '['), std::string(kDepth, ']'));
   EXPECT_TRUE(parse_ledger_line(concat(body, ",\"sum\":\"", hash_bytes(body).hex(), "\"}")));
+}
+
+// A run whose folder was removed at that moment ended with 66, as if an input were missing.
+TEST(Ledger, AFileThatIsGoneWhenItIsToBeRecordedIsAFailedRead) {
+  const testing::TemporaryFolder folder;
+  Ledger ledger(folder.path(), folder / "ledger.jsonl", {});
+  testing::expect_error(ExitCode::kIoError, {"gone.json"},
+                        [&] { ledger.record("gone.json", Digest{}, {"gone.json"}); });
 }
 
 }  // namespace

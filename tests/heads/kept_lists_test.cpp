@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/kept_lists.h"
 
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -10,9 +12,12 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/shared_by_heads.h"
 
+#include "support/meshes.h"
 #include "support/temporary_folder.h"
 
 namespace crowdface {
@@ -74,6 +79,47 @@ TEST_F(KeptLists, AreMadeAnewWhereTheyAreNotSound) {
   lists(key);
   EXPECT_EQ(lists(key, 2), (Lists{{1, 2, 3}, {0.5}}));
   EXPECT_EQ(made_, 2);
+}
+
+/// Puts another number into an entry, under a right checksum.
+template <class T>
+void forge(const fs::path& entry, std::size_t at, T number) {
+  std::string bytes = read_file(entry);
+  std::memcpy(bytes.data() + at, &number, sizeof number);
+  const Digest sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof(Digest)));
+  std::memcpy(bytes.data() + bytes.size() - sizeof sum, &sum, sizeof sum);
+  write_file(entry, bytes);
+}
+
+// Rows were made for as many vertices as a component said to have.
+TEST_F(KeptLists, ComponentsOfOtherSizesThanTheyHaveAreNotTaken) {
+  Inputs inputs;
+  inputs.faces.topology = testing::cube_topology();
+  inputs.cache = folder_.path();
+  find_neighbours(inputs);
+  ASSERT_EQ(inputs.components.sizes, std::vector<std::uint32_t>{8});
+  const std::string kept = read_file(entry());
+  forge(entry(), kept.size() - sizeof(Digest) - 4, std::uint32_t{1'000'000'000});
+  find_neighbours(inputs);
+  EXPECT_EQ(inputs.components.sizes, std::vector<std::uint32_t>{8});
+  EXPECT_EQ(read_file(entry()), kept);
+}
+
+TEST_F(KeptLists, PlacesOnTheOtherSideLieInTheirTriangles) {
+  Inputs inputs;
+  inputs.faces.topology = testing::cube_topology();
+  inputs.mean = testing::cube_positions();
+  find_neighbours(inputs);
+  inputs.cache = folder_.path();
+  const Eigen::Vector3d side(1, 0, 0);
+  const FoundMirror found = find_other_sides(inputs, side);
+  const std::string kept = read_file(entry());
+  constexpr std::size_t kFirstShare = 48 + 6 * 8 + 8 * 12;  // after header, sizes and corners
+  for (const double share : {std::nan(""), 1e300}) {
+    forge(entry(), kFirstShare, share);
+    EXPECT_EQ(find_other_sides(inputs, side).map.shares, found.map.shares);
+    EXPECT_EQ(read_file(entry()), kept);
+  }
 }
 
 TEST_F(KeptLists, WithoutACacheAreNotKept) {

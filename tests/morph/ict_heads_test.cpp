@@ -36,6 +36,15 @@ TEST(IctHeads, AreTheNeutralPlusWeightedModes) {
   EXPECT_DOUBLE_EQ(heads.heights().mouth, 0.5);
 }
 
+TEST(IctHeads, AMeshWithoutEyesOrTeethIsRefusedByName) {
+  const TemporaryFolder folder;
+  for (const char* name : {"generic_neutral_mesh.obj", "identity000.obj"}) {
+    folder.write(concat("FaceXModel/", name), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  }
+  expect_error(ExitCode::kBadData, {"generic_neutral_mesh.obj", "Sclera"},
+               [&] { IctHeads(folder.path()).heights(); });
+}
+
 TEST(IctHeads, IncompleteCheckoutsAreRefused) {
   const TemporaryFolder folder;
   expect_error(ExitCode::kMissingInput, {"generic_neutral_mesh.obj"},

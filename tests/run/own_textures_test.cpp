@@ -158,6 +158,20 @@ TEST_F(OwnTextures, AreNotMadeWhereTheTargetsAreAskedFor) {
               fs::exists(meshes() / "cyd.png") || fs::exists(meshes() / "dan.png"));
 }
 
+// Sheets showed textures that no mesh has.
+TEST_F(OwnTextures, SheetsOfOtherTexturesAreRefused) {
+  const std::string kSheet = "output.contact_sheet={columns: 2, cell: 48}";
+  run(folder_, {kSheet});
+  remake_sheets(folder_.out(), {}, folder_.cache());
+  remake_sheets(folder_.out(), {"output.contact_sheet.texture=false"}, folder_.cache());
+  fs::copy_file(folder_ / "heads/dan.png", folder_ / "heads/cyd.png",
+                fs::copy_options::overwrite_existing);
+  testing::expect_error(ExitCode::kUsage, {folder_.out().string(), "made with other textures"},
+                        [&] { remake_sheets(folder_.out(), {}, folder_.cache()); });
+  run(folder_, {kSheet});
+  remake_sheets(folder_.out(), {}, folder_.cache());
+}
+
 TEST_F(OwnTextures, AHeadWithoutOneIsToldAndADamagedOneEndsTheRun) {
   fs::remove(folder_ / "heads/cyd.png");
   run(folder_);
@@ -167,10 +181,15 @@ TEST_F(OwnTextures, AHeadWithoutOneIsToldAndADamagedOneEndsTheRun) {
   std::vector<std::uint8_t> pixels;
   for (std::size_t i = 0; i < 1024; ++i)
     pixels.push_back(static_cast<std::uint8_t>(i * i * 37 % 251));
-  std::string damaged = encode_png(32, 32, 1, pixels);
+  const std::string whole = encode_png(32, 32, 1, pixels);
+  std::string damaged = whole;
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] + 1);
-  folder_.folder().write("heads/cyd.png", damaged);
-  testing::expect_error(ExitCode::kBadData, {"cyd.png"}, [&] { run(folder_); });
+  // What was cut counted as no image, and its head went without.
+  for (const std::string& bytes : {damaged, whole.substr(0, whole.size() - 1), whole.substr(0, 20),
+                                   std::string("II*\0\x08", 5)}) {
+    folder_.folder().write("heads/cyd.png", bytes);
+    testing::expect_error(ExitCode::kBadData, {"cyd.png", "damaged"}, [&] { run(folder_); });
+  }
 }
 
 /// Normals that all lean to the right by a head's own angle.

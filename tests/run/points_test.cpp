@@ -105,6 +105,8 @@ TEST_F(PointsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
 TEST_F(PointsOfACrowd, AreRefusedByTheirLine) {
   expect_refused("template: heads/ann.obj\npoints:\n  jaw: [0, 1]\n", ":3:");
   expect_refused("template: heads/ann.obj\npoints:\n  jaw: [0, 1, x]\n", "[x, y, z]");
+  // No face could be written with it, which came out when the first was made.
+  expect_refused("template: heads/ann.obj\npoints:\n  jaw: [0, 1, 1e300]\n", "numbers up to 1e+07");
   expect_refused("points: {jaw: [0, 1, 2]}\n", "template is missing");
   expect_refused("joints: {jaw: [0, 1, 2]}\n", "unknown key \"joints\"");
   expect_refused("heads: {ann: {jaw: [0, 1, 2]}}\n", "\"bob\" is missing");

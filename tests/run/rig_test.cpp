@@ -204,10 +204,36 @@ TEST(GltfRig, BrokenScenesAreRefused) {
   refuse(scene(R"({"translation":[1e300,0,0]})", position), {"node 0", "beyond all measure"});
   refuse(scene(concat(R"({"name":")", std::string(1001, 'n'), R"("})"), position),
          {"at most 1000 bytes, found 1001"});
+  refuse(scene(R"({"children":[1]},{"mesh":0})", position)
+             .replace(
+                 0, 1,
+                 R"({"x":{"":0)" +
+                     [] {
+                       std::string keys;
+                       for (int k = 0; k < 2000; ++k) keys += concat(R"(,"k)", k, R"(":0)");
+                       return keys + "},";
+                     }()),
+         {"its JSON cannot be read"});
+
+  // One megabyte became gigabytes.
+  constexpr const char* kOften = "several times over";
   std::string many = R"({"children":[1)", nodes;
-  for (int n = 1; n <= 49; ++n) nodes += R"(,{"mesh":0})";
-  for (int n = 2; n <= 49; ++n) many += concat(",", n);
-  refuse(scene(many + "]}" + nodes, position), {"more vertices than it has bytes"});
+  for (int n = 1; n <= 65; ++n) nodes += R"(,{"mesh":0})";
+  for (int n = 2; n <= 65; ++n) many += concat(",", n);
+  refuse(scene(many + "]}" + nodes, position), {kOften});
+  std::string sets;
+  for (int n = 1; n <= 24; ++n) sets += concat(R"(,"JOINTS_)", n, R"(":1,"WEIGHTS_)", n, R"(":1)");
+  const std::string bytes = R"(,{"bufferView":1,"componentType":5121,"count":1})";
+  const auto with = [](std::string json, const std::string& after, const std::string& more) {
+    return json.insert(json.find(after) + after.size(), more);
+  };
+  refuse(with(scene(R"({},{"mesh":0,"skin":0})", position + bytes + weights), R"("WEIGHTS_0":2)",
+              sets),
+         {kOften});
+  refuse(with(scene(R"({"children":[1]},{"mesh":0})",
+                    position + R"(,{"bufferView":1,"componentType":5121,"count":9})"),
+              R"("POSITION":0)", R"(,"_VERTEX_ID":1)"),
+         {"_VERTEX_ID and POSITION differ in length"});
 }
 
 }  // namespace

@@ -168,6 +168,14 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
          "property list float int vertex_index\nend_header\n" +
              nan,
          "a list has nan entries");
+  const auto ply_of = [](double x) {
+    return concat("ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\n",
+                  "property double y\nproperty double z\nelement face 1\n",
+                  "property list uchar int vertex_index\nend_header\n0 0 0\n", x,
+                  " 0 0\n0 1 0\n3 0 1 2\n");
+  };
+  refuse("beyond.ply", ply_of(1e30), "none farther than 1e+09");
+  refuse("flat.ply", ply_of(0), "triangles without area");
   refuse("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "face");
   refuse("scan.xyz", "1 2 3\n", ".glb");
   for (std::size_t cut = 0; cut < whole.size(); cut += 13) {
@@ -176,6 +184,30 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   for (std::size_t cut = 0; cut < ply.size(); cut += 7) {
     EXPECT_THROW(parse_ply(ply.substr(0, cut), "cut.ply"), InvalidInput) << cut;
   }
+}
+
+// Half a megabyte became gigabytes.
+TEST(ScanFile, GlbPrimitivesThatNameTheSameDataTakeNoMoreThanTheFile) {
+  const std::string one = R"({"attributes":{"POSITION":0},"indices":1})";
+  const auto glb_of = [&](std::size_t times) {
+    std::string json = one;
+    for (std::size_t i = 1; i < times; ++i) json += ',' + one;
+    std::string bytes = glb(cube(), R"({"children":[1]})");
+    bytes.replace(bytes.find(one), one.size(), json);
+    const auto grown = static_cast<std::uint32_t>(json.size() - one.size());
+    for (const std::size_t at : {8U, 12U}) {
+      std::uint32_t size = 0;
+      std::memcpy(&size, bytes.data() + at, 4);
+      size += grown;
+      std::memcpy(bytes.data() + at, &size, 4);
+    }
+    return bytes;
+  };
+  const Scan scan = parse_glb(glb_of(2), "scan.glb");
+  EXPECT_EQ(scan.positions.rows(), 8);
+  EXPECT_EQ(scan.triangles.size(), 24U);
+  expect_error(ExitCode::kBadData, {"scan.glb", "more triangles than it has bytes"},
+               [&] { parse_glb(glb_of(100), "scan.glb"); });
 }
 
 // Many elements of many members each that hold nothing would be counted through for hours.

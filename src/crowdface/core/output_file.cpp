@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/output_file.h"
 
+#include <map>
+#include <optional>
 #include <system_error>
+#include <utility>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "crowdface/core/error.h"
@@ -11,6 +15,19 @@
 namespace crowdface {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Device and number: one file has the same whatever it is called.
+using FileId = std::pair<dev_t, ino_t>;
+
+std::optional<FileId> id_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileId(status.st_dev, status.st_ino);
+}
+
+}  // namespace
 
 fs::path output_file(const fs::path& path) {
   const auto refuse = [&](std::string_view what) {
@@ -39,10 +56,20 @@ fs::path output_file(const fs::path& path) {
 }
 
 void refuse_to_write_over(const std::vector<fs::path>& inputs, const fs::path& path) {
+  refuse_to_write_over(inputs, std::vector{path});
+}
+
+void refuse_to_write_over(const std::vector<fs::path>& inputs,
+                          const std::vector<fs::path>& outputs) {
+  std::map<FileId, fs::path> known;
   for (const fs::path& input : inputs) {
-    std::error_code ignored;
-    if (!fs::equivalent(input, path, ignored)) continue;
-    throw UsageError(concat(path.string(), ": is an input (", input.string(),
+    if (const auto id = id_of(input)) known.emplace(*id, input);
+  }
+  for (const fs::path& output : outputs) {
+    const auto id = id_of(output);
+    const auto input = id ? known.find(*id) : known.end();
+    if (input == known.end()) continue;
+    throw UsageError(concat(output.string(), ": is an input (", input->second.string(),
                             ") and is not written over; choose another name"));
   }
 }

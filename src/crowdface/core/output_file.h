@@ -15,5 +15,8 @@ std::filesystem::path output_file(const std::filesystem::path& path);
 /// \throws UsageError if `path` is one of these files, under whatever name.
 void refuse_to_write_over(const std::vector<std::filesystem::path>& inputs,
                           const std::filesystem::path& path);
+/// The same of many outputs.
+void refuse_to_write_over(const std::vector<std::filesystem::path>& inputs,
+                          const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace crowdface

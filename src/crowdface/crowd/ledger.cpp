@@ -234,7 +234,11 @@ void Ledger::record(const std::string& item, const Digest& key,
 
 std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>& names) const {
   std::vector<LedgerEntry::File> files;
-  for (const std::string& name : names) files.push_back({name, hash_file(root_ / name)});
+  try {
+    for (const std::string& name : names) files.push_back({name, hash_file(root_ / name)});
+  } catch (const MissingInput& error) {  // no input of a user's, but written just now
+    throw IoError(error.what());
+  }
   return files;
 }
 

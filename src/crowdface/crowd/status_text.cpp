@@ -109,7 +109,8 @@ std::string format_status_json(const CrowdStatus& status) {
                               {"machine", shard.machine},
                               {"reason", shard.reason}});
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  // As ASCII, lest what is not printable be escaped by other rules than JSON's.
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace crowdface

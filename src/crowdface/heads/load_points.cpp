@@ -2,6 +2,7 @@
 #include "crowdface/heads/load_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,17 +19,18 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMostPoints = 1000;
+constexpr double kFarthest = 1e7;  ///< as of heads' coordinates
 
 std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints& complaints) {
   Eigen::RowVector3d position;
   bool good = node.kind == YamlNode::Kind::kList && node.items.size() == 3;
   for (Index c = 0; good && c < 3; ++c) {
     const auto number = parse_double(node.items[static_cast<std::size_t>(c)].text);
-    good = number.has_value();
+    good = number && std::abs(*number) <= kFarthest;
     if (good) position[c] = *number;
   }
   if (good) return position;
-  complaints.expected(node, "a position, [x, y, z]");
+  complaints.expected(node, concat("a position, [x, y, z], of numbers up to ", kFarthest));
   return std::nullopt;
 }
 

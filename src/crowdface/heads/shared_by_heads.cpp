@@ -38,6 +38,22 @@ bool all_below(const std::vector<std::uint32_t>& numbers, std::size_t end) {
   return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < end; });
 }
 
+/// Whether each component has as many vertices as it says.
+bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
+               const std::vector<std::uint32_t>& sizes) {
+  if (!all_below(of_vertex, sizes.size())) return false;
+  std::vector<std::uint32_t> counted(sizes.size(), 0);
+  for (const std::uint32_t component : of_vertex) ++counted[component];
+  return counted == sizes;
+}
+
+/// Of the corners of a triangle.
+bool are_shares(const std::array<double, 3>& shares) {
+  constexpr double kRounding = 1e-9;
+  return std::ranges::all_of(
+      shares, [](double share) { return share >= -kRounding && share <= 1 + kRounding; });
+}
+
 std::vector<bool> skin_of(const Inputs& inputs) {
   std::vector<bool> skin;
   const std::uint32_t largest = inputs.skin.largest();
@@ -107,7 +123,7 @@ void find_neighbours(Inputs& inputs) {
             return offset.size() == vertices + 1 && offset.front() == 0 &&
                    offset.back() == item.size() && std::ranges::is_sorted(offset) &&
                    all_below(item, vertices) && open.size() == vertices && of.size() == vertices &&
-                   all_below(of, size.size());
+                   are_sizes(of, size);
           });
   inputs.adjacency.offsets = std::move(offsets);
   inputs.adjacency.items = std::move(items);
@@ -201,9 +217,10 @@ FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) 
               return std::ranges::all_of(triangle, [&](auto v) { return v < vertices; });
             };
             return corner.size() == vertices && std::ranges::all_of(corner, is_place) &&
-                   share.size() == vertices && all_below(lacking, vertices) &&
-                   added.size() == 3 * lacking.size() && are_coordinates(std::span(added)) &&
-                   count.size() == 2 && measure.size() == 6 && are_coordinates(std::span(measure));
+                   share.size() == vertices && std::ranges::all_of(share, are_shares) &&
+                   all_below(lacking, vertices) && added.size() == 3 * lacking.size() &&
+                   are_coordinates(std::span(added)) && count.size() == 2 && measure.size() == 6 &&
+                   are_coordinates(std::span(measure));
           });
   FoundMirror found;
   found.map.plane = {{measures[0], measures[1], measures[2]}, measures[3]};

@@ -93,6 +93,8 @@ std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
       const auto [known, is_new] = readable.try_emplace(worn.files[i].path, true);
       try {
         if (is_new) read_image_size(worn.files[i].path, {.jpeg = true});
+      } catch (const DamagedImage&) {
+        throw;
       } catch (const InvalidInput& error) {
         known->second = false;
         warnings.push_back(concat(error.what(), "; the texture is neither blended nor shown"));

@@ -37,13 +37,12 @@ class GltfFile {
   }
 
   const Json& scene() const { return scene_; }
-  std::size_t buffer_size() const { return binary_.size(); }
   [[noreturn]] void fail(const std::string& what) const {
     throw InvalidInput(concat(path_, ": ", what));
   }
 
   /// The numbers of an accessor, row after row; those that are normalized as what they stand for.
-  std::vector<double> numbers(std::size_t accessor, std::size_t width) const {
+  std::vector<double> numbers(std::size_t accessor, std::size_t width) {
     const Json& json = scene_.at("accessors").at(accessor);
     if (json.contains("sparse") || !json.contains("bufferView")) {
       fail(concat("accessor ", accessor, " is sparse, which is not read here"));
@@ -62,6 +61,7 @@ class GltfFile {
         begin + (count - 1) * stride + size * width > binary_.size()) {
       fail(concat("accessor ", accessor, " lies outside the file's own buffer"));
     }
+    require_room(count * width);
     const double unit = !json.value("normalized", false) ? 1 : size == 1 ? 1.0 / 255 : 1.0 / 65535;
     std::vector<double> numbers;
     numbers.reserve(count * width);
@@ -77,7 +77,7 @@ class GltfFile {
     return numbers;
   }
   /// The same where they count something.
-  std::vector<std::uint32_t> whole_numbers(std::size_t accessor, std::size_t width) const {
+  std::vector<std::uint32_t> whole_numbers(std::size_t accessor, std::size_t width) {
     std::vector<std::uint32_t> whole;
     for (const double number : numbers(accessor, width)) {
       if (number < 0 || number >= kNoIndex) {
@@ -89,6 +89,14 @@ class GltfFile {
   }
 
  private:
+  /// A mesh may stand at many nodes, and many names may stand for the same numbers.
+  void require_room(std::size_t more) {
+    constexpr std::size_t kOften = 4;
+    if (more > kOften * binary_.size() - read_) {
+      fail("its meshes and skins have more numbers than its buffer has bytes, several times over");
+    }
+    read_ += more;
+  }
   double number(const char* at, int type, std::size_t accessor) const {
     switch (type) {
       case 5121:
@@ -108,6 +116,7 @@ class GltfFile {
   MappedFile file_;
   Json scene_;
   std::string_view binary_;
+  std::size_t read_ = 0;  ///< numbers
 };
 
 Eigen::Matrix4d matrix_from(const std::vector<double>& columns) {
@@ -236,11 +245,9 @@ class RigReader {
     const std::vector<double> places =
         file_.numbers(attributes.at("POSITION").get<std::size_t>(), 3);
     const std::size_t count = places.size() / 3;
-    if (count > file_.buffer_size() - points_.size()) {
-      file_.fail("one mesh stands at so many nodes that they have more vertices than it has bytes");
-    }
     if (attributes.contains("_VERTEX_ID")) {
       const auto ids = file_.whole_numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
+      if (ids.size() != count) file_.fail("_VERTEX_ID and POSITION differ in length");
       rig_.vertex_ids.insert(rig_.vertex_ids.end(), ids.begin(), ids.end());
     }
     if (skin) return add_skinned(attributes, places, skin_of(*skin));

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "crowdface/core/error.h"
 #include "crowdface/io/image_memory.h"
 
 namespace crowdface {
@@ -48,10 +49,15 @@ struct ImageLimits {
   bool ours = false;                     ///< we wrote it: input_limits() are not asked
 };
 
+/// A file that is an image but does not hold all that it claims.
+class DamagedImage : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
 /// The (first) picture of a PNG, TIFF or OpenEXR file, told by its content and not by its name.
 /// Palettes are resolved; alpha and colours stay as they stand in the file.
-/// \throws MissingInput if there is no such file; InvalidInput if it is of another format, damaged
-///         or cut, beyond the limits, of integers of more than 16 bits, an EXR of which only a part
+/// \throws MissingInput if there is no such file; DamagedImage; InvalidInput if it is of another format, beyond the limits, of integers of more than 16 bits, an EXR of which only a part
 ///         is stored, a TIFF of another compression than none, LZW, Deflate and PackBits (with
 ///         `jpeg`: JPEG too), if a value is not finite (the first such pixel is named), or if all
 ///         images together would take more memory than they may.

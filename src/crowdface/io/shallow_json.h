@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -9,12 +10,25 @@ namespace crowdface {
 
 /// Reads JSON that others may have written. Values deeper than any of ours are left out: the library
 /// copies and prints values by recursion, and a hostile line would end on the stack's last page.
-/// \return what `is_discarded()` if the text is no JSON.
+/// \return what `is_discarded()` if the text is no JSON, or has an object of more keys than any of ours:
+/// the library compares each with all before it.
 inline nlohmann::ordered_json parse_shallow_json(std::string_view text) {
-  constexpr int kDeepest = 64;
-  using Event = nlohmann::ordered_json::parse_event_t;
-  return nlohmann::ordered_json::parse(
-      text, [](int depth, Event, nlohmann::ordered_json&) { return depth < kDeepest; }, false);
+  using Json = nlohmann::ordered_json;
+  constexpr int kDeepest = 64, kMostKeys = 1024;
+  struct TooManyKeys {};
+  std::array<int, kDeepest + 1> keys{};  // of the object that is open at each depth
+  const auto keep = [&](int depth, Json::parse_event_t event, Json&) {
+    if (depth >= kDeepest) return false;
+    const auto at = static_cast<std::size_t>(depth);
+    if (event == Json::parse_event_t::object_start) keys[at + 1] = 0;
+    if (event == Json::parse_event_t::key && ++keys[at] > kMostKeys) throw TooManyKeys();
+    return true;
+  };
+  try {
+    return Json::parse(text, keep, false);
+  } catch (const TooManyKeys&) {
+    return Json(Json::value_t::discarded);
+  }
 }
 
 }  // namespace crowdface

@@ -65,9 +65,12 @@ std::optional<HeadPerson> IctHeads::person(std::uint64_t /*seed*/, std::uint64_t
 
 FaceHeights IctHeads::heights() const {
   const auto height = [&](const std::vector<std::string>& words) {
-    return mean_of(neutral_.positions,
-                   vertices_of_material(neutral_.topology, file_.materials, words))
-        .y();
+    const auto vertices = vertices_of_material(neutral_.topology, file_.materials, words);
+    if (vertices.empty()) {
+      throw InvalidInput(concat(file_.path.string(), ": expected a material called like ",
+                                join(words), ", found none"));
+    }
+    return mean_of(neutral_.positions, vertices).y();
   };
   return {height({"Sclera"}), height({"Teeth"})};
 }

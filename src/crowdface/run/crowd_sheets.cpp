@@ -59,7 +59,11 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
   for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
   // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
-  add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
+  try {
+    add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
+  } catch (const MissingInput& error) {  // it was there a moment ago
+    throw IoError(error.what());
+  }
   hasher.add(format_founders(job, cast.founders));
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
@@ -122,6 +126,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   }
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   refuse_other_heads(job.settings, directory, Replace::kRefuse);
+  refuse_other_inputs(job.inputs, directory);
   std::vector<CastFace> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {

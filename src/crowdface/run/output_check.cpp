@@ -66,6 +66,40 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
              "plan --force)"));
 }
 
+std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs) {
+  std::vector<std::pair<std::string, Digest>> digests = {
+      {"textures", inputs.textures.digest},
+      {"shapes", inputs.shapes_digest},
+      {"points", inputs.points_digest},
+      {"rig", inputs.rig.digest},
+      {"attachments", inputs.attachments.digest}};
+  for (const HeadTextures& maps : inputs.maps) {
+    const TextureKind kind = maps.names.front().kind;
+    digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);
+  }
+  std::erase_if(digests, [](const auto& each) { return each.second == Digest(); });
+  return digests;
+}
+
+void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) {
+  if (!is_there(directory.report())) return;
+  const MappedFile file(directory.report());
+  const std::string_view whole = file.bytes();
+  const std::string_view report = whole.substr(0, whole.find("\n  \"faces\": ["));
+  std::vector<std::string> changed;
+  for (const auto& [name, digest] : digests_beside_heads(inputs)) {
+    const std::string begin = concat("\n    \"", name, "\": \"");
+    const std::size_t at = report.find(begin);
+    if (at == report.npos || report.substr(at + begin.size()).starts_with(digest.hex())) continue;
+    changed.push_back(name);
+  }
+  if (changed.empty()) return;
+  throw UsageError(concat(directory.root.string(), ": its faces were made with other ",
+                          join(changed),
+                          " than there are now (\"inputs\" in its report.json); run "
+                          "crowdface generate, which makes them anew"));
+}
+
 void check_output(const Job& job, Replace replace) {
   const CrowdDirectory directory = directory_of(job.config);
   refuse_to_write_over_inputs(job.config, directory);

@@ -13,6 +13,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
+#include "crowdface/run/output_check.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -200,6 +201,9 @@ Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const J
   report["heads"] = heads_to_json(job, cast);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
+  for (const auto& [name, digest] : digests_beside_heads(job.inputs)) {
+    report["inputs"][name] = digest.hex();
+  }
   report["distances"] = distances_to_json(casting["distances"]);
   report["casting"] = casting;
   if (!job.inputs.shapes.shapes.empty()) {

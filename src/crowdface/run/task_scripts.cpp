@@ -296,6 +296,8 @@ std::string_view name_of(Engine engine) {
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
                                          const EngineOptions& options) {
   const std::filesystem::path folder = job.directory.submitted();
+  refuse_folder_elsewhere(job.directory, folder);
+  refuse_folder_elsewhere(job.directory, folder / "log");
   make_directories(folder / "log");
   write_file(script_of(job), task_script(job));
   const Json notes = {{"engine", name_of(engine)},

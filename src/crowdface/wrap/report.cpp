@@ -17,7 +17,7 @@ constexpr double kSeen = 0.12;         // openness from which a vertex counts as
 constexpr double kMostMedianMm = 15;   // of the landmarks after the similarity
 constexpr double kMostDistanceMm = 3;  // 95 % of the visible skin
 constexpr double kFarMm = 3;
-constexpr double kMostFar = 0.02, kMostWithoutData = 0.15;
+constexpr double kMostFar = 0.02, kMostWithoutData = 0.15, kLeastWithData = 0.02;
 constexpr std::size_t kFewHeads = 8;
 
 double percentile(std::vector<double> values, double share) {
@@ -120,15 +120,20 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
 }
 
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result) {
+  if (share_without_data(shape, result) > 1 - kLeastWithData) {
+    throw InvalidInput(
+        "the scan shows nothing of the skin: is it a head, and do the landmarks, or --scan-up and "
+        "--scan-front, say how it stands?");
+  }
   std::vector<double> residuals;
   for (const LandmarkResidual& landmark : result.landmarks) residuals.push_back(landmark.pose_mm);
-  if (const double median = percentile(residuals, 0.5); median > kMostMedianMm) {
+  if (const double median = percentile(residuals, 0.5); !(median <= kMostMedianMm)) {
     throw InvalidInput(concat(
         "landmarks of template and scan do not belong together: half of them stay more than ",
         format_fixed(median, 1), " mm apart, expected less than ", kMostMedianMm,
         "; are left and right swapped, or vertices counted from 1?"));
   }
-  if (const double far = distances_of(shape, result).percentile_95; far > kMostDistanceMm) {
+  if (const double far = distances_of(shape, result).percentile_95; !(far <= kMostDistanceMm)) {
     throw InvalidInput(
         concat("5 % of the skin stay more than ", format_fixed(far, 1),
                " mm off the scan, expected less than ", kMostDistanceMm,

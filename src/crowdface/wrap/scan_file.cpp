@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/scan_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -8,10 +9,23 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 
 static_assert(std::endian::native == std::endian::little);
+
+namespace {
+
+constexpr double kFarthest = 1e9;  // as landmarks may be
+
+bool has_area(const Scan& scan) {
+  return std::ranges::any_of(scan.triangles, [&](const Triangle& triangle) {
+    return length3(area_vector(scan.positions, triangle)) > 0;
+  });
+}
+
+}  // namespace
 
 Scan read_scan(const std::filesystem::path& path) {
   const std::string ending = lower_case(path.extension().string()), name = path.string();
@@ -33,8 +47,12 @@ Scan read_scan(const std::filesystem::path& path) {
     throw InvalidInput(concat(name, ": expected a surface of triangles, found ",
                               scan.positions.rows(), " points and no face"));
   }
-  if (!scan.positions.allFinite()) {
-    throw InvalidInput(concat(name, ": expected finite positions, found one that is not"));
+  if (!(scan.positions.array().abs() <= kFarthest).all()) {
+    throw InvalidInput(concat(name, ": expected finite positions, none farther than ", kFarthest,
+                              " from the origin, found another"));
+  }
+  if (!has_area(scan)) {
+    throw InvalidInput(concat(name, ": expected a surface, found triangles without area"));
   }
   weld(scan);
   return scan;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -17,8 +18,7 @@ using Json = nlohmann::json;
 
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kTriangles = 4;
-constexpr int kDeepest = 64;                      ///< nodes below nodes, values within values
-constexpr std::size_t kMostPoints = 100'000'000;  ///< of all nodes: a mesh may stand in many
+constexpr int kDeepest = 64;  ///< nodes below nodes, values within values
 
 /// Walks through the scene of a GLB file (glTF 2.0, sections 3 and 4) and collects its triangles.
 class GlbReader {
@@ -98,9 +98,10 @@ class GlbReader {
     if (!visited_.insert(index).second) fail(concat("node ", index, " stands in two places"));
     const Eigen::Matrix4d matrix = above * matrix_of(node);
     if (node.contains("mesh")) {
+      std::map<std::size_t, std::uint32_t> known;
       for (const Json& primitive :
            json_.at("meshes").at(node["mesh"].get<std::size_t>()).at("primitives")) {
-        add(primitive, matrix);
+        add(primitive, matrix, known);
       }
     }
     if (!node.contains("children")) return;
@@ -140,26 +141,38 @@ class GlbReader {
     return found;
   }
 
-  void add(const Json& primitive, const Eigen::Matrix4d& matrix) {
-    if (primitive.value("mode", kTriangles) != kTriangles) return;
-    const auto first = static_cast<std::uint32_t>(points_.size());
-    const Values places = values(primitive.at("attributes").at("POSITION").get<std::size_t>(), 3);
+  void add_points(const Values& places, const Eigen::Matrix4d& matrix) {
     if (places.type != 5126) fail("positions are no floats");
-    if (places.count > kMostPoints - points_.size()) {
-      fail(concat("its nodes have more than ", kMostPoints, " vertices"));
-    }
+    require_room(places.count, points_.size(), "vertices");
     for (std::size_t i = 0; i < places.count; ++i) {
       std::array<float, 3> p{};
       std::memcpy(p.data(), places.first + i * places.stride, sizeof p);
       const Eigen::Vector4d point(p[0], p[1], p[2], 1);
       points_.emplace_back((matrix * point).head<3>());
     }
+  }
+
+  /// A mesh may stand at many nodes, and many primitives may name the same data.
+  void require_room(std::size_t more, std::size_t so_far, const char* of_what) const {
+    if (more <= binary_.size() - so_far) return;
+    fail(concat("one mesh stands at so many nodes that they have more ", of_what,
+                " than it has bytes"));
+  }
+
+  /// \param known  the first point of each accessor that another primitive of the node has named
+  void add(const Json& primitive, const Eigen::Matrix4d& matrix,
+           std::map<std::size_t, std::uint32_t>& known) {
+    if (primitive.value("mode", kTriangles) != kTriangles) return;
+    const auto accessor = primitive.at("attributes").at("POSITION").get<std::size_t>();
+    const Values places = values(accessor, 3);
+    const auto [found, is_new] =
+        known.try_emplace(accessor, static_cast<std::uint32_t>(points_.size()));
+    if (is_new) add_points(places, matrix);
+    const std::uint32_t first = found->second;
     std::vector<std::uint32_t> corners;
     if (primitive.contains("indices")) {
       const Values indices = values(primitive["indices"].get<std::size_t>(), 1);
-      if (indices.count / 3 > 2 * kMostPoints - triangles_.size()) {
-        fail(concat("its nodes have more than ", 2 * kMostPoints, " triangles"));
-      }
+      require_room(indices.count / 3, triangles_.size(), "triangles");
       for (std::size_t i = 0; i < indices.count; ++i) {
         const char* at = indices.first + i * indices.stride;
         std::uint32_t corner = 0;
@@ -168,6 +181,7 @@ class GlbReader {
         corners.push_back(first + corner);
       }
     } else {
+      require_room(places.count / 3, triangles_.size(), "triangles");
       for (std::uint32_t i = 0; i < places.count; ++i) corners.push_back(first + i);
     }
     const bool mirrored = matrix.topLeftCorner<3, 3>().determinant() < 0;

@@ -135,6 +135,16 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
   return guess_pose(bent, shape.reduced ? bent.of(rest) : rest, shape.axes, surface, *hint);
 }
 
+void refuse_no_pose(const Similarity& pose) {
+  if (std::isfinite(pose.scale) && std::isfinite(1 / pose.scale) && pose.translation.allFinite() &&
+      pose.rotation.allFinite()) {
+    return;
+  }
+  throw InvalidInput(
+      "template and scan cannot be laid on each other; are the landmarks in different places, and "
+      "is the scan a head?");
+}
+
 }  // namespace
 
 ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
@@ -173,6 +183,7 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
     }
   }
   result.pose = fit.pose;
+  refuse_no_pose(fit.pose);
   const Similarity back = inverse(fit.pose);
   const ScanSurface surface(moved(scan, back));
   move(landmarks, back);
