@@ -100,10 +100,11 @@ reference::Heads SmallCrowdFolder::reference_heads() const {
 void expect_meshes_match_plan(const SmallCrowdFolder& folder, const std::filesystem::path& out) {
   const reference::Heads heads = folder.reference_heads();
   // Single precision; fitted levels may miss each of the two heads' worth of detail by 0.05 mm.
-  const double tolerance = (folder.crowd().levels == "basis"   ? 0.012
-                            : folder.crowd().levels == "cubic" ? 1.2e-3  // fields in 16 bits, in steps of powers of two
-                                                               : 2e-5) *
-                           folder.crowd().bowl.per_cm;
+  const double tolerance =
+      (folder.crowd().levels == "basis"   ? 0.012
+       : folder.crowd().levels == "cubic" ? 1.2e-3  // fields in 16 bits, in steps of powers of two
+                                          : 2e-5) *
+      folder.crowd().bowl.per_cm;
   std::map<std::string, reference::Cubics> cubics;
   if (folder.crowd().levels == "cubic") {
     const auto max_level =

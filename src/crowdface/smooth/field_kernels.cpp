@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "crowdface/smooth/level_fields.h"
+#include "crowdface/smooth/field_tile.h"
 
 #include "hwy/highway.h"
 

@@ -8,13 +8,9 @@
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
+#include "crowdface/smooth/field_tile.h"
 
 namespace crowdface {
-
-/// Vertices whose numbers of all fields stand together, so that blending them reads one piece of memory
-/// a head.
-inline constexpr std::size_t kFieldTile = 64;
-inline constexpr std::size_t kTileValues = 3 * kFieldTile;
 
 /// Fields c_0 … c_{R−1} of one head, #V by 3 each. A tile of vertices has the first of them, as many as it needs;
 /// the others are zero there. Values are whole numbers of 16 bits times a step of their tile and field: a power of two, so
