@@ -160,15 +160,15 @@ TEST_F(OwnTextures, AreNotMadeWhereTheTargetsAreAskedFor) {
 
 // Sheets showed textures that no mesh has.
 TEST_F(OwnTextures, SheetsOfOtherTexturesAreRefused) {
-  const std::string kSheet = "output.contact_sheet={columns: 2, cell: 48}";
-  run(folder_, {kSheet});
+  const std::string sheet = "output.contact_sheet={columns: 2, cell: 48}";
+  run(folder_, {sheet});
   remake_sheets(folder_.out(), {}, folder_.cache());
   remake_sheets(folder_.out(), {"output.contact_sheet.texture=false"}, folder_.cache());
   fs::copy_file(folder_ / "heads/dan.png", folder_ / "heads/cyd.png",
                 fs::copy_options::overwrite_existing);
   testing::expect_error(ExitCode::kUsage, {folder_.out().string(), "made with other textures"},
                         [&] { remake_sheets(folder_.out(), {}, folder_.cache()); });
-  run(folder_, {kSheet});
+  run(folder_, {sheet});
   remake_sheets(folder_.out(), {}, folder_.cache());
 }
 
