@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 #include <span>
@@ -239,6 +240,25 @@ std::optional<std::string> told_of_single(const HeadsTextures& textures, const F
                 "): only faces with such a target get it, as it is");
 }
 
+/// Does without pictures that turn out to be damaged when they are read: loads again, as if they were not there.
+/// \param load  makes what blends of a copy.
+template <class Load>
+HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) {
+  std::map<std::filesystem::path, std::string> damaged;  // told in order, whichever was met first
+  for (;;) {
+    try {
+      HeadTextures loaded = load(found);
+      for (const auto& [file, why] : damaged) {
+        warn(inputs, concat(why, "; the texture is neither blended nor shown"));
+      }
+      return loaded;
+    } catch (const DamagedImage& error) {
+      damaged.emplace(error.path, error.what());
+      leave_out(found, {error.path});
+    }
+  }
+}
+
 void read_textures(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
                    Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
@@ -259,26 +279,31 @@ void read_textures(const Config& config, const std::filesystem::path& cache, Inp
     if (!asked_for) {
       for (std::string& text : leave_out_unreadable(found)) warn(inputs, std::move(text));
     }
-    const bool any = found.any();
-    if (!any) {
-      for (std::string& text : found.warnings) warn(inputs, std::move(text));
-    } else if (blend && found.differ()) {
-      inputs.textures = load_blended_textures(inputs.faces, inputs.materials, std::move(found),
-                                              config.textures.size, cache);
-    } else if (shown) {
-      inputs.textures = load_coats(std::move(found), shown_texels(*sheet));
-    }
+    const auto load_blended = [&](const HeadsTextures& textures) {
+      return load_blended_textures(inputs.faces, inputs.materials, textures, config.textures.size,
+                                   cache);
+    };
+    const auto load_colours = [&](const HeadsTextures& textures) {
+      if (textures.any() && blend && textures.differ()) return load_blended(textures);
+      if (textures.any() && shown) return load_coats(textures, shown_texels(*sheet));
+      HeadTextures none;
+      if (!textures.any()) none.warnings = textures.warnings;
+      return none;
+    };
+    inputs.textures = asked_for ? load_colours(found) : load_sound(found, inputs, load_colours);
     for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
     for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
       const bool pictured = shown && is_shown(kinds[k].kind);
       if (!pictured && config.output.meshes.empty()) continue;
       for (std::string& text : leave_out_unreadable(kinds[k])) warn(inputs, std::move(text));
+      HeadTextures maps = load_sound(kinds[k], inputs, [&](const HeadsTextures& textures) {
+        return textures.differ() ? load_blended(textures) : HeadTextures();
+      });
       if (!kinds[k].differ()) {
         if (auto text = told_of_single(kinds[k], inputs.faces)) warn(inputs, std::move(*text));
         continue;
       }
-      inputs.maps.push_back(load_blended_textures(
-          inputs.faces, inputs.materials, std::move(kinds[k]), config.textures.size, cache));
+      inputs.maps.push_back(std::move(maps));
       for (const std::string& text : inputs.maps.back().warnings) warn(inputs, text);
     }
   } catch (const Error& error) {

@@ -83,23 +83,12 @@ bool HeadsTextures::differ() const {
   return false;
 }
 
-std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
-  std::vector<std::string> warnings;
-  std::map<fs::path, bool> readable;
+void leave_out(HeadsTextures& textures, const std::set<fs::path>& files) {
   for (WornTextures& worn : textures.heads) {
     std::vector<std::uint32_t> row(worn.files.size(), kNoIndex);
     std::vector<WornTextures::File> kept;
     for (std::size_t i = 0; i < worn.files.size(); ++i) {
-      const auto [known, is_new] = readable.try_emplace(worn.files[i].path, true);
-      try {
-        if (is_new) read_image_size(worn.files[i].path, {.jpeg = true});
-      } catch (const DamagedImage&) {
-        throw;
-      } catch (const InvalidInput& error) {
-        known->second = false;
-        warnings.push_back(concat(error.what(), "; the texture is neither blended nor shown"));
-      }
-      if (!known->second) continue;
+      if (files.contains(worn.files[i].path)) continue;
       row[i] = static_cast<std::uint32_t>(kept.size());
       kept.push_back(worn.files[i]);
     }
@@ -108,6 +97,23 @@ std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
       if (file != kNoIndex) file = row[file];
     }
   }
+}
+
+std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
+  std::vector<std::string> warnings;
+  std::set<fs::path> seen, unreadable;
+  for (const WornTextures& worn : textures.heads) {
+    for (const WornTextures::File& file : worn.files) {
+      if (!seen.insert(file.path).second) continue;
+      try {
+        read_image_size(file.path, {.jpeg = true});
+      } catch (const InvalidInput& error) {
+        unreadable.insert(file.path);
+        warnings.push_back(concat(error.what(), "; the texture is neither blended nor shown"));
+      }
+    }
+  }
+  leave_out(textures, unreadable);
   return warnings;
 }
 

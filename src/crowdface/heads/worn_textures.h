@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,7 +38,9 @@ struct HeadsTextures {
   bool differ() const;
 };
 
-/// Takes away what is no image that we read: those heads have no texture there. \return what to say of it.
+/// Takes files away: those heads have no texture there.
+void leave_out(HeadsTextures& textures, const std::set<std::filesystem::path>& files);
+/// What is no image that we read. \return what to say of it.
 std::vector<std::string> leave_out_unreadable(HeadsTextures& textures);
 
 /// Reads material files, and asks which textures are there; reads none of these. What is wrong with

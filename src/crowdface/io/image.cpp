@@ -22,10 +22,6 @@ using std::filesystem::path;
   throw InvalidInput(concat(file.string(), ": ", what));
 }
 
-[[noreturn]] void refuse_damaged(const path& file, const std::string& what) {
-  throw DamagedImage(concat(file.string(), ": ", what));
-}
-
 /// \return the format's name in OpenImageIO; files that no decoder should see are refused.
 std::string checked_format(const path& file, std::string_view bytes, const ImageLimits& limits) {
   std::string format = image_format(bytes);
@@ -37,9 +33,7 @@ std::string checked_format(const path& file, std::string_view bytes, const Image
   }
   if (const std::string defect = container_defect(format, bytes, limits.max_side, limits.jpeg);
       !defect.empty()) {
-    // Of what is sound but not read here it says what was expected.
-    if (defect.starts_with("expected")) refuse(file, defect);
-    refuse_damaged(file, defect);
+    refuse(file, defect);
   }
   return format;
 }
@@ -100,10 +94,9 @@ void check_png_claim(const path& file, std::string_view bytes, const PictureFact
   const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
   const std::uint64_t claimed = row * static_cast<std::uint64_t>(spec.height);
   if (claimed <= kMostOfOneByte * bytes.size() + row) return;
-  refuse_damaged(
-      file, concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
-                   " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
-                   " bytes, found ", bytes.size(), " (cut short?)"));
+  refuse(file, concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
+                      " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
+                      " bytes, found ", bytes.size(), " (cut short?)"));
 }
 
 void check_kind(const path& file, std::string_view format, const PictureFacts& spec) {
@@ -159,10 +152,10 @@ void check_finite(const path& file, const Image& image) {
     if (std::isfinite(pixels[i])) continue;
     const auto channels = static_cast<std::size_t>(image.channels);
     const auto width = static_cast<std::size_t>(image.width);
-    refuse(file,
-           concat("expected finite values, found ", pixels[i] != pixels[i] ? "NaN" : "infinity",
-                  " at column ", i / channels % width + 1, ", row ", i / channels / width + 1,
-                  ", channel ", i % channels + 1));
+    throw DamagedImage(file, concat(file.string(), ": expected finite values, found ",
+                                    pixels[i] != pixels[i] ? "NaN" : "infinity", " at column ",
+                                    i / channels % width + 1, ", row ", i / channels / width + 1,
+                                    ", channel ", i % channels + 1));
   }
 }
 
@@ -198,7 +191,7 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
   if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(facts));
   std::string error;
   if (!image_codec().read(*picture, make_room(file, facts, image), error)) {
-    refuse_damaged(file, concat("is damaged or cut short: ", error));
+    throw DamagedImage(file, concat(file.string(), ": is damaged or cut short: ", error));
   }
   check_finite(file, image);
   return image;

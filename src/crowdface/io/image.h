@@ -49,18 +49,21 @@ struct ImageLimits {
   bool ours = false;                     ///< we wrote it: input_limits() are not asked
 };
 
-/// A file that is an image but does not hold all that it claims.
+/// What seemed an image turned out to be damaged when its pixels were read.
 class DamagedImage : public InvalidInput {
  public:
-  using InvalidInput::InvalidInput;
+  DamagedImage(std::filesystem::path image, const std::string& what)
+      : InvalidInput(what), path(std::move(image)) {}
+  std::filesystem::path path;
 };
 
 /// The (first) picture of a PNG, TIFF or OpenEXR file, told by its content and not by its name.
 /// Palettes are resolved; alpha and colours stay as they stand in the file.
-/// \throws MissingInput if there is no such file; DamagedImage; InvalidInput if it is of another format, beyond the limits, of integers of more than 16 bits, an EXR of which only a part
-///         is stored, a TIFF of another compression than none, LZW, Deflate and PackBits (with
-///         `jpeg`: JPEG too), if a value is not finite (the first such pixel is named), or if all
-///         images together would take more memory than they may.
+/// \throws MissingInput if there is no such file; DamagedImage if its pixels cannot be read or one
+///         is not finite (the first is named); InvalidInput if it is of another format, cut, beyond
+///         the limits, of integers of more than 16 bits, an EXR of which only a part is stored, a
+///         TIFF of another compression than none, LZW, Deflate and PackBits (with `jpeg`: JPEG
+///         too), or if all images together would take more memory than they may.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
 /// What read_image would find, without decoding it. \throws as it does.

@@ -71,6 +71,18 @@ void AttachmentWriters::add_level_forms(const WornLevel& level) {
   }
 }
 
+/// At rest and in each shape that has a file.
+template <class Add>
+void AttachmentWriters::add_poses(const WornAttachment& worn, const Add& add) const {
+  add({}, worn.positions);
+  const std::span<const Shape> shapes = shapes_in_files(*worn.item, formats_, inputs_);
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    Positions acting = worn.positions;
+    worn.moves[s].add_to(acting);
+    add(shapes[s].name, acting);
+  }
+}
+
 void AttachmentWriters::add_to(std::vector<EncodedMesh>& meshes, const std::string& id,
                                std::span<const WornAttachment> worn) const {
   if (!attachments_have_files(formats_)) return;
@@ -82,13 +94,7 @@ void AttachmentWriters::add_to(std::vector<EncodedMesh>& meshes, const std::stri
       if (!form.libraries.empty()) file.replace_line("mtllib", form.libraries);
       meshes.push_back({std::move(name), std::move(file)});
     };
-    add({}, one.positions);
-    const std::span<const Shape> shapes = shapes_in_files(*one.item, formats_, inputs_);
-    for (std::size_t s = 0; s < shapes.size(); ++s) {
-      Positions acting = one.positions;
-      one.moves[s].add_to(acting);
-      add(shapes[s].name, acting);
-    }
+    add_poses(one, add);
   }
   for (std::size_t level = 1; level <= level_forms_.size(); ++level) {
     add_level(meshes, level, id, levels_[level - 1].of(worn));
@@ -111,13 +117,7 @@ void AttachmentWriters::add_level(std::vector<EncodedMesh>& meshes, std::size_t 
       if (form.fans) normals = vertex_normals(*form.fans, topology, positions);
       meshes.push_back({std::move(name), form.obj.encode(head, positions, normals, what)});
     };
-    add({}, one.positions);
-    const std::span<const Shape> shapes = shapes_in_files(*one.item, formats_, inputs_);
-    for (std::size_t s = 0; s < shapes.size(); ++s) {
-      Positions acting = one.positions;
-      one.moves[s].add_to(acting);
-      add(shapes[s].name, acting);
-    }
+    add_poses(one, add);
   }
 }
 

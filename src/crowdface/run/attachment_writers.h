@@ -52,6 +52,8 @@ class AttachmentWriters {
   };
   using LevelForms = std::map<const Attachment*, LevelForm>;
 
+  template <class Add>
+  void add_poses(const WornAttachment& worn, const Add& add) const;
   void add_level(std::vector<EncodedMesh>& meshes, std::size_t level, const std::string& id,
                  std::span<const WornAttachment> worn) const;
   void add_level_forms(const WornLevel& level);

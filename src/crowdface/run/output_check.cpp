@@ -8,6 +8,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/shallow_json.h"
+#include "crowdface/run/report_summary.h"
 
 namespace crowdface {
 namespace {
@@ -83,15 +84,12 @@ std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& i
 
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) {
   if (!is_there(directory.report())) return;
-  const MappedFile file(directory.report());
-  const std::string_view whole = file.bytes();
-  const std::string_view report = whole.substr(0, whole.find("\n  \"faces\": ["));
+  const auto report = read_report_summary(directory.report());
+  if (!report.is_object() || !report.contains("inputs")) return;
+  const auto& recorded = report["inputs"];
   std::vector<std::string> changed;
   for (const auto& [name, digest] : digests_beside_heads(inputs)) {
-    const std::string begin = concat("\n    \"", name, "\": \"");
-    const std::size_t at = report.find(begin);
-    if (at == report.npos || report.substr(at + begin.size()).starts_with(digest.hex())) continue;
-    changed.push_back(name);
+    if (recorded.contains(name) && recorded[name] != digest.hex()) changed.push_back(name);
   }
   if (changed.empty()) return;
   throw UsageError(concat(directory.root.string(), ": its faces were made with other ",

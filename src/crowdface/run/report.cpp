@@ -14,6 +14,7 @@
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
 #include "crowdface/run/output_check.h"
+#include "crowdface/run/report_summary.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -222,7 +223,7 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cas
   std::string head = summary(job, prepared, cast, casting, files, sheets, warnings)
                          .dump(2, ' ', false, Json::error_handler_t::replace);
   head.resize(head.size() - std::string_view("\n}").size());
-  return [&, head = head + ",\n  \"faces\": ["](const TakePiece& take) {
+  return [&, head = concat(head, kBeforeFaces)](const TakePiece& take) {
     take(head);
     text_of_items(files.size(), [&](std::size_t i) {
       return concat(i > 0 ? ",\n    " : "\n    ",
