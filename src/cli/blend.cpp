@@ -55,12 +55,12 @@ void declare(CLI::App& command, Options& options) {
   options.config.add_to(command);
   add_option(command, "--recipe", options.recipe, "PLAN.jsonl#ID",
              "Which: the plan's file, #, the face's id")
-      ->required();
+      .required();
   add_option(command, "-o,--output", options.out, "OUT.obj|ply|glb|npy|usda",
              "The mesh to write; its ending says the format")
-      ->required();
-  command.add_flag("--any-settings", options.any_settings,
-                   "Blend even if heads, masks or smoothing differ from the plan's");
+      .required();
+  add_flag(command, "--any-settings", options.any_settings,
+           "Blend even if heads, masks or smoothing differ from the plan's");
 }
 
 void blend(const Options& options) {

@@ -18,7 +18,7 @@ Run add_cache(CLI::App& program) {
       program, "cache", "Where heads are kept, as read and prepared, and what is there",
       [](CLI::App& command, Options& options) {
         options.cache.add_to(command);
-        command.add_flag("--clear", options.clear, "Remove all entries");
+        add_flag(command, "--clear", options.clear, "Remove all entries");
       },
       [](const Options& options) {
         const std::filesystem::path folder = options.cache.cache_path();

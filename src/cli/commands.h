@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include <CLI/CLI.hpp>
+#include "cli/command_line.h"
 
 namespace crowdface::cli {
 

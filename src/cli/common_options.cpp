@@ -18,13 +18,6 @@
 namespace crowdface::cli {
 namespace {
 
-/// An option whose value is kept only if it was given.
-void add_optional(CLI::App& command, const std::string& name, std::optional<std::string>& value,
-                  const std::string& type, const std::string& help) {
-  const auto keep = [&value](const std::string& text) { value = text; };
-  command.add_option_function<std::string>(name, keep, help)->type_name(type);
-}
-
 /// Lines of a log begin with the date, 2026-11-22T: whatever does not is no log.
 bool begins_like_a_log(const std::string& path) {
   constexpr std::string_view kForm = "dddd-dd-ddT";
@@ -47,24 +40,10 @@ void open_log(const std::string& path) {
 
 }  // namespace
 
-CLI::Option* add_option(CLI::App& command, const std::string& name, std::string& value,
-                        const std::string& type, const std::string& help) {
-  CLI::Option* option = command.add_option(name, value, help)->type_name(type);
-  return value.empty() ? option : option->capture_default_str();
-}
-
-void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                  const std::string& type, const std::string& help) {
-  command.add_option(name, values, help + "; may be repeated")
-      ->type_name(type)
-      ->expected(1)
-      ->take_all();
-}
-
 void CommonOptions::add_to(CLI::App& command) {
   add_option(command, "--threads", threads, "N", "Threads to use (default: all the machine has)");
-  auto* quiet_flag = command.add_flag("-q,--quiet", quiet, "Only warnings and errors");
-  command.add_flag("-v,--verbose", verbose, "More about what happens")->excludes(quiet_flag);
+  add_flag(command, "-q,--quiet", quiet, "Only warnings and errors");
+  add_flag(command, "-v,--verbose", verbose, "More about what happens").excludes({"-q"});
   add_option(command, "--log-file", log_file, "FILE", "Also write everything to this file");
   add_repeated(command, "--limit", limits, "NAME=NUMBER",
                "How large inputs may be: " + describe_input_limits());
@@ -90,7 +69,7 @@ std::filesystem::path CacheOption::cache_path() const {
 }
 
 void ConfigOptions::add_to(CLI::App& command) {
-  add_option(command, "config", config, "CONFIG", "The config file (docs/config.md)")->required();
+  add_option(command, "config", config, "CONFIG", "The config file (docs/config.md)").required();
   add_repeated(command, "--set", overrides.set, "KEY.PATH=VALUE",
                "Override one config value, such as smoothing.boundary=free");
   add_optional(command, "--seed", overrides.seed, "N", "Override crowd.seed");
@@ -105,9 +84,9 @@ void ConfigOptions::add_review_to(CLI::App& command) {
 }
 
 void WriteOptions::add_to(CLI::App& command) {
-  command.add_flag("--force", force, "Replace another config's crowd in the output folder");
-  command.add_flag("--dry-run", dry_run,
-                   "Check everything, say what would be written, write nothing");
+  add_flag(command, "--force", force, "Replace another config's crowd in the output folder");
+  add_flag(command, "--dry-run", dry_run,
+           "Check everything, say what would be written, write nothing");
   add_option(command, "--memory", memory, "SIZE",
              "How much the run may take, such as \"4 GiB\" (default: three quarters of what there "
              "is): sets how many faces are in flight; images take at most half of it");
@@ -116,10 +95,9 @@ void WriteOptions::add_to(CLI::App& command) {
 void WriteOptions::add_shard_to(CLI::App& command) {
   add_option(command, "--shard", shard, "I/N",
              "Only part I of N of the faces; `crowdface gather` puts the parts together");
-  command
-      .add_flag("--planned", planned,
-                "Only with the plan that `crowdface plan` left in the folder; cast nothing")
-      ->needs("--shard");
+  add_flag(command, "--planned", planned,
+           "Only with the plan that `crowdface plan` left in the folder; cast nothing")
+      .needs("--shard");
 }
 
 GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {

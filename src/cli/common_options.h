@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
-
 #include "crowdface/config/config_reader.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/run/generate.h"
@@ -70,15 +68,6 @@ Shard shard_from(const std::string& text);
 /// A size with its unit, "4 GiB", of an option; 0 if `text` is empty. \throws UsageError.
 std::uint64_t bytes_from(std::string_view option, const std::string& text);
 
-/// An option with a value, "-o,--output", or an argument, "config". A default that stands in `value`
-/// is shown. \param type  "DIR", what help calls the value.
-CLI::Option* add_option(CLI::App& command, const std::string& name, std::string& value,
-                        const std::string& type, const std::string& help);
-
-/// An option that may be repeated; its values come one after the other.
-void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                  const std::string& type, const std::string& help);
-
 /// What a command is asked for, on standard output: made printable, as logs are.
 void print(std::string_view text);
 
@@ -93,9 +82,9 @@ template <class Options>
 Run add_command(CLI::App& program, const char* name, const char* description,
                 void (*declare)(CLI::App&, Options&), void (*work)(const Options&)) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(name, description);
-  declare(*command, *options);
-  options->CommonOptions::add_to(*command);
+  CLI::App& command = add_subcommand(program, name, description);
+  declare(command, *options);
+  options->CommonOptions::add_to(command);
   return [options, work] {
     const auto threads = options->apply();
     work(*options);

@@ -22,11 +22,11 @@ void declare(CLI::App& command, Options& options) {
              "The port on 127.0.0.1 to serve at; 0: any that is free");
   add_option(command, "--preview-vertices", options.preview_vertices, "N",
              "About how many vertices the page shows at most");
-  command.add_flag("--benchmark", options.benchmark,
-                   "Serve nothing: print how long full faces take after a change");
-  command.add_flag("--hash-all", options.hash_all,
-                   "Read heads and cache whole, also where nobody has written to them since");
-  command.add_flag("--no-browser", options.no_browser, "Open no browser, print the address only");
+  add_flag(command, "--benchmark", options.benchmark,
+           "Serve nothing: print how long full faces take after a change");
+  add_flag(command, "--hash-all", options.hash_all,
+           "Read heads and cache whole, also where nobody has written to them since");
+  add_flag(command, "--no-browser", options.no_browser, "Open no browser, print the address only");
 }
 
 void edit(const Options& options) {

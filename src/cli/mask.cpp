@@ -109,10 +109,10 @@ void mask(const Options& options) {
 
 void declare(CLI::App& command, Options& options) {
   add_option(command, "heads", options.heads, "HEADS_DIR|CONFIG", "A folder of heads, or a config")
-      ->required();
+      .required();
   add_option(command, "-o,--output", options.out, "FILE.png",
              "Where the mask goes; the tiles of a UDIM layout bear their numbers before the ending")
-      ->required();
+      .required();
   add_option(command, "--bands", options.bands, "LIST",
              "The regions, in this order: brow,nose,mouth and, if wanted, ears and neck");
   add_option(command, "--size", options.size, "N",
@@ -121,7 +121,7 @@ void declare(CLI::App& command, Options& options) {
   add_option(command, "--front", options.front, "AXIS",
              "Of a folder: where the heads look (default: told from their shape)");
   options.cache.add_to(command);
-  command.add_flag("--force", options.force, "Replace images that hold something else");
+  add_flag(command, "--force", options.force, "Replace images that hold something else");
 }
 
 }  // namespace

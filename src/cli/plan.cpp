@@ -20,10 +20,9 @@ Run add_plan(CLI::App& program) {
         options.config.add_to(command);
         options.config.add_review_to(command);
         options.write.add_to(command);
-        command
-            .add_flag("--estimate", options.estimate,
-                      "Cast nothing: how many faces these heads hold at which distance")
-            ->excludes("--dry-run", "--force", "--memory");
+        add_flag(command, "--estimate", options.estimate,
+                 "Cast nothing: how many faces these heads hold at which distance")
+            .excludes({"--dry-run", "--force", "--memory"});
       },
       [](const Options& options) {
         const ConfigOptions& job = options.config;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <vector>
 
 #include "crowdface/blend/recipe_bounds.h"
@@ -78,26 +77,30 @@ void smooth_file(const Options& options) {
 /// An option that takes one of the words of its type.
 template <class Value>
 void add_word_option(CLI::App& command, const char* name, Value& value, const char* help) {
-  std::map<std::string, Value> words;
-  for (const auto& word : words_of<Value>()) words.emplace(word.text, word.value);
-  const auto choose = [words, &value](const std::string& text) { value = words.at(text); };
-  command.add_option_function<std::string>(name, choose, help)
-      ->check(CLI::IsMember(words))
-      ->default_str(std::string(word_of(value)));
+  std::vector<std::string> words;
+  for (const auto& word : words_of<Value>()) words.emplace_back(word.text);
+  const auto choose = [&value](const std::string& text) {
+    for (const auto& word : words_of<Value>()) {
+      if (word.text == text) value = word.value;
+    }
+  };
+  add_option(command, name, choose, "WORD", help)
+      .one_of(words)
+      .shown_default(std::string(word_of(value)));
 }
 
 void declare(CLI::App& command, Options& options) {
-  add_option(command, "input", options.in, "IN.obj", "The mesh")->required();
+  add_option(command, "input", options.in, "IN.obj", "The mesh").required();
   add_option(command, "--iterations", options.iterations, "L[,L...]",
              "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
              "and go to OUT_500.obj, OUT_2500.obj")
-      ->required();
-  add_option(command, "-o,--output", options.out, "OUT.obj", "The mesh to write")->required();
+      .required();
+  add_option(command, "-o,--output", options.out, "OUT.obj", "The mesh to write").required();
   add_word_option(command, "--boundary", options.boundary, "Open rims stay (fixed) or move (free)");
   add_word_option(command, "--operator", options.operator_kind,
                   "The mean of the neighbours (umbrella), or half-way to it (lazy)");
-  command.add_flag("--plain", options.plain,
-                   "Iterate one by one instead of filtering: slow, for comparison");
+  add_flag(command, "--plain", options.plain,
+           "Iterate one by one instead of filtering: slow, for comparison");
 }
 
 }  // namespace

@@ -25,11 +25,10 @@ struct Options : CommonOptions {
 };
 
 void declare(CLI::App& command, Options& options) {
-  add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder")
-      ->required();
-  command.add_flag("--json", options.json, "As one JSON object on one line");
-  command.add_flag("--watch", options.watch, "Look again and again until the crowd is finished");
-  add_option(command, "--every", options.every, "SECONDS", "How often to look")->needs("--watch");
+  add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder").required();
+  add_flag(command, "--json", options.json, "As one JSON object on one line");
+  add_flag(command, "--watch", options.watch, "Look again and again until the crowd is finished");
+  add_option(command, "--every", options.every, "SECONDS", "How often to look").needs("--watch");
 }
 
 void wait(std::uint64_t seconds) {

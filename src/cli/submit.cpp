@@ -55,7 +55,7 @@ void declare(CLI::App& command, Options& options) {
                "Given to sbatch or parallel as it is, such as --engine-option=--account=films");
   add_option(command, "--program", options.program, "FILE",
              "The program on the machines (default: this one)");
-  command.add_flag("--print", options.print, "Write the scripts and submit nothing");
+  add_flag(command, "--print", options.print, "Write the scripts and submit nothing");
 }
 
 fs::path full_path(const fs::path& path) {

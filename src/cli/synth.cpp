@@ -126,7 +126,7 @@ void synth(const Options& options) {
 }
 
 void declare(CLI::App& command, Options& options) {
-  add_option(command, "-o,--output", options.out, "DIR", "The folder to write to")->required();
+  add_option(command, "-o,--output", options.out, "DIR", "The folder to write to").required();
   add_option(command, "--count", options.count, "N", "How many heads");
   add_option(command, "--vertices", options.vertices, "V",
              "About how many vertices each, 5000 to 1200000");
@@ -137,13 +137,13 @@ void declare(CLI::App& command, Options& options) {
   add_option(command, "--textures", options.textures, "SIZE",
              "Give each head hair and paint it, pictures of this side in texels: NAME_albedo.png, "
              "NAME_normal.png, NAME_roughness.png, NAME.mtl");
-  command.add_flag("--hair", options.hair,
-                   "With --textures: hair as meshes of its own, to DIR/attachments, and --tags");
-  command.add_flag("--skin-only", options.skin_only,
-                   "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
-  command.add_flag("--tags", options.tags,
-                   "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
-  command.add_flag("--force", options.force, "Replace files that hold something else");
+  add_flag(command, "--hair", options.hair,
+           "With --textures: hair as meshes of its own, to DIR/attachments, and --tags");
+  add_flag(command, "--skin-only", options.skin_only,
+           "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
+  add_flag(command, "--tags", options.tags,
+           "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
+  add_flag(command, "--force", options.force, "Replace files that hold something else");
 }
 
 }  // namespace

@@ -23,8 +23,7 @@ struct Options : CommonOptions {
 };
 
 void declare(CLI::App& command, Options& options) {
-  add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder")
-      ->required();
+  add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder").required();
 }
 
 void verify(const Options& options) {

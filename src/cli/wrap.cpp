@@ -237,15 +237,15 @@ void declare(CLI::App& command, WrapOptions& options) {
   add_option(command, "--scan-up", options.scan_up, "AXIS", "The same of scans without landmarks");
   add_option(command, "--scan-front", options.scan_front, "AXIS",
              "The same of scans without landmarks");
-  command.add_flag("--pick", options.pick,
-                   "Wrap nothing: open a page on which landmarks are picked and saved");
+  add_flag(command, "--pick", options.pick,
+           "Wrap nothing: open a page on which landmarks are picked and saved");
   add_option(command, "--port", options.port, "N",
              "With --pick: the port on 127.0.0.1 to serve at; 0: any that is free");
-  command.add_flag("--no-browser", options.no_browser,
-                   "With --pick: open no browser, print the address only");
-  command.add_flag("--no-pictures", options.no_pictures, "Write no picture beside the report");
-  command.add_flag("--force", options.force, "Wrap again what is there already");
-  command.add_flag("--dry-run", options.dry_run, "Read and check everything, write nothing");
+  add_flag(command, "--no-browser", options.no_browser,
+           "With --pick: open no browser, print the address only");
+  add_flag(command, "--no-pictures", options.no_pictures, "Write no picture beside the report");
+  add_flag(command, "--force", options.force, "Wrap again what is there already");
+  add_flag(command, "--dry-run", options.dry_run, "Read and check everything, write nothing");
 }
 
 }  // namespace
