@@ -79,6 +79,7 @@ export function eyeUniforms(eyes) {
   };
 }
 
+/// What a picture colours needs no painting.
 /// \param places  three a vertex, in radii of its eyeball; z below −1.5 is no eye.
 export function paintEyes(material, geometry, places, eyes) {
   geometry.setAttribute('eye', new BufferAttribute(places, 3));
@@ -92,7 +93,9 @@ export function paintEyes(material, geometry, places, eyes) {
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', `#include <common>\n${eyeShader.fragment}`)
       .replace('#include <color_fragment>', `#include <color_fragment>
-        if (isEye()) diffuseColor.rgb = eyeballColour();`)
+        #ifndef USE_MAP
+          if (isEye()) diffuseColor.rgb = eyeballColour();
+        #endif`)
       .replace('#include <roughnessmap_fragment>', `#include <roughnessmap_fragment>
         if (isEye()) roughnessFactor = 0.25;`);
   };

@@ -6,11 +6,11 @@ import { bytesOf } from './bytes.js';
 import { loadScript } from './dom.js';
 import { normalsOf } from './normals.js';
 import { linearColours, paintEyes, roughAtVertices, skinMaterial, Stage } from './stage.js';
-import { pointsOf, Worn } from './worn.js';
+import { pictureAt, pointsOf, Worn } from './worn.js';
 
 /// Points: three whole numbers of 16 bits each, steps from the frame's low corner; then normals,
 /// two numbers each on the unfolded octahedron (Meyer et al. 2010, "On floating-point normal
-/// vectors"); where the face has textures a colour for each point, three bytes, and perhaps its roughness, one.
+/// vectors"); then perhaps a byte for each point, its roughness.
 export function unpackFace(base64, mesh) {
   const bytes = bytesOf(base64);
   const count = mesh.vertices;
@@ -28,9 +28,8 @@ export function unpackFace(base64, mesh) {
     const length = Math.hypot(x, y, z);
     normals.set([x / length, y / length, z / length], 3 * i);
   }
-  const colours = bytes.length > 10 * count ? linearColours(bytes.subarray(10 * count, 13 * count)) : null;
-  const roughness = bytes.length > 13 * count ? Float32Array.from(bytes.subarray(13 * count), (value) => value / 255) : null;
-  return { points, normals, colours, roughness };
+  const roughness = bytes.length > 10 * count ? Float32Array.from(bytes.subarray(10 * count), (value) => value / 255) : null;
+  return { points, normals, roughness };
 }
 
 /// The face's expression shapes: for each its number, the vertices that it moves (the same in all faces) and how far.
@@ -82,20 +81,27 @@ export class Turntable extends Stage {
     const bytes = bytesOf(mesh.triangles);
     geometry.setIndex(new BufferAttribute(new Uint32Array(bytes.buffer), 1));
     this.colours = linearColours(bytesOf(mesh.colours));
-    const material = skinMaterial();
-    if (mesh.eyes) {
-      const places = new Uint32Array(bytesOf(mesh.eyes.places).buffer);
-      paintEyes(material, geometry,
-        Float32Array.from(places, (value) => value / mesh.eyes.steps - 4), mesh.eyes);
-    }
-    roughAtVertices(material);
-    this.evenly = new Float32Array(mesh.vertices).fill(material.roughness);
-    this.object = new Mesh(geometry, material);
+    this.twins = new Uint32Array(bytesOf(mesh.twins).buffer);
+    this.light = Float32Array.from(bytesOf(mesh.light), (share) => share / 255);
+    if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(new Float32Array(bytesOf(mesh.uvs).buffer), 2));
+    const looks = mesh.looks ?? [0];
+    looks.forEach((first, l) => {
+      geometry.addGroup(3 * first, 3 * ((looks[l + 1] ?? geometry.index.count / 3) - first), l);
+    });
+    const eyes = mesh.eyes
+      ? Float32Array.from(new Uint32Array(bytesOf(mesh.eyes.places).buffer), (value) => value / mesh.eyes.steps - 4) : null;
+    this.materials = looks.map(() => {
+      const material = skinMaterial();
+      if (eyes) paintEyes(material, geometry, eyes, mesh.eyes);
+      roughAtVertices(material);
+      return material;
+    });
+    this.evenly = new Float32Array(mesh.vertices).fill(this.materials[0].roughness);
+    this.object = new Mesh(geometry, this.materials);
     this.worn = new Worn();
     this.group.add(this.object, this.worn.node);
     if (mesh.widest) {
-      const [atRest, open] = [bytesOf(mesh.widest.at_rest), bytesOf(mesh.widest.open)];
-      this.opened = Float32Array.from(open, (light, v) => light / Math.max(atRest[v], 1));
+      this.opened = Float32Array.from(bytesOf(mesh.widest.light), (open, v) => open / 255 / Math.max(this.light[v], 1 / 255));
     }
     this.mesh = mesh;
     this.stand(mesh);
@@ -104,22 +110,40 @@ export class Turntable extends Stage {
 
   /// \param path  of the face's data; \param name  under which it then stands.
   async show(path, name) {
+    this.wanted = name;
     await this.prepare();
     await loadScript(path);
-    const worn = await this.attachments(name);
-    const { points, normals, colours, roughness } = unpackFace(window.crowdface.faces[name], this.mesh);
-    const moves = window.crowdface.moves[name];
-    this.face = { points, normals, shapes: moves ? unpackMoves(moves, this.mesh) : [] };
-    this.face.colours = colours ?? this.colours;
+    const face = window.crowdface.faces[name];
+    const [worn, pictures] = await Promise.all([this.attachments(face.worn),
+      Promise.all((face.skin?.pictures ?? []).map((address) => pictureAt(address, { colours: true, repeated: true })))]);
+    if (this.wanted !== name) return;
+    const { points, normals, roughness } = unpackFace(face.points, this.mesh);
+    this.face = { points, normals, worn, shapes: face.moves ? unpackMoves(face.moves, this.mesh) : [] };
+    this.wear(pictures, face.skin?.of_look ?? []);
     this.object.geometry.setAttribute('rough', new BufferAttribute(roughness ?? this.evenly, 1));
     this.shown = name;
-    this.face.worn = worn;
     this.act(this.values);
   }
 
+  /// Where a look has a picture its vertices have no colour but the light that reaches them.
+  wear(pictures, ofLook) {
+    for (const picture of this.pictures ?? []) picture.dispose();
+    this.pictures = pictures;
+    const colours = this.colours.slice();
+    const { groups, index } = this.object.geometry;
+    groups.forEach(({ start, count, materialIndex }) => {
+      const material = this.materials[materialIndex];
+      material.map = pictures[ofLook[materialIndex]] ?? null;
+      material.needsUpdate = true;
+      if (!material.map) return;
+      for (const v of index.array.subarray(start, start + count)) colours.fill(this.light[v], 3 * v, 3 * v + 3);
+    });
+    this.face.colours = colours;
+  }
+
   /// What a face wears: [parts, points, shapes] each.
-  attachments(name) {
-    return Promise.all(Object.entries(window.crowdface.worn[name]).map(async ([item, packed]) => {
+  attachments(worn = {}) {
+    return Promise.all(Object.entries(worn).map(async ([item, packed]) => {
       await loadScript(`data/attachments/${item}.js`);
       const { points, moves = {} } = packed.points ? packed : { points: packed };
       return [await this.worn.prepare(item, () => window.crowdface.attachments[item]), pointsOf(points, this.mesh),
@@ -141,7 +165,7 @@ export class Turntable extends Stage {
       const triangles = geometry.index.array;
       const ofReduced = (at) => {
         const rough = new Float32Array(at.length);
-        normalsOf(at, triangles, null, rough, 3);
+        normalsOf(at, triangles, this.twins, rough, 3);
         return rough;
       };
       this.face.rough ??= ofReduced(this.face.points);

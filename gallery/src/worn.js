@@ -10,7 +10,7 @@ import { normalsOf } from './normals.js';
 
 const solid = 0.5; // from here on a texel hides what is behind it
 
-async function pictureAt(address, { colours, repeated }) {
+export async function pictureAt(address, { colours, repeated }) {
   const texture = await new TextureLoader().loadAsync(address);
   if (colours) texture.colorSpace = SRGBColorSpace;
   texture.wrapS = repeated ? RepeatWrapping : ClampToEdgeWrapping;

@@ -28,7 +28,8 @@ struct AttachmentSet {
 
   bool empty() const { return items.empty(); }
   /// The one of that name, which must be there.
-  const Attachment& at(const std::string& name) const;
+  const Attachment& at(const std::string& name) const { return items[index(name)]; }
+  std::size_t index(const std::string& name) const;
 };
 
 }  // namespace crowdface

@@ -11,20 +11,55 @@
 
 namespace crowdface {
 
+namespace {
+
+/// As meshes, whatever they are painted with.
+bool equal_meshes(const Attachment& a, const Attachment& b) {
+  const Topology &one = a.file.topology, &other = b.file.topology;
+  return a.moves == b.moves && a.file.positions.rows() == b.file.positions.rows() &&
+         one.face_offsets == other.face_offsets && one.corner_vertices == other.corner_vertices &&
+         a.file.positions == b.file.positions;
+}
+
+}  // namespace
+
 FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs) : inputs_(inputs) {
-  const AttachmentSet& set = inputs.attachments;
-  if (set.empty()) return;
-  skin_ = std::make_unique<const FittedSkin>(inputs.faces.topology, set.fitted_to,
-                                             skin_vertices(inputs), 1 / mm_per(config.faces.units));
-  carriers_.resize(set.items.size());
-  bends_.resize(set.items.size());
-  parallel_for_each(carriers_.size(), [&](std::size_t i) {
-    const ObjFile& file = set.items[i].file;
-    carriers_[i] = std::make_unique<const AttachmentCarrier>(*skin_, file.topology, file.positions,
-                                                             set.items[i].moves);
-    if (inputs.shapes.shapes.empty() || set.items[i].moves != AttachmentMove::kBend) return;
-    bends_[i] =
-        std::make_unique<const ShapeBend>(*skin_, inputs.adjacency, file.topology, file.positions);
+  bind(config, std::vector<bool>(inputs.attachments.items.size(), true));
+}
+
+FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs,
+                                 std::span<const CastFace> faces)
+    : inputs_(inputs) {
+  std::vector<bool> wanted(inputs.attachments.items.size());
+  for (const CastFace& face : faces) {
+    for (const std::string& name : face.attachments) wanted[inputs.attachments.index(name)] = true;
+  }
+  bind(config, wanted);
+}
+
+void FaceAttachments::bind(const Config& config, const std::vector<bool>& wanted) {
+  const AttachmentSet& set = inputs_.attachments;
+  std::vector<const Attachment*> meshes;
+  of_item_.resize(set.items.size());
+  for (std::size_t i = 0; i < set.items.size(); ++i) {
+    if (!wanted[i]) continue;
+    const auto known = std::ranges::find_if(
+        meshes, [&](const Attachment* mesh) { return equal_meshes(*mesh, set.items[i]); });
+    of_item_[i] = static_cast<std::size_t>(known - meshes.begin());
+    if (known == meshes.end()) meshes.push_back(&set.items[i]);
+  }
+  if (meshes.empty()) return;
+  skin_ =
+      std::make_unique<const FittedSkin>(inputs_.faces.topology, set.fitted_to,
+                                         skin_vertices(inputs_), 1 / mm_per(config.faces.units));
+  bound_.resize(meshes.size());
+  parallel_for_each(meshes.size(), [&](std::size_t m) {
+    const ObjFile& file = meshes[m]->file;
+    bound_[m].carrier = std::make_unique<const AttachmentCarrier>(*skin_, file.topology,
+                                                                  file.positions, meshes[m]->moves);
+    if (inputs_.shapes.shapes.empty() || meshes[m]->moves != AttachmentMove::kBend) return;
+    bound_[m].bend =
+        std::make_unique<const ShapeBend>(*skin_, inputs_.adjacency, file.topology, file.positions);
   });
 }
 
@@ -35,13 +70,13 @@ std::vector<WornAttachment> FaceAttachments::worn_by(const CastFace& face,
   if (face.attachments.empty() || skin_ == nullptr) return worn;
   const Positions normals = skin_->normals(positions);
   for (const std::string& name : face.attachments) {
-    const Attachment& item = inputs_.attachments.at(name);
-    const auto i = static_cast<std::size_t>(&item - inputs_.attachments.items.data());
-    worn.push_back({&item, carriers_[i]->carry(positions, normals)});
+    const std::size_t i = inputs_.attachments.index(name);
+    const Bound& bound = bound_[of_item_[i]];
+    worn.push_back({&inputs_.attachments.items[i], bound.carrier->carry(positions, normals)});
     WornAttachment& one = worn.back();
     for (const Displacements& shape : moves) {
-      one.moves.push_back(bends_[i] ? bends_[i]->in_shape(positions, one.positions, shape)
-                                    : Displacements{{}, Positions(0, 3)});
+      one.moves.push_back(bound.bend ? bound.bend->in_shape(positions, one.positions, shape)
+                                     : Displacements{{}, Positions(0, 3)});
     }
   }
   return worn;
@@ -49,8 +84,9 @@ std::vector<WornAttachment> FaceAttachments::worn_by(const CastFace& face,
 
 std::size_t FaceAttachments::memory_bytes() const {
   std::size_t bytes = 0;
-  for (const auto& carrier : carriers_) bytes += carrier->memory_bytes();
-  for (const auto& bend : bends_) bytes += bend ? bend->memory_bytes() : 0;
+  for (const Bound& bound : bound_) {
+    bytes += bound.carrier->memory_bytes() + (bound.bend ? bound.bend->memory_bytes() : 0);
+  }
   return bytes;
 }
 

@@ -20,11 +20,13 @@ struct WornAttachment {
   std::vector<Displacements> moves = {};  ///< of those, in each of the face's shapes
 };
 
-/// The attachments of faces: what is bound to the fitted mesh is bound once.
+/// The attachments of faces: what is bound to the fitted mesh is bound once, whatever colours one mesh comes in.
 class FaceAttachments {
  public:
-  /// \param inputs  must outlive this object.
+  /// For all items. \param inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs);
+  /// For no more than these faces wear.
+  FaceAttachments(const Config& config, const Inputs& inputs, std::span<const CastFace> faces);
 
   /// What a face wears, in the order of its recipe; refers to the inputs.
   /// \param positions  of the face, #V by 3.
@@ -37,11 +39,17 @@ class FaceAttachments {
   std::size_t worn_bytes() const;
 
  private:
+  /// A mesh bound to the fitted one.
+  struct Bound {
+    std::unique_ptr<const AttachmentCarrier> carrier;
+    std::unique_ptr<const ShapeBend> bend;  ///< if it bends and there are shapes
+  };
+  void bind(const Config& config, const std::vector<bool>& wanted);
+
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< none: there are no attachments
-  std::vector<std::unique_ptr<const AttachmentCarrier>> carriers_;  ///< of each item
-  std::vector<std::unique_ptr<const ShapeBend>>
-      bends_;  ///< #items, of those that bend, if there are shapes
+  std::vector<Bound> bound_;
+  std::vector<std::size_t> of_item_;  ///< #items rows of `bound_`
 };
 
 }  // namespace crowdface

@@ -75,10 +75,10 @@ Digest digest_of(const AttachmentSet& set) {
 
 }  // namespace
 
-const Attachment& AttachmentSet::at(const std::string& name) const {
+std::size_t AttachmentSet::index(const std::string& name) const {
   const auto found = std::ranges::find(items, name, &Attachment::name);
   require(found != items.end(), "attachments: none is called ", name);
-  return *found;
+  return static_cast<std::size_t>(found - items.begin());
 }
 
 void load_attachments(const Config& config, Inputs& inputs, Problems& problems) {

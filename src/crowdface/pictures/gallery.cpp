@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -16,7 +17,9 @@
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/pictures/crowd_scripts.h"
+#include "crowdface/pictures/page_pictures.h"
 #include "crowdface/pictures/surfaces.h"
+#include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/openness.h"
 #include "crowdface/render/shading.h"
@@ -32,17 +35,44 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostTriangles = 24'000;
 /// Of these what is behind closed lips gets few: teeth and the mouth's lining are finer than the face itself.
 constexpr std::size_t kMostHidden = 2'000;
+constexpr int kMostTexels = 1024;      ///< of a side of a face's pictures
 constexpr double kLeastMoveMm = 0.02;  ///< of an expression shape: less is not shown
 constexpr float kLeastLight = 0.004F;  ///< where shapes let more in
 constexpr float kUnseen = 0.02F;       ///< what sees no more of the sky is not seen
 
-/// The triangles none of whose corners is seen. \param open  #vertices of the mesh
-std::vector<bool> hidden_triangles(const ReducedMesh& mesh, const std::vector<float>& open) {
-  std::vector<bool> hidden(mesh.triangles.size() / 3, true);
-  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
-    if (open[mesh.triangles[c]] > kUnseen) hidden[c / 3] = false;
+/// How much light arrives at the vertices of triangles of a split mesh. \return #V, elsewhere 0
+std::vector<float> openness_at(const Topology& topology, const std::vector<SurfaceKind>& kinds,
+                               const Positions& mean, const SplitMesh& split,
+                               const std::vector<Triangle>& triangles) {
+  std::vector<std::uint32_t> vertices;
+  for (const Triangle& triangle : triangles) {
+    for (const std::uint32_t corner : triangle) vertices.push_back(split.corners[corner].vertex);
   }
-  return hidden;
+  vertices = renumber(vertices, topology.vertex_count);
+  const std::vector<float> open = vertex_openness(topology, kinds, mean, vertices);
+  std::vector<float> open_at(static_cast<std::size_t>(topology.vertex_count));
+  for (std::size_t v = 0; v < vertices.size(); ++v) open_at[vertices[v]] = open[v];
+  return open_at;
+}
+
+/// What a face looks like, by number: those of one look are in one picture, whichever head is shown, or in none.
+/// What is not drawn has kNoIndex.
+std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
+                                    const std::vector<SurfaceKind>& kinds) {
+  std::map<std::vector<std::uint32_t>, std::uint32_t> known;
+  std::vector<std::uint32_t> looks;
+  for (std::size_t f = 0; f < kinds.size(); ++f) {
+    std::vector<std::uint32_t> pictures;
+    if (textures.blend()) pictures.push_back(textures.blended.layout.of_face[f]);
+    for (const TextureCoat& coat : textures.coats) {
+      pictures.push_back(coat.of_face.empty() ? TextureCoat::kNone : coat.of_face[f]);
+    }
+    const auto number = static_cast<std::uint32_t>(known.size());
+    looks.push_back(kinds[f] == SurfaceKind::kHidden
+                        ? kNoIndex
+                        : known.try_emplace(pictures, number).first->second);
+  }
+  return looks;
 }
 
 std::vector<const Positions*> positions_of(const FaceSet& faces) {
@@ -74,7 +104,7 @@ std::string call(const char* function, const Json& value) {
 }
 
 /// What the page paints irises by, finer than the reduced mesh's vertices could.
-void add_eyes(const Config& config, const Inputs& inputs, const ReducedMesh& mesh, Json& json) {
+void add_eyes(const Config& config, const Inputs& inputs, const PreviewMesh& mesh, Json& json) {
   const auto eyes = eye_coordinates(inputs.faces.topology, surfaces_of(config, inputs),
                                     mean_head(inputs.faces), config.faces.front);
   if (!eyes) return;
@@ -158,19 +188,28 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     : config_(config), inputs_(inputs), around_(inputs.faces.topology), frame_(frame_of(inputs)) {
   const FaceSet& faces = inputs.faces;
   const Surfaces surfaces = surfaces_of(config, inputs);
-  std::vector<bool> drawn;
-  for (const SurfaceKind kind : surfaces.kinds) drawn.push_back(kind != SurfaceKind::kHidden);
   const Positions mean = mean_head(faces);
-  const ReducedMesh fine = reduce_mesh(faces.topology, mean, drawn, 2 * kMostTriangles);
+  const std::vector<std::uint32_t> looks = looks_of(inputs.textures, surfaces.kinds);
+  const SplitMesh split = split_mesh(faces.topology, surfaces.uvs, looks);
+  const Positions split_mean = split.of(mean);
+  std::vector<Triangle> triangles =
+      reduce_triangles(split.triangles, split_mean, 2 * kMostTriangles);
   const std::vector<float> open =
-      vertex_openness(faces.topology, surfaces.kinds, mean, fine.vertices);
-  mesh_ = reduce_hidden(fine, mean, hidden_triangles(fine, open), kMostTriangles, kMostHidden);
-  std::vector<float> open_at(static_cast<std::size_t>(faces.topology.vertex_count));
-  for (std::size_t v = 0; v < fine.vertices.size(); ++v) open_at[fine.vertices[v]] = open[v];
-  for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open_at[vertex]);
+      openness_at(faces.topology, surfaces.kinds, mean, split, triangles);
+  std::vector<bool> hidden;
+  for (const Triangle& triangle : triangles) {
+    hidden.push_back(std::ranges::none_of(triangle, [&](std::uint32_t corner) {
+      return open[split.corners[corner].vertex] > kUnseen;
+    }));
+  }
+  triangles = reduce_hidden(triangles, split_mean, hidden, kMostTriangles, kMostHidden);
+  mesh_ = preview_of(split, triangles, surfaces.uvs);
+  for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
   colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(
       mesh_.vertices, Eigen::placeholders::all);
-  corner_ = find_corners(faces);
+  for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
+    places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
+  }
   const std::vector<const Positions*> heads = positions_of(faces);
   low_ = heads.front()->colwise().minCoeff().transpose();
   high_ = heads.front()->colwise().maxCoeff().transpose();
@@ -188,16 +227,16 @@ double GalleryMeshes::least_move() const {
 void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) {
   if (inputs_.shapes.shapes.empty()) return;
   const double least = least_move();
-  std::vector<std::uint32_t> reduced(static_cast<std::size_t>(inputs_.faces.topology.vertex_count),
-                                     kNoIndex);
-  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) reduced[mesh_.vertices[v]] = v;
   for (const Shape& shape : inputs_.shapes.shapes) {
     ShownMoves& shown = shown_.emplace_back();
-    for (std::uint32_t i = 0; i < shape.moves.vertices.size(); ++i) {
-      const std::uint32_t vertex = reduced[shape.moves.vertices[i]];
-      if (vertex == kNoIndex || shape.moves.moves.row(i).norm() < least) continue;
-      shown.rows.push_back(i);
-      shown.vertices.push_back(vertex);
+    const auto& moved = shape.moves.vertices;
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+      const auto at = std::ranges::lower_bound(moved, mesh_.vertices[v]);
+      if (at == moved.end() || *at != mesh_.vertices[v]) continue;
+      const auto row = static_cast<std::uint32_t>(at - moved.begin());
+      if (shape.moves.moves.row(row).norm() < least) continue;
+      shown.rows.push_back(row);
+      shown.vertices.push_back(v);
     }
   }
   const auto& shapes = inputs_.shapes.shapes;
@@ -223,39 +262,30 @@ std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried)
   return bytes;
 }
 
-std::vector<TexturePlace> GalleryMeshes::find_corners(const FaceSet& faces) const {
-  const Topology& topology = faces.topology;
-  std::vector<TexturePlace> of_vertex(static_cast<std::size_t>(topology.vertex_count));
-  for (Index f = 0; faces.uvs.rows() > 0 && f < topology.face_count(); ++f) {
-    const auto uvs = topology.face_uvs(f);
-    for (std::size_t c = 0; c < uvs.size(); ++c) {
-      TexturePlace& corner = of_vertex[topology.face(f)[c]];
-      if (uvs[c] == kNoIndex || corner.face >= 0) continue;
-      corner = {f, faces.uvs.row(uvs[c]).transpose().cast<float>()};
+std::string GalleryMeshes::skin(const TextureCoat& coat) const {
+  std::vector<std::uint32_t> worn;  // each once
+  Json pictures = Json::array(), of_look = Json::array();
+  for (std::size_t l = 0; l < mesh_.looks.size(); ++l) {
+    const std::uint32_t face = mesh_.faces[mesh_.triangles[3 * mesh_.looks[l]]];
+    const std::uint32_t texture = coat.of_face.empty() ? TextureCoat::kNone : coat.of_face[face];
+    if (texture == TextureCoat::kNone) {
+      of_look.push_back(nullptr);
+      continue;
     }
+    const auto at = std::ranges::find(worn, texture);
+    of_look.push_back(at - worn.begin());
+    if (at != worn.end()) continue;
+    worn.push_back(texture);
+    pictures.push_back(colour_picture(*coat.textures[texture], kMostTexels));
   }
-  std::vector<TexturePlace> corners;
-  for (const std::uint32_t vertex : mesh_.vertices) corners.push_back(of_vertex[vertex]);
-  return corners;
-}
-
-VertexColours GalleryMeshes::textured(const TextureCoat& coat) const {
-  VertexColours colours = colours_;
-  for (std::size_t v = 0; v < corner_.size(); ++v) {
-    if (corner_[v].face < 0) continue;
-    const std::uint32_t texture = coat.of_face[static_cast<std::size_t>(corner_[v].face)];
-    if (texture == TextureCoat::kNone) continue;
-    const Light light = colour_at(*coat.textures[texture], corner_[v].uv);
-    colours.row(static_cast<Index>(v)) = to_srgb(light).matrix().transpose();
-  }
-  return colours;
+  return Json{{"pictures", std::move(pictures)}, {"of_look", std::move(of_look)}}.dump();
 }
 
 std::string GalleryMeshes::roughness(const TextureCoat& coat) const {
   std::string bytes;
   if (coat.roughness.of_face.empty()) return bytes;
   constexpr float kSkin = 0.56F;  // as the page has it of skin without a map
-  for (const TexturePlace& place : corner_) {
+  for (const TexturePlace& place : places_) {
     const float rough = roughness_at(coat, place).value_or(kSkin);
     bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * rough)));
   }
@@ -291,6 +321,11 @@ std::string GalleryMeshes::shared_script() const {
   json["step"] = frame_.step;
   json["box"] = {to_json(low_), to_json(high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
+  json["twins"] = base64(little_endian(mesh_.twins));
+  if (!mesh_.uvs.empty()) {
+    json["uvs"] = base64(little_endian(mesh_.uvs));
+    json["looks"] = mesh_.looks;
+  }
   json["colours"] = base64(shades(colours_));
   add_eyes(config_, inputs_, mesh_, json);
   const auto light = [](const std::vector<float>& open) {
@@ -300,10 +335,8 @@ std::string GalleryMeshes::shared_script() const {
     }
     return base64(bytes);
   };
-  if (!shown_.empty()) {
-    json["widest"] = {
-        {"shape", widest_}, {"at_rest", light(open_)}, {"open", light(open_in_widest_)}};
-  }
+  json["light"] = light(open_);
+  if (!shown_.empty()) json["widest"] = {{"shape", widest_}, {"light", light(open_in_widest_)}};
   for (const ShownMoves& shown : shown_) {
     json["moved"].push_back(base64(little_endian(shown.vertices)));
   }
@@ -315,24 +348,26 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
                                        const TextureCoat* coat,
                                        const std::vector<WornAttachment>& worn) const {
   std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
-  if (coat != nullptr) {
+  if (coat != nullptr && !places_.empty()) {
     lean = [&](std::size_t v, const Eigen::Vector3d& normal) {
-      return leaning_normal(*coat, inputs_.faces, corner_[v], positions, normal);
+      return leaning_normal(*coat, inputs_.faces, places_[v], positions, normal);
     };
   }
-  std::string bytes = pack_face(inputs_.faces.topology, mesh_, around_, frame_, positions, lean);
-  if (coat != nullptr) bytes += concat(shades(textured(*coat)), roughness(*coat));
-  std::string more;
-  if (!shown_.empty()) more = concat(",\"", base64(packed_shapes(moves)), '"');
+  std::string bytes =
+      pack_face(inputs_.faces.topology, mesh_.vertices, around_, frame_, positions, lean);
+  if (coat != nullptr) bytes += roughness(*coat);
+  std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
+  if (!shown_.empty()) parts.push_back(concat("\"moves\":\"", base64(packed_shapes(moves)), '"'));
   if (!worn.empty()) {
     std::vector<std::string> packed;
     for (const WornAttachment& one : worn) {
       packed.push_back(
           concat(Json(one.item->name).dump(), ':', attachments_.packed(one, frame_, least_move())));
     }
-    more += concat(shown_.empty() ? ",null,{" : ",{", join(packed, ","), '}');
+    parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }
-  return concat("crowdface.setFace(", Json(name).dump(), ",\"", base64(bytes), '"', more, ");\n");
+  if (coat != nullptr) parts.push_back(concat("\"skin\":", skin(*coat)));
+  return concat("crowdface.setFace(", Json(name).dump(), ",{", join(parts, ","), "});\n");
 }
 
 std::string GalleryMeshes::attachment_script(const std::string& name,

@@ -17,6 +17,7 @@
 #include "crowdface/pictures/vertex_finish.h"
 #include "crowdface/pictures/worn_surfaces.h"
 #include "crowdface/preview/packed_face.h"
+#include "crowdface/preview/preview_mesh.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
 #include "crowdface/shapes/shape_set.h"
@@ -43,7 +44,7 @@ class GalleryMeshes {
   /// \param inputs  must outlive this object.
   GalleryMeshes(const Config& config, const Inputs& inputs);
 
-  /// data/mesh.js: triangles, colours, the frame of the positions.
+  /// data/mesh.js: triangles, colours, texture coordinates, the frame of the positions.
   std::string shared_script() const;
   /// data/faces/NAME.js or data/heads/NAME.js.
   /// \param moves  the face's displacements in each shape.
@@ -63,23 +64,23 @@ class GalleryMeshes {
  private:
   /// Colours as the page shows them, three bytes a vertex, darker where little light arrives.
   std::string shades(const VertexColours& colours) const;
-  VertexColours textured(const TextureCoat& coat) const;
+  /// A coat's pictures, and which of them each look of the reduced mesh shows, as JSON.
+  std::string skin(const TextureCoat& coat) const;
   /// A byte a vertex; of a coat without roughness none.
   std::string roughness(const TextureCoat& coat) const;
-  std::vector<TexturePlace> find_corners(const FaceSet& faces) const;
   double least_move() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
   std::string packed_shapes(std::span<const Displacements> carried) const;
 
   const Config& config_;
   const Inputs& inputs_;
-  ReducedMesh mesh_;
+  PreviewMesh mesh_;
   FacesAround around_;
   PackingFrame frame_;
   ShownAttachments attachments_;
   VertexColours colours_;    ///< of the surfaces themselves, one a vertex of the reduced mesh
   std::vector<float> open_;  ///< how much light arrives there, on the mean head
-  std::vector<TexturePlace> corner_;  ///< where each lies in a texture
+  std::vector<TexturePlace> places_;  ///< #vertices in textures; or empty: there are none
   Eigen::Vector3d low_, high_;        ///< of the heads' boxes
 
   /// What the reduced mesh has of a shape's vertices.

@@ -2,17 +2,13 @@
 #include "crowdface/pictures/shown_attachments.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <memory>
 #include <span>
 
 #include <nlohmann/json.hpp>
 
-#include "crowdface/core/text.h"
-#include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
-#include "crowdface/render/shading.h"
+#include "crowdface/pictures/page_pictures.h"
 
 namespace crowdface {
 namespace {
@@ -20,46 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Of all materials together; a vertex is 8 bytes of text a face.
-constexpr std::size_t kMostTriangles = 12'000;
+constexpr std::size_t kMostTriangles = 24'000;
 constexpr int kMostTexels = 512;
-
-std::string little_endian_floats(std::span<const float> values) {
-  std::vector<std::uint32_t> words(values.size());
-  std::memcpy(words.data(), values.data(), values.size_bytes());
-  return little_endian(words);
-}
-
-Texture small_texture(const Texture& texture) {
-  return shrunk_texture(texture.width, texture.height, kMostTexels,
-                        [&](int y, std::span<Light> texels) {
-                          const auto first = texture.texels.begin() + y * texture.width;
-                          std::copy_n(first, texture.width, texels.begin());
-                        });
-}
-
-std::string address_of(std::string_view type, std::string_view bytes) {
-  return concat("data:image/", type, ";base64,", base64(bytes));
-}
-
-std::string colour_picture(const Texture& texture) {
-  const Texture small = small_texture(texture);
-  std::vector<std::uint8_t> pixels;
-  for (const Light& light : small.texels) {
-    const auto colour = to_srgb8(light);
-    pixels.insert(pixels.end(), colour.begin(), colour.end());
-  }
-  return address_of("jpeg", encode_jpeg(small.width, small.height, pixels));
-}
-
-std::string opacity_picture(const Texture& texture) {
-  const Texture small = small_texture(texture);
-  std::vector<std::uint8_t> pixels;
-  for (const Light& there : small.texels) {
-    pixels.push_back(
-        static_cast<std::uint8_t>(std::lround(255 * std::clamp(there[0], 0.0F, 1.0F))));
-  }
-  return address_of("png", encode_png(small.width, small.height, 1, pixels));
-}
 
 /// The vertices that move at least so far, four bytes each, then how far.
 /// \param shown  rows of what moves
@@ -83,12 +41,12 @@ Json part_to_json(const PreviewMesh& mesh, const WornMaterial& material) {
   json["vertices"] = mesh.vertices.size();
   json["triangles"] = base64(little_endian(mesh.triangles));
   json["twins"] = base64(little_endian(mesh.twins));
-  if (!mesh.uvs.empty()) json["uvs"] = base64(little_endian_floats(mesh.uvs));
+  if (!mesh.uvs.empty()) json["uvs"] = base64(little_endian(mesh.uvs));
   json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
   json["share"] = material.share;
   if (mesh.uvs.empty()) return json;
-  if (material.texture) json["picture"] = colour_picture(*material.texture);
-  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity);
+  if (material.texture) json["picture"] = colour_picture(*material.texture, kMostTexels);
+  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity, kMostTexels);
   return json;
 }
 

@@ -64,14 +64,14 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
 }
 
 std::string pack_face(
-    const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
+    const Topology& topology, std::span<const std::uint32_t> vertices, const FacesAround& around,
     const PackingFrame& frame, const Positions& positions,
     const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
-  std::string bytes = pack_points(mesh.vertices, frame, positions);
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    Eigen::Vector3d normal = normal_at(topology, positions, around.of(mesh.vertices[v]));
+  std::string bytes = pack_points(vertices, frame, positions);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    Eigen::Vector3d normal = normal_at(topology, positions, around.of(vertices[v]));
     if (lean) normal = lean(v, normal);
     const Eigen::Vector2d square = unfolded(normal);
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);
@@ -112,6 +112,11 @@ std::string base64(std::string_view bytes) {
 }
 
 std::string little_endian(std::span<const std::uint32_t> numbers) {
+  static_assert(std::endian::native == std::endian::little);
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
+}
+
+std::string little_endian(std::span<const float> numbers) {
   static_assert(std::endian::native == std::endian::little);
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
 }

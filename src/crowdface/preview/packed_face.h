@@ -6,7 +6,8 @@
 #include <span>
 #include <string>
 
-#include "crowdface/preview/reduced_mesh.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/topology.h"
 
 namespace crowdface {
 
@@ -20,13 +21,14 @@ struct PackingFrame {
   static PackingFrame around(std::span<const Positions* const> heads);
 };
 
-/// A face's reduced mesh as little-endian 16-bit numbers: three a vertex, steps from the frame's low
+/// Some vertices of a face as little-endian 16-bit numbers: three a vertex, steps from the frame's low
 /// corner (clamped to it), then two a vertex, its unit normal on the octahedron unfolded over a
 /// square (Meyer et al. 2010, "On floating-point normal vectors"), 0 … 65,535 for −1 … 1.
 /// \param around  of the whole mesh, so that a preview is shaded as smoothly as the mesh itself.
-/// \param lean    of a vertex of the reduced mesh with this normal, the one that is to be shown; may be empty.
+/// \param vertices  rows of `positions`.
+/// \param lean    of one of `vertices`, by its place there, with this normal, the one that is to be shown; may be empty.
 std::string pack_face(
-    const Topology& topology, const ReducedMesh& mesh, const FacesAround& around,
+    const Topology& topology, std::span<const std::uint32_t> vertices, const FacesAround& around,
     const PackingFrame& frame, const Positions& positions,
     const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean = {});
 
@@ -43,5 +45,6 @@ std::string base64(std::string_view bytes);
 
 /// Numbers as little-endian bytes.
 std::string little_endian(std::span<const std::uint32_t> numbers);
+std::string little_endian(std::span<const float> numbers);
 
 }  // namespace crowdface

@@ -2,6 +2,7 @@
 #include "crowdface/preview/reduced_mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <meshoptimizer.h>
 
@@ -33,6 +34,24 @@ void reduce(std::vector<unsigned int>& triangles, const Positions& positions, st
   triangles.resize(meshopt_simplify(triangles.data(), triangles.data(), triangles.size(),
                                     points.data(), points.size() / 3, 3 * sizeof(float), 3 * most,
                                     kAnyError, options, nullptr));
+}
+
+std::vector<unsigned int> corners_of(const std::vector<Triangle>& triangles) {
+  std::vector<unsigned int> corners;
+  corners.reserve(3 * triangles.size());
+  for (const Triangle& triangle : triangles) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  return corners;
+}
+
+/// As triangles, in an order that suits a graphics card.
+std::vector<Triangle> for_drawing(std::vector<unsigned int> corners, Index vertex_count) {
+  meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(),
+                              static_cast<std::size_t>(vertex_count));
+  std::vector<Triangle> triangles(corners.size() / 3);
+  for (std::size_t c = 0; c < corners.size(); ++c) triangles[c / 3][c % 3] = corners[c];
+  return triangles;
 }
 
 /// Numbers the vertices anew in the order in which triangles first use them, which suits both the
@@ -67,36 +86,27 @@ ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
   return compact(triangles, vertices);
 }
 
-ReducedMesh reduce_hidden(const ReducedMesh& mesh, const Positions& typical,
-                          const std::vector<bool>& hidden, std::size_t most,
-                          std::size_t most_hidden) {
-  require(3 * hidden.size() == mesh.triangles.size(), "reduce: ", hidden.size(), " marks, ",
-          mesh.triangles.size() / 3, " triangles");
-  std::vector<unsigned int> seen, unseen;
-  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
-    (hidden[c / 3] ? unseen : seen).push_back(mesh.vertices[mesh.triangles[c]]);
-  }
-  reduce(unseen, typical, most_hidden, meshopt_SimplifyLockBorder);
-  reduce(seen, typical, most - std::min(most, unseen.size() / 3), meshopt_SimplifyLockBorder);
-  seen.insert(seen.end(), unseen.begin(), unseen.end());
-  const auto vertices = static_cast<std::size_t>(typical.rows());
-  meshopt_optimizeVertexCache(seen.data(), seen.data(), seen.size(), vertices);
-  return compact(seen, vertices);
-}
-
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
                                        const Positions& positions, std::size_t most) {
-  std::vector<unsigned int> corners;
-  corners.reserve(3 * triangles.size());
-  for (const Triangle& triangle : triangles) {
-    corners.insert(corners.end(), triangle.begin(), triangle.end());
-  }
+  std::vector<unsigned int> corners = corners_of(triangles);
   reduce(corners, positions, most);
-  meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(),
-                              static_cast<std::size_t>(positions.rows()));
-  std::vector<Triangle> reduced(corners.size() / 3);
-  for (std::size_t c = 0; c < corners.size(); ++c) reduced[c / 3][c % 3] = corners[c];
-  return reduced;
+  return for_drawing(std::move(corners), positions.rows());
+}
+
+std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
+                                    const Positions& positions, const std::vector<bool>& hidden,
+                                    std::size_t most, std::size_t most_hidden) {
+  require(hidden.size() == triangles.size(), "reduce: ", hidden.size(), " marks, ",
+          triangles.size(), " triangles");
+  std::vector<Triangle> of_seen, of_unseen;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    (hidden[t] ? of_unseen : of_seen).push_back(triangles[t]);
+  }
+  std::vector<unsigned int> seen = corners_of(of_seen), unseen = corners_of(of_unseen);
+  reduce(unseen, positions, most_hidden, meshopt_SimplifyLockBorder);
+  reduce(seen, positions, most - std::min(most, unseen.size() / 3), meshopt_SimplifyLockBorder);
+  seen.insert(seen.end(), unseen.begin(), unseen.end());
+  return for_drawing(std::move(seen), positions.rows());
 }
 
 }  // namespace crowdface

@@ -25,21 +25,20 @@ struct ReducedMesh {
 ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
                         const std::vector<bool>& drawn, std::size_t most_triangles);
 
-/// The same again of a reduced mesh, but what nobody sees gets few of the triangles. Where seen and hidden
-/// triangles meet no edge collapses, so that no gap opens between them.
-/// \param typical      #V by 3, of the whole mesh.
-/// \param hidden       one a triangle of `mesh`.
-/// \param most         of all together.
-/// \param most_hidden  of those that are hidden.
-ReducedMesh reduce_hidden(const ReducedMesh& mesh, const Positions& typical,
-                          const std::vector<bool>& hidden, std::size_t most,
-                          std::size_t most_hidden);
-
 /// The same of triangles. Open borders, and seams (borders at which several vertices have one
 /// position), keep their course: their edges collapse along them alone, and what cannot be collapsed
 /// so is kept, be it more than `most`.
 /// \param positions  #V by 3, finite.
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
                                        const Positions& positions, std::size_t most);
+
+/// The same again, but what nobody sees gets few of the triangles. Where seen and hidden triangles meet no
+/// edge collapses, so that no gap opens between them.
+/// \param hidden       #triangles
+/// \param most         of all together.
+/// \param most_hidden  of those that are hidden.
+std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
+                                    const Positions& positions, const std::vector<bool>& hidden,
+                                    std::size_t most, std::size_t most_hidden);
 
 }  // namespace crowdface

@@ -13,25 +13,38 @@ Texture shrunk_texture(int width, int height, int most_px,
   small.texels.assign(
       static_cast<std::size_t>(small.width) * static_cast<std::size_t>(small.height),
       Light::Zero());
+  const auto row_of = [&](int y) {
+    return std::span(small.texels)
+        .subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width),
+                 static_cast<std::size_t>(small.width));
+  };
+  if (block == 1) {
+    for (int y = 0; y < height; ++y) row(y, row_of(y));
+    return small;
+  }
+  // Blocks of one size, or one larger where the sides are no multiples.
+  const auto begins = [](int count, int of) {
+    std::vector<std::size_t> at;
+    for (int i = 0; i <= count; ++i) {
+      at.push_back(static_cast<std::size_t>(std::int64_t{i} * of / count));
+    }
+    return at;
+  };
+  const std::vector<std::size_t> left = begins(small.width, width);
+  const std::vector<std::size_t> top = begins(small.height, height);
   std::vector<Light> texels(static_cast<std::size_t>(width));
   for (int y = 0; y < small.height; ++y) {
-    Light* sums =
-        &small.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width)];
-    // Blocks of one size, or one larger where the sides are no multiples.
-    const int top = static_cast<int>(std::int64_t{y} * height / small.height);
-    const int bottom = static_cast<int>((std::int64_t{y} + 1) * height / small.height);
-    const auto left_of = [&](int x) {
-      return static_cast<int>(std::int64_t{x} * width / small.width);
-    };
-    for (int j = top; j < bottom; ++j) {
-      row(j, texels);
-      for (int x = 0; x < small.width; ++x) {
-        for (int i = left_of(x); i < left_of(x + 1); ++i)
-          sums[x] += texels[static_cast<std::size_t>(i)];
+    const std::span<Light> sums = row_of(y);
+    const std::size_t first = top[static_cast<std::size_t>(y)];
+    const std::size_t end = top[static_cast<std::size_t>(y) + 1];
+    for (std::size_t j = first; j < end; ++j) {
+      row(static_cast<int>(j), texels);
+      for (std::size_t x = 0; x < sums.size(); ++x) {
+        for (std::size_t i = left[x]; i < left[x + 1]; ++i) sums[x] += texels[i];
       }
     }
-    for (int x = 0; x < small.width; ++x) {
-      sums[x] /= static_cast<float>((bottom - top) * (left_of(x + 1) - left_of(x)));
+    for (std::size_t x = 0; x < sums.size(); ++x) {
+      sums[x] /= static_cast<float>((end - first) * (left[x + 1] - left[x]));
     }
   }
   return small;

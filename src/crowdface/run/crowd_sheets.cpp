@@ -141,9 +141,9 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                          directory, textures, shapes);
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
-  pictures.write_faces(
-      faces_to_draw(FaceLedger(ledger, job, directory, face_extras(job), {}), crowd),
-      FaceAttachments(job.config, job.inputs));
+  const std::vector<CastFace> to_draw =
+      faces_to_draw(FaceLedger(ledger, job, directory, face_extras(job), {}), crowd);
+  pictures.write_faces(to_draw, FaceAttachments(job.config, job.inputs, to_draw));
   const std::vector<FamilyFounder> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);

@@ -80,7 +80,9 @@ struct CastJob {
           return std::make_unique<FaceBuilder>(job.config, job.inputs, prepared);
         }),
         textures([&job] { return std::make_unique<FaceTextures>(job.config, job.inputs); }),
-        attachments([&job] { return std::make_unique<FaceAttachments>(job.config, job.inputs); }),
+        attachments([&job, this] {
+          return std::make_unique<FaceAttachments>(job.config, job.inputs, cast.crowd);
+        }),
         shapes([&job] { return std::make_unique<FaceShapes>(job.config, job.inputs); }) {}
 
   Prepared prepared;

@@ -63,7 +63,7 @@ void write_face(const Job& job, const FaceTextures& textures, const CastFace& fa
   }
   std::vector<WornAttachment> worn;
   if (!face.attachments.empty()) {
-    worn = FaceAttachments(job.config, job.inputs).worn_by(face, positions, moves);
+    worn = FaceAttachments(job.config, job.inputs, {&face, 1}).worn_by(face, positions, moves);
   }
   write_attachments(job, face, format, worn, file);
   write_iris(job, format, file.parent_path());

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/page_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/preview/packed_face.h"
+
+namespace crowdface {
+namespace {
+
+Texture small_texture(const Texture& texture, int most_px) {
+  return shrunk_texture(texture.width, texture.height, most_px,
+                        [&](int y, std::span<Light> texels) {
+                          const auto first = texture.texels.begin() + y * texture.width;
+                          std::copy_n(first, texture.width, texels.begin());
+                        });
+}
+
+/// sRGB's byte of light from 0 to 1, by a table: a face's picture has a million texels.
+std::uint8_t srgb_byte(float light) {
+  constexpr float kSteps = 4095;  // of the square root, which is close to sRGB's own curve
+  static const std::vector<std::uint8_t> bytes = [] {
+    std::vector<std::uint8_t> table;
+    for (int i = 0; i <= static_cast<int>(kSteps); ++i) {
+      const float root = static_cast<float>(i) / kSteps;
+      const float value = to_srgb(Light::Constant(root * root))[0];
+      table.push_back(static_cast<std::uint8_t>(std::lround(255 * std::min(value, 1.0F))));
+    }
+    return table;
+  }();
+  return bytes[static_cast<std::size_t>(kSteps * std::sqrt(std::clamp(light, 0.0F, 1.0F)) + 0.5F)];
+}
+
+std::string address_of(std::string_view type, std::string_view bytes) {
+  return concat("data:image/", type, ";base64,", base64(bytes));
+}
+
+}  // namespace
+
+std::string colour_picture(const Texture& texture, int most_px) {
+  const bool fits = std::max(texture.width, texture.height) <= most_px;
+  const Texture small = fits ? Texture() : small_texture(texture, most_px);
+  const Texture& shown = fits ? texture : small;
+  std::vector<std::uint8_t> pixels(3 * shown.texels.size());
+  std::uint8_t* at = pixels.data();
+  for (const Light& light : shown.texels) {
+    for (int c = 0; c < 3; ++c) *at++ = srgb_byte(light[c]);
+  }
+  return address_of("jpeg", encode_jpeg(shown.width, shown.height, pixels));
+}
+
+std::string opacity_picture(const Texture& texture, int most_px) {
+  const Texture small = small_texture(texture, most_px);
+  std::vector<std::uint8_t> pixels;
+  for (const Light& there : small.texels) {
+    pixels.push_back(
+        static_cast<std::uint8_t>(std::lround(255 * std::clamp(there[0], 0.0F, 1.0F))));
+  }
+  return address_of("png", encode_png(small.width, small.height, 1, pixels));
+}
+
+}  // namespace crowdface
