@@ -35,7 +35,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostTriangles = 24'000;
 /// Of these what is behind closed lips gets few: teeth and the mouth's lining are finer than the face itself.
 constexpr std::size_t kMostHidden = 2'000;
-constexpr int kMostTexels = 1024;      ///< of a side of a face's pictures
+constexpr int kMostTexels = 1024;  ///< of a side of a face's pictures
+constexpr int kMostTexels = 1024;  ///< of a side of a face's pictures; of more than two, half of it
 constexpr double kLeastMoveMm = 0.02;  ///< of an expression shape: less is not shown
 constexpr float kLeastLight = 0.004F;  ///< where shapes let more in
 constexpr float kUnseen = 0.02F;       ///< what sees no more of the sky is not seen
@@ -265,8 +266,8 @@ std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried)
 std::string GalleryMeshes::skin(const TextureCoat& coat) const {
   std::vector<std::uint32_t> worn;  // each once
   Json pictures = Json::array(), of_look = Json::array();
-  for (std::size_t l = 0; l < mesh_.looks.size(); ++l) {
-    const std::uint32_t face = mesh_.faces[mesh_.triangles[3 * mesh_.looks[l]]];
+  for (const std::uint32_t first : mesh_.looks) {
+    const std::uint32_t face = mesh_.faces[mesh_.triangles[3 * first]];
     const std::uint32_t texture = coat.of_face.empty() ? TextureCoat::kNone : coat.of_face[face];
     if (texture == TextureCoat::kNone) {
       of_look.push_back(nullptr);
@@ -274,9 +275,11 @@ std::string GalleryMeshes::skin(const TextureCoat& coat) const {
     }
     const auto at = std::ranges::find(worn, texture);
     of_look.push_back(at - worn.begin());
-    if (at != worn.end()) continue;
-    worn.push_back(texture);
-    pictures.push_back(colour_picture(*coat.textures[texture], kMostTexels));
+    if (at == worn.end()) worn.push_back(texture);
+  }
+  const int most_px = worn.size() > 2 ? kMostTexels / 2 : kMostTexels;
+  for (const std::uint32_t texture : worn) {
+    pictures.push_back(colour_picture(*coat.textures[texture], most_px));
   }
   return Json{{"pictures", std::move(pictures)}, {"of_look", std::move(of_look)}}.dump();
 }
