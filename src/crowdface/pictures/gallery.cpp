@@ -35,7 +35,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostTriangles = 24'000;
 /// Of these what is behind closed lips gets few: teeth and the mouth's lining are finer than the face itself.
 constexpr std::size_t kMostHidden = 2'000;
-constexpr int kMostTexels = 1024;  ///< of a side of a face's pictures
 constexpr int kMostTexels = 1024;  ///< of a side of a face's pictures; of more than two, half of it
 constexpr double kLeastMoveMm = 0.02;  ///< of an expression shape: less is not shown
 constexpr float kLeastLight = 0.004F;  ///< where shapes let more in
@@ -206,8 +205,8 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   triangles = reduce_hidden(triangles, split_mean, hidden, kMostTriangles, kMostHidden);
   mesh_ = preview_of(split, triangles, surfaces.uvs);
   for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
-  colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(
-      mesh_.vertices, Eigen::placeholders::all);
+  colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(mesh_.vertices,
+                                                                                 Eigen::all);
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
     places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
