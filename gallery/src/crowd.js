@@ -65,7 +65,7 @@ class LightFace {
     return this.crowd.pictures ? `../renders/${this.folder}${encodeURIComponent(this.id)}.png` : null;
   }
 }
-for (const name of ['nearest', 'mixture', 'age', 'asymmetry', 'mirrored', 'mother_share', 'inherits']) {
+for (const name of ['nearest', 'mixture', 'colours', 'age', 'asymmetry', 'mirrored', 'mother_share', 'inherits']) {
   Object.defineProperty(LightFace.prototype, name, { get() { return this.recipe?.[name]; } });
 }
 

@@ -6,6 +6,10 @@ import { Turntable } from './turntable.js';
 
 const viewNames = { front: 'Front', three_quarter: 'Three-quarter', profile: 'Profile', back: 'Back' };
 
+/// "ann 70 %, bob 30 %"
+const sharesOf = (mixture) => Object.entries(mixture).sort((a, b) => b[1] - a[1])
+  .map(([head, share]) => `${head} ${short(100 * share, 0)} %`).join(', ');
+
 /// One face: a view to turn, marks, recipe, neighbours, renders.
 export class FacePage {
   /// \param go  is called with a face to show, or null to leave.
@@ -190,8 +194,8 @@ export class FacePage {
   about() {
     const { face } = this;
     const rows = [
-      ['Target', face.mixture ? Object.entries(face.mixture).sort((a, b) => b[1] - a[1])
-        .map(([head, share]) => `${head} ${short(100 * share, 0)} %`).join(', ') : face.target],
+      ['Target', face.mixture ? sharesOf(face.mixture) : face.target],
+      face.colours ? ['Colours', sharesOf(face.colours)] : null,
       face.tags.length > 0 ? ['Tags', face.tags.join(', ')] : null,
       face.attachments?.length > 0 ? ['Wears', face.attachments.join(', ')] : null,
       face.group ? ['Group', face.group] : null,

@@ -26,7 +26,7 @@ class Examples : public ::testing::Test {
               {});
     crowdface(0,
               {"synth", "-o", (folder_ / "out/brief_heads").string(), "--vertices", "5000",
-               "--count", "24"},
+               "--count", "24", "--textures", "64", "--hair"},
               {});
     // Stand-ins for the heads that scripts/get_heads.sh brings; one UDIM tile is all they touch.
     for (const char* model : {"ict", "makehuman"}) {

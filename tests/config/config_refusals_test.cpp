@@ -51,6 +51,18 @@ TEST_P(WrongConfig, IsToldOnceWithItsPlace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
+    Colours, WrongConfig,
+    testing::Values(
+        Wrong{"textures: {colours: apart}", "5:21", "recipe or drawn"},
+        Wrong{"textures: {blend: target, colours: drawn}", "5:36", "blend must be auto"},
+        Wrong{"textures: {alike: []}", "5:19", "goes with colours: drawn"},
+        Wrong{"textures: {colours: drawn, alike: [amn]}", "5:35", "no head has the tag \"amn\""},
+        Wrong{"textures: {colours: drawn, alike: all}", "5:35", "a list of tags, [female, male]"},
+        Wrong{"recipes: [{id: r, target: ann, colours: {zed: 1}}]", "5:42", "no head is called"},
+        Wrong{"recipes: [{id: r, target: ann, colours: {bob: 0}}]", "5:41", "sum to zero"},
+        Wrong{"recipes: [{id: r, target: ann, colours: bob}]", "5:41", "{head: weight}"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Smoothing, WrongConfig,
     testing::Values(
         Wrong{"smoothing: {max_size: 240}", "5:23", "mm, cm, m or in?"},

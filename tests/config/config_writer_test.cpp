@@ -108,6 +108,11 @@ void expect_equal(const Config& a, const Config& b) {
   for (std::size_t i = 0; i < a.recipes.size(); ++i) {
     EXPECT_EQ(a.recipes[i].id, b.recipes[i].id);
     EXPECT_EQ(a.recipes[i].target, b.recipes[i].target);
+    ASSERT_EQ(a.recipes[i].colours.size(), b.recipes[i].colours.size());
+    for (std::size_t c = 0; c < a.recipes[i].colours.size(); ++c) {
+      EXPECT_EQ(a.recipes[i].colours[c].head, b.recipes[i].colours[c].head);
+      EXPECT_EQ(a.recipes[i].colours[c].weight, b.recipes[i].colours[c].weight);
+    }
     ASSERT_EQ(a.recipes[i].regions.size(), b.recipes[i].regions.size());
     for (std::size_t k = 0; k < a.recipes[i].regions.size(); ++k) {
       EXPECT_TRUE(same(a.recipes[i].regions[k], b.recipes[i].regions[k])) << i << ' ' << k;
@@ -124,6 +129,8 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.textures.blend, b.textures.blend);
   EXPECT_EQ(a.textures.size, b.textures.size);
   EXPECT_EQ(a.textures.formats, b.textures.formats);
+  EXPECT_EQ(a.textures.colours, b.textures.colours);
+  EXPECT_EQ(a.textures.alike, b.textures.alike);
   ASSERT_EQ(a.output.contact_sheet.has_value(), b.output.contact_sheet.has_value());
   if (a.output.contact_sheet) {
     EXPECT_EQ(a.output.contact_sheet->columns, b.output.contact_sheet->columns);
@@ -320,6 +327,14 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
   EXPECT_THAT(written, HasSubstr("iterations: [0, 10000000]"));
   EXPECT_THAT(written, HasSubstr("moves: rigid"));
   EXPECT_THAT(written, Not(HasSubstr(folder_.string()))) << "paths are relative";
+}
+
+TEST_F(EffectiveConfig, ReadsBackWithColoursOfTheirOwn) {
+  const auto written = round_trip(kBands +
+                                  "textures: {colours: drawn, alike: []}\n"
+                                  "recipes: [{id: r, target: ann, colours: {bob: 3, cyd: 1}}]\n");
+  EXPECT_THAT(written, HasSubstr("alike: []"));
+  EXPECT_THAT(round_trip(kBands), Not(HasSubstr("colours: recipe")));
 }
 
 TEST_F(EffectiveConfig, ReadsBackWithIterationsAndPrintedAndManual) {

@@ -61,6 +61,25 @@ TEST(PlanFile, ReadsBackToTheBit) {
   EXPECT_EQ(format_recipe(line.face, kNames, kSettings), format_recipe(face, kNames, kSettings));
 }
 
+TEST(PlanFile, ColoursOfAFacesOwnStandBesideItsTarget) {
+  CastFace face = example();
+  face.recipe.colours = {{0, 0.25}, {2, 0.75}};
+  const std::string text = format_recipe(face, kNames, kSettings);
+  EXPECT_NE(text.find(R"("target":"cyd","colours":{"ann":0.25,"cyd":0.75},"attempt")"), text.npos);
+  const PlanLine line = parse_recipe(text, kNames, "plan:1");
+  EXPECT_EQ(line.face.recipe.colours, face.recipe.colours);
+  std::string table;
+  table_text({face, example()}, kNames)([&](std::string_view piece) { table += piece; });
+  EXPECT_NE(table.find(",colours\r\n"), table.npos);
+  EXPECT_NE(table.find(",ann:0.25;cyd:0.75\r\n"), table.npos);
+  for (const char* wrong : {R"({"ann":0.5})", R"({"zed":1})", "[]", "{}"}) {
+    std::string line_of = text;
+    const std::size_t begin = line_of.find("\"colours\":") + 10;
+    line_of.replace(begin, line_of.find('}', begin) + 1 - begin, wrong);
+    EXPECT_THROW(parse_recipe(line_of, kNames, "plan:1"), InvalidInput) << wrong;
+  }
+}
+
 TEST(PlanFile, TheLongestIdsAreRead) {
   CastFace face = example();
   face.family = std::string(64, 'f');

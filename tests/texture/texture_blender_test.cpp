@@ -308,6 +308,24 @@ TEST(TextureBlender, PartsHaveTheColoursOfTheirTarget) {
   EXPECT_EQ(blended[3 * (64 * 128 + 30)], srgb8_of(*sheet.textures.maps[0][1])[0]);
 }
 
+TEST(TextureBlender, AFaceMayHaveColoursOfItsOwn) {
+  TwoCharts sheet(kSize);
+  for (std::uint64_t h = 0; h < 3; ++h) {
+    sheet.add_head([h](double x, double, int column, int row) -> Eigen::Array3f {
+      return Eigen::Array3f(0.4F, 0.3F, static_cast<float>(0.2 + 0.1 * x)) *
+             (1 + 0.8F * noise(h, column, row));
+    });
+  }
+  const TextureBlender blender = sheet.blender();
+  Recipe recipe = alone(0);
+  recipe.colours = {{2, 1}};
+  EXPECT_EQ(blender.blend(recipe, 0).srgb, blender.blend(alone(2), 0).srgb);
+  recipe.colours = {{1, 0.25}, {2, 0.75}};
+  for (const auto& region : colour_weights(recipe, 3)) {
+    EXPECT_THAT(region, ::testing::ElementsAre(0, 0.25, 0.75));
+  }
+}
+
 TEST(ColourWeights, TheTargetHasWhatSourcesLeave) {
   Recipe recipe = alone(0);
   recipe.regions[0].weights = {{1, 0.3}, {2, 0.2}};

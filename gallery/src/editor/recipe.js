@@ -174,10 +174,11 @@ export function targetShares(job, recipe) {
 }
 
 /// What a recipe says of the face as a whole, beside its id and regions.
-export function wholeFace({ target, mixture, asymmetry, mirrored }) {
+export function wholeFace({ target, mixture, colours, asymmetry, mirrored }) {
   return {
     target,
     ...(mixture ? { mixture } : {}),
+    ...(colours ? { colours } : {}),
     ...(asymmetry === undefined ? {} : { asymmetry }),
     ...(mirrored === undefined ? {} : { mirrored }),
   };

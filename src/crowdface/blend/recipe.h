@@ -46,6 +46,8 @@ struct Recipe {
   /// B may be a mixture, B = Σ_h τ_h B_h: its τ_h, ascending heads, none zero, summing to one. Empty:
   /// the target alone. As Eq. 2 is linear in B, so is all that is computed from it.
   std::vector<SourceWeight> mixture = {};
+  /// Whose textures the face wears, ascending heads, none zero, summing to one. Empty: by the weights of its shape.
+  std::vector<SourceWeight> colours = {};
   /// What makes left and right differ in the blended skin counts so often; 1: as blended, 0: symmetric.
   double asymmetry = 1;
   bool mirrored = false;  ///< the face, parts and all, is the mirror image of what the rest says

@@ -127,6 +127,12 @@ void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScal
   recipe.smoothness = static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
 }
 
+std::vector<SourceWeight> written_weights(const std::vector<WeightedHead>& written) {
+  std::vector<SourceWeight> weights;
+  for (const WeightedHead& source : written) weights.push_back({source.head, source.weight});
+  return normalized_weights(std::move(weights));
+}
+
 double largest_weight(const BandRecipe& band) {
   double largest = 0;
   for (const SourceWeight& source : band.weights) largest = std::max(largest, source.weight);
@@ -179,9 +185,7 @@ BandRecipe draw_band(const Casting& casting, const FaceKind& kind, Index target,
     take(draw_position(casting, draw.sampling.position, sources, target, draws, draw.name, retry));
   };
   if (!hand.weights.empty()) {
-    std::vector<SourceWeight> weights;
-    for (const WeightedHead& source : hand.weights) weights.push_back({source.head, source.weight});
-    recipe.weights = normalized_weights(std::move(weights));
+    recipe.weights = written_weights(hand.weights);
   } else if (hand.position) {
     take(*hand.position);
   } else {
@@ -247,6 +251,7 @@ CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawK
         k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
     face.recipe.regions.push_back(draw_region(casting, kind, k, face.recipe.target, draws, region));
   }
+  if (!hand.colours.empty()) face.recipe.colours = written_weights(hand.colours);
   apply_age(face, draws.in(hand.age.value_or(sampling.age), "age", ""), sampling);
   face.recipe.asymmetry = draws.in(hand.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
   face.recipe.mirrored = hand.mirrored.value_or(sampling.mirror == Mirroring::kDrawn &&

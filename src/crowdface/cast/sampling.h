@@ -116,8 +116,9 @@ struct HandRecipe {
   };
   std::string id;
   std::optional<Eigen::Index> target;
-  std::vector<Region> regions;  ///< one for each region
-  std::optional<Range> age;     ///< none: as for sampled faces
+  std::vector<Region> regions;             ///< one for each region
+  std::vector<WeightedHead> colours = {};  ///< whose textures; empty: none given
+  std::optional<Range> age;                ///< none: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
 };

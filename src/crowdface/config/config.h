@@ -46,6 +46,9 @@ enum class Gallery {
 };
 
 /// What colours faces have.
+/// Whose textures a face wears: by the weights of its shape, or drawn apart from it.
+enum class ColourWeights { kRecipe, kDrawn };
+
 enum class TextureBlend {
   kAuto,    ///< each its own, blended from the heads', where these have different ones
   kTarget,  ///< those of their target
@@ -168,6 +171,9 @@ struct Config {
     TextureBlend blend = TextureBlend::kAuto;
     std::optional<std::uint64_t> size;  ///< texels of the longer side; none: the largest head's
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
+    ColourWeights colours = ColourWeights::kRecipe;
+    /// Tags in which drawn colours are like the shape; nothing: all.
+    std::optional<std::vector<std::string>> alike;
   } textures;
 
   struct Plane {

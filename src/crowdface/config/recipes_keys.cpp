@@ -14,14 +14,11 @@ using Band = HandRecipe::Band;
 using Region = HandRecipe::Region;
 using Unit = SmoothnessDistribution::Unit;
 
-void read_weights(const YamlNode& node, Band& band, ConfigDraft& draft) {
+void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
+                       ConfigDraft& draft) {
   if (node.entries.empty()) {
     draft.complaints.expected(node, "a mapping from heads to weights, {head: weight}");
     return;
-  }
-  std::vector<WeightedHead>& weights = band.weights;
-  if (draft.config.blending.normalization == Normalization::kPrinted) {
-    draft.complaints.about(node, "blending.normalization: printed takes positions, no weights");
   }
   double sum = 0;
   bool sound = true;
@@ -36,6 +33,13 @@ void read_weights(const YamlNode& node, Band& band, ConfigDraft& draft) {
     draft.complaints.about(node, "the weights sum to zero; at least one must be above 0");
   }
   std::ranges::sort(weights, {}, &WeightedHead::head);
+}
+
+void read_weights(const YamlNode& node, Band& band, ConfigDraft& draft) {
+  if (draft.config.blending.normalization == Normalization::kPrinted) {
+    draft.complaints.about(node, "blending.normalization: printed takes positions, no weights");
+  }
+  read_head_weights(node, band.weights, draft);
 }
 
 bool in_iterations(const Band& band, const ConfigWriting&) {
@@ -158,12 +162,20 @@ void check_id(const YamlNode& node, const std::string& id, std::map<std::string,
 }
 
 const Keys<HandRecipe>& recipe_keys() {
-  static const Keys<HandRecipe> keys = {key("id", &HandRecipe::id, name(), "the name of the face"),
-                                        key("target", &HandRecipe::target, head()),
-                                        key("age", &HandRecipe::age, age()),
-                                        key("asymmetry", &HandRecipe::asymmetry, asymmetry()),
-                                        key("mirrored", &HandRecipe::mirrored, word<bool>()),
-                                        {"regions", read_regions_of, write_regions_of}};
+  static const Keys<HandRecipe> keys = {
+      key("id", &HandRecipe::id, name(), "the name of the face"),
+      key("target", &HandRecipe::target, head()),
+      key("age", &HandRecipe::age, age()),
+      key("asymmetry", &HandRecipe::asymmetry, asymmetry()),
+      key("mirrored", &HandRecipe::mirrored, word<bool>()),
+      {"colours",
+       [](const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
+         read_head_weights(node, recipe.colours, draft);
+       },
+       [](const HandRecipe& recipe, const ConfigWriting& writing) {
+         return recipe.colours.empty() ? "" : write_weights(recipe.colours, writing);
+       }},
+      {"regions", read_regions_of, write_regions_of}};
   return keys;
 }
 

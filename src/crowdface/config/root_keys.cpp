@@ -5,6 +5,7 @@
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/config_writer.h"
+#include "crowdface/core/contains.h"
 
 namespace crowdface {
 namespace {
@@ -58,11 +59,37 @@ const Keys<Config::Blending>& blending_keys() {
 
 const Keys<Config::Textures>& textures_keys() {
   using Textures = Config::Textures;
+  const auto are_drawn = [](const Textures& textures, const auto&) {
+    return textures.colours == ColourWeights::kDrawn;
+  };
   static const Keys<Textures> keys = {
       word_key("blend", &Textures::blend), key("size", &Textures::size, whole(16, 16384)),
       key("formats", &Textures::formats,
-          words<TextureFormat>("a list of formats, [png, jpeg, exr]"))};
+          words<TextureFormat>("a list of formats, [png, jpeg, exr]")),
+      word_key("colours", &Textures::colours).written_if(are_drawn),
+      key("alike", &Textures::alike, list(name(), "a list of tags, [female, male]"))
+          .written_if(are_drawn)};
   return keys;
+}
+
+void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
+  const Config::Textures& textures = draft.config.textures;
+  const auto complain = [&](const char* key, std::string text) {
+    const YamlEntry* entry = node.find(key);
+    draft.complaints.about(entry != nullptr ? entry->value : node, std::move(text));
+  };
+  if (textures.colours == ColourWeights::kDrawn && textures.blend != TextureBlend::kAuto) {
+    complain("colours", "drawn colours are blended; blend must be auto");
+  }
+  if (textures.alike && textures.colours != ColourWeights::kDrawn) {
+    complain("alike", "goes with colours: drawn");
+  }
+  if (!textures.alike || !draft.heads_known) return;
+  for (const std::string& tag : *textures.alike) {
+    const bool known = std::ranges::any_of(draft.config.faces.tags,
+                                           [&](const auto& tags) { return contains(tags, tag); });
+    if (!known) complain("alike", concat("no head has the tag ", quoted(tag)));
+  }
 }
 
 using Plane = Config::Plane;
@@ -169,7 +196,7 @@ const Keys<Config>& root_keys() {
       {"points", read_points, write_points},
       {"rig", read_rig, write_rig},
       {"attachments", read_attachments, write_attachments, {}, attachments_starter},
-      section_key("textures", &Config::textures, textures_keys()),
+      section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
       section_key("sampling", &Config::sampling, sampling_keys()),
       section_key("distance", &Config::distance, distance_keys()),

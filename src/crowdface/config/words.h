@@ -53,6 +53,7 @@ inline const auto& all_words() {
       Words<TextureBlend>{{"auto", TextureBlend::kAuto},
                           {"target", TextureBlend::kTarget},
                           {"none", TextureBlend::kNone}},
+      Words<ColourWeights>{{"recipe", ColourWeights::kRecipe}, {"drawn", ColourWeights::kDrawn}},
       Words<TextureFormat>{{"png", TextureFormat::kPng},
                            {"jpeg", TextureFormat::kJpeg},
                            {"exr", TextureFormat::kExr}},

@@ -62,6 +62,9 @@ Json face_to_json(const CastFace& face, const PlanNames& names, const Digest& se
   for (const SourceWeight& part : face.recipe.mixture) {
     json["mixture"][name_at(names.heads, part.head)] = part.weight;
   }
+  for (const SourceWeight& part : face.recipe.colours) {
+    json["colours"][name_at(names.heads, part.head)] = part.weight;
+  }
   if (face.recipe.asymmetry != 1) json["asymmetry"] = face.recipe.asymmetry;
   if (face.recipe.mirrored) json["mirrored"] = true;
   json["attempt"] = face.notes.attempt;

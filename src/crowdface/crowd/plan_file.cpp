@@ -47,7 +47,10 @@ class LineReader {
     if (json.contains("group")) face.group = file_name(json, "group", kLongestName);
     face.recipe.target = head(text(json, "target"), "target");
     if (const auto mixture = json.find("mixture"); mixture != json.end()) {
-      set_target(face.recipe, shares(*mixture));
+      set_target(face.recipe, shares(*mixture, "mixture"));
+    }
+    if (const auto colours = json.find("colours"); colours != json.end()) {
+      face.recipe.colours = shares(*colours, "colours");
     }
     if (const auto asymmetry = json.find("asymmetry"); asymmetry != json.end()) {
       face.recipe.asymmetry = number(*asymmetry, "asymmetry", 0, kMaxAsymmetry);
@@ -169,18 +172,16 @@ class LineReader {
     return number(value, "position", -kMaxPlaneCoordinate, kMaxPlaneCoordinate);
   }
 
-  /// What a target is mixed of; of numbers written by hand the sum is brought to one.
-  std::vector<SourceWeight> shares(const Json& json) const {
-    if (!json.is_object() || json.empty()) {
-      fail("mixture", "heads and their shares", json.dump());
-    }
+  /// What a target or colours are mixed of.
+  std::vector<SourceWeight> shares(const Json& json, const std::string& field) const {
+    if (!json.is_object() || json.empty()) fail(field, "heads and their shares", json.dump());
     std::vector<SourceWeight> parts;
     double sum = 0;
     for (const auto& [key, value] : json.items()) {
-      parts.push_back({head(key, "mixture"), number(value, "mixture", 0, 1)});
+      parts.push_back({head(key, field), number(value, field, 0, 1)});
       sum += parts.back().weight;
     }
-    if (std::abs(sum - 1) > kRounding) fail("mixture", "shares that sum to 1", concat(sum));
+    if (std::abs(sum - 1) > kRounding) fail(field, "shares that sum to 1", concat(sum));
     std::erase_if(parts, [](const SourceWeight& part) { return part.weight == 0; });
     std::sort(parts.begin(), parts.end(),
               [](const auto& a, const auto& b) { return a.head < b.head; });
@@ -286,7 +287,21 @@ void add_band(const BandRecipe& band, const PlanNames& names, std::vector<std::s
   row.push_back(format_number(band.extrapolation));
 }
 
-std::string table_header(const PlanNames& names, bool any_mirrored) {
+/// Columns that only some crowds have.
+struct SomeColumns {
+  bool mirrored = false, colours = false;
+};
+
+SomeColumns columns_of(const std::vector<CastFace>& crowd) {
+  SomeColumns some;
+  for (const CastFace& face : crowd) {
+    some.mirrored = some.mirrored || !is_unmirrored(face.recipe);
+    some.colours = some.colours || !face.recipe.colours.empty();
+  }
+  return some;
+}
+
+std::string table_header(const PlanNames& names, const SomeColumns& some) {
   std::vector<std::string> header = {"id", "index", "family", "target"};
   for (const std::string& region : names.regions) {
     for (const char* column : kBandColumns) {
@@ -304,12 +319,13 @@ std::string table_header(const PlanNames& names, bool any_mirrored) {
       }
     }
   }
-  if (any_mirrored) header.insert(header.end(), {"asymmetry", "mirrored"});
+  if (some.mirrored) header.insert(header.end(), {"asymmetry", "mirrored"});
   if (!names.attachments.empty()) header.emplace_back("attachments");
+  if (some.colours) header.emplace_back("colours");
   return join(header, ",") + "\r\n";
 }
 
-std::string table_row(const CastFace& face, const PlanNames& names, bool any_mirrored) {
+std::string table_row(const CastFace& face, const PlanNames& names, const SomeColumns& some) {
   std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
                                   csv_field(face.family.value_or("")),
                                   csv_field(name_at(names.heads, face.recipe.target))};
@@ -331,11 +347,12 @@ std::string table_row(const CastFace& face, const PlanNames& names, bool any_mir
       }
     }
   }
-  if (any_mirrored) {
+  if (some.mirrored) {
     row.push_back(format_number(face.recipe.asymmetry));
     row.emplace_back(face.recipe.mirrored ? "true" : "false");
   }
   if (!names.attachments.empty()) row.push_back(csv_field(join(face.attachments, ";")));
+  if (some.colours) row.push_back(csv_weights(face.recipe.colours, names));
   return join(row, ",") + "\r\n";
 }
 
@@ -368,12 +385,10 @@ TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
 }
 
 TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names) {
-  const bool any_mirrored = std::any_of(
-      crowd.begin(), crowd.end(), [](const CastFace& face) { return !is_unmirrored(face.recipe); });
-  return [&crowd, &names, any_mirrored](const TakePiece& take) {
-    take(table_header(names, any_mirrored));
+  return [&crowd, &names, some = columns_of(crowd)](const TakePiece& take) {
+    take(table_header(names, some));
     text_of_items(crowd.size(),
-                  [&](std::size_t i) { return table_row(crowd[i], names, any_mirrored); })(take);
+                  [&](std::size_t i) { return table_row(crowd[i], names, some); })(take);
   };
 }
 

@@ -45,6 +45,7 @@ CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint3
       draw_recipe(casting, open, {0, attempt, concat("edit/", open.id)}, kind_of_group(casting));
   if (keeps_target) {
     face.recipe.mixture = old.recipe.mixture;
+    face.recipe.colours = old.recipe.colours;
     face.recipe.asymmetry = old.recipe.asymmetry;
     face.recipe.mirrored = old.recipe.mirrored;
   }

@@ -90,6 +90,9 @@ Json recipe_to_json(const CastFace& face, const Casting& casting, const Config& 
   for (const SourceWeight& part : face.recipe.mixture) {
     json["mixture"][heads[static_cast<std::size_t>(part.head)]] = part.weight;
   }
+  for (const SourceWeight& part : face.recipe.colours) {
+    json["colours"][heads[static_cast<std::size_t>(part.head)]] = part.weight;
+  }
   if (!is_unmirrored(face.recipe) || mirrors(casting.sampling)) {
     json["asymmetry"] = face.recipe.asymmetry;
     json["mirrored"] = face.recipe.mirrored;

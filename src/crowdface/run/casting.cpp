@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crowdface/cast/capacity_forecast.h"
+#include "crowdface/cast/colour_draw.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/sample_cells.h"
@@ -357,10 +358,18 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
   round_as_planned(result.crowd);
+  if (config.textures.colours == ColourWeights::kDrawn) {
+    draw_colours({config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike},
+                 result.crowd);
+  }
   if (!config.attachments.items.empty()) {
     draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected);
   }
   for (FamilyCast& family : crowd.families) {
+    const auto member = std::ranges::find(result.crowd, family.name, &CastFace::family);
+    if (member != result.crowd.end()) {
+      family.founder.recipe.colours = member->recipe.colours;
+    }
     result.founders.push_back({family.name, std::move(family.founder)});
   }
   // Of a million faces they take a gigabyte.

@@ -20,9 +20,11 @@ constexpr Index kVerticesPerBlock = 1024;
 
 using HeadWeights = std::vector<double>;  ///< #heads, summing to one or all zero
 
+/// Of what a face has without detail: its own colours, or its target's.
 HeadWeights shares_by_head(const Recipe& recipe, std::size_t heads) {
   HeadWeights shares(heads, 0.0);
-  for (const SourceWeight& share : target_shares(recipe)) {
+  for (const SourceWeight& share :
+       recipe.colours.empty() ? target_shares(recipe) : recipe.colours) {
     shares[static_cast<std::size_t>(share.head)] = share.weight;
   }
   return shares;
@@ -122,6 +124,7 @@ MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& ma
 std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_t heads) {
   const std::vector<double> of_target = shares_by_head(recipe, heads);
   std::vector<std::vector<double>> weights;
+  if (!recipe.colours.empty()) return {recipe.regions.size(), of_target};
   for (const RegionRecipe& region : recipe.regions) {
     // Colour is the skin's, so it goes with the finest band.
     const BandRecipe& finest = band_of(region, band_count(region) - 1);

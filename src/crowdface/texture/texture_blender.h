@@ -57,7 +57,8 @@ class TextureBlender {
 };
 
 /// What each head lends of its colours in each region, as the recipe's weights are: those of its sources,
-/// and where these do not sum to one (Normalization::kPrinted) the target has the rest.
+/// and where these do not sum to one (Normalization::kPrinted) the target has the rest; or in each the recipe's colours,
+/// if it has some of its own.
 /// \return #regions by #heads, rows summing to one.
 std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_t heads);
 

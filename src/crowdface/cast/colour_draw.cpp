@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/colour_draw.h"
+
+#include <algorithm>
+#include <map>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/core/random.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kMostOfSecond = 0.5;
+
+class Drawing {
+ public:
+  explicit Drawing(const ColourDraw& draw) : draw_(draw) {
+    for (const auto& all : draw.tags) {
+      std::vector<std::string> counted = all;
+      std::erase_if(counted, [&](const std::string& tag) {
+        return draw.alike && !contains(*draw.alike, tag);
+      });
+      std::ranges::sort(counted);
+      counted_.push_back(std::move(counted));
+    }
+  }
+
+  /// Whether colours of the one go with the other's shape.
+  bool alike(Index a, Index b) const {
+    return counted_.empty() ||
+           counted_[static_cast<std::size_t>(a)] == counted_[static_cast<std::size_t>(b)];
+  }
+
+  /// \param who  keeps the draws of others apart
+  std::vector<SourceWeight> drawn(Index typical, std::uint64_t index, std::uint32_t attempt,
+                                  const std::string& who) const {
+    std::vector<Index> heads;
+    for (Index h = 0; h < static_cast<Index>(draw_.heads.size()); ++h) {
+      if (alike(h, typical)) heads.push_back(h);
+    }
+    const std::string purpose = concat("colours/", who);
+    const RandomKey key = {draw_.seed, index, purpose, attempt};
+    const auto take = [&](double u) {
+      const auto at = static_cast<std::size_t>(u * static_cast<double>(heads.size()));
+      const Index head = heads[std::min(at, heads.size() - 1)];
+      std::erase(heads, head);
+      return head;
+    };
+    const auto [first, second] = random_pair(key);
+    std::vector<SourceWeight> colours = {{take(first), 1}};
+    if (!heads.empty()) {
+      const double share = kMostOfSecond * random_pair(key, 1)[0];
+      colours.push_back({take(second), share});
+      colours.front().weight = 1 - share;
+    }
+    return normalized_weights(std::move(colours));
+  }
+
+ private:
+  const ColourDraw& draw_;
+  std::vector<std::vector<std::string>> counted_;  ///< of each head, sorted
+};
+
+/// What faces hand down to their children, by their ids.
+class Parents {
+ public:
+  Parents(const std::vector<std::string>& heads, const std::vector<CastFace>& crowd)
+      : heads_(heads) {
+    for (const CastFace& face : crowd) {
+      for (const std::string& name : face.parents) known_[name];
+    }
+  }
+  void meet(const CastFace& face) {
+    const auto found = known_.find(face.id);
+    if (found != known_.end()) found->second = face.recipe.colours;
+  }
+  std::vector<SourceWeight> colours_of(const std::string& name) const {
+    const std::vector<SourceWeight>& of_face = known_.at(name);
+    const auto head = std::ranges::find(heads_, name);
+    if (!of_face.empty() || head == heads_.end()) return of_face;
+    return {{head - heads_.begin(), 1}};
+  }
+
+ private:
+  const std::vector<std::string>& heads_;
+  std::map<std::string, std::vector<SourceWeight>> known_;
+};
+
+}  // namespace
+
+void draw_colours(const ColourDraw& draw, std::vector<CastFace>& crowd) {
+  const Drawing drawing(draw);
+  Parents parents(draw.heads, crowd);
+  for (CastFace& face : crowd) {
+    const Index typical = typical_head(face.recipe, draw.tags);
+    std::vector<SourceWeight>& colours = face.recipe.colours;
+    if (!colours.empty()) {  // written by hand
+      parents.meet(face);
+      continue;
+    }
+    std::map<Index, double> inherited;
+    for (const std::string& name : face.parents) {
+      for (const SourceWeight& one : parents.colours_of(name)) {
+        if (drawing.alike(one.head, typical)) inherited[one.head] += one.weight;
+      }
+    }
+    if (!inherited.empty()) {
+      for (const auto& [head, weight] : inherited) colours.push_back({head, weight});
+      colours = normalized_weights(std::move(colours));
+    } else if (face.family) {
+      colours = drawing.drawn(typical, 0, 0, concat("family/", *face.family));
+    } else if (face.index) {
+      colours = drawing.drawn(typical, *face.index, face.notes.attempt, "");
+    } else {
+      colours = drawing.drawn(typical, 0, 0, face.id);
+    }
+    parents.meet(face);
+  }
+}
+
+}  // namespace crowdface
