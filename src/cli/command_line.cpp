@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/command_line.h"
 
-#include <utility>
-
 #include <CLI/CLI.hpp>
 
 namespace crowdface::cli {
@@ -48,10 +46,9 @@ AddedOption add_option(CLI::App& command, const std::string& name, std::string& 
 }
 
 AddedOption add_option(CLI::App& command, const std::string& name,
-                       std::function<void(const std::string&)> take, const std::string& type,
+                       const std::function<void(const std::string&)>& take, const std::string& type,
                        const std::string& help) {
-  return AddedOption(
-      *command.add_option_function<std::string>(name, std::move(take), help)->type_name(type));
+  return AddedOption(*command.add_option_function<std::string>(name, take, help)->type_name(type));
 }
 
 AddedOption add_optional(CLI::App& command, const std::string& name,

@@ -40,7 +40,7 @@ AddedOption add_option(CLI::App& command, const std::string& name, std::string& 
 
 /// An option whose value is handed to `take`, where it was given.
 AddedOption add_option(CLI::App& command, const std::string& name,
-                       std::function<void(const std::string&)> take, const std::string& type,
+                       const std::function<void(const std::string&)>& take, const std::string& type,
                        const std::string& help);
 
 /// An option whose value is kept only if it was given.

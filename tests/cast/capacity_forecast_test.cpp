@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,12 +93,58 @@ TEST(CapacityForecast, TellsEarlyHowManyPointsWillFit) {
   }
 }
 
+// Nine in ten candidates fall into a corner that is full soon: the others have the rest of the room.
+TEST(CapacityForecast, IsNotMisledByAPlaceWhereManyCrowdTogether) {
+  constexpr double kCorner = 0.1, kDistance = 0.01;
+  std::vector<Point> placed;
+  std::vector<std::vector<std::size_t>> cells(100 * 100);
+  CapacityForecast forecast;
+  std::optional<double> least;
+  std::uint64_t draws = 0;
+  for (;;) {
+    std::uint64_t too_near = 0;
+    for (; too_near < 1000; ++too_near) {
+      const auto [x, y] = random_pair({3, draws, "point"});
+      const bool corner = random_unit({3, draws++, "where"}) < 0.9;
+      const Point point = {corner ? kCorner * x : x, corner ? kCorner * y : y};
+      const auto cell = [](double v) { return static_cast<int>(v / kDistance); };
+      bool near = false;
+      for (int i = cell(point[0]) - 1; i <= cell(point[0]) + 1; ++i) {
+        for (int j = cell(point[1]) - 1; j <= cell(point[1]) + 1; ++j) {
+          if (i < 0 || j < 0 || i > 99 || j > 99) continue;
+          for (const std::size_t p : cells[static_cast<std::size_t>(100 * i + j)]) {
+            near = near || std::hypot(placed[p][0] - point[0], placed[p][1] - point[1]) < kDistance;
+          }
+        }
+      }
+      if (near) continue;
+      cells[static_cast<std::size_t>(100 * cell(point[0]) + cell(point[1]))].push_back(
+          placed.size());
+      placed.push_back(point);
+      break;
+    }
+    if (too_near == 1000) break;
+    forecast.add(too_near, 1);
+    if (placed.size() < 512) continue;
+    if (const auto faces = forecast.faces(); faces && (!least || *faces < *least)) least = faces;
+  }
+  const auto fitted = static_cast<double>(placed.size());
+  EXPECT_GT(fitted, 4000);
+  ASSERT_TRUE(least);
+  EXPECT_GT(*least, fitted / 4) << fitted;
+}
+
 TEST(CapacityForecast, KeepsSilentWhileItHasSeenTooLittle) {
   CapacityForecast forecast;
-  for (int i = 0; i < 255; ++i) forecast.add(10, 1);
+  const auto add = [&](int face) { forecast.add(face < 128 ? 5 : 10, 5); };
+  for (int i = 0; i < 255; ++i) add(i);
   EXPECT_FALSE(forecast.faces()) << "few faces";
-  forecast.add(10, 1);
-  EXPECT_TRUE(forecast.faces());
+  add(255);
+  ASSERT_TRUE(forecast.faces());
+  EXPECT_NEAR(*forecast.faces(), 256 + 4 * (1.0 / 3) / ((2.0 / 3 - 0.5) / 96), 1e-9);
+  CapacityForecast level;
+  for (int i = 0; i < 1000; ++i) level.add(10, 1);
+  EXPECT_FALSE(level.faces()) << "it does not get harder";
   CapacityForecast roomy;
   for (int i = 0; i < 100'000; ++i) roomy.add(i % 2000 == 0 ? 1 : 0, 8);
   EXPECT_FALSE(roomy.faces()) << "nothing is too near";

@@ -9,21 +9,28 @@ namespace {
 /// N·C where first fit ended: 1.6 to 6.5 in crowds of 360 to 7,700 faces (docs/casting.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kFewestPlaced = 256;
-constexpr std::uint64_t kFewestTooNear = 100;
+constexpr std::uint64_t kFewestTooNear = 100;  ///< in either stretch
 
 }  // namespace
 
 void CapacityForecast::add(std::uint64_t too_near, std::uint64_t wanted) {
   require(wanted > 0, "a face is chosen from at least one candidate");
-  pairs_ += static_cast<double>(placed_);
-  chances_ += static_cast<double>(too_near) / static_cast<double>(too_near + wanted);
-  too_near_ += too_near;
-  ++placed_;
+  if (placed_ >= now_.begin) {
+    now_.chances += static_cast<double>(too_near) / static_cast<double>(too_near + wanted);
+    now_.too_near += too_near;
+  }
+  if (++placed_ < 2 * now_.begin) return;
+  before_ = last_;
+  last_ = now_;
+  now_ = {placed_};
 }
 
 std::optional<double> CapacityForecast::faces() const {
-  if (placed_ < kFewestPlaced || too_near_ < kFewestTooNear) return std::nullopt;
-  return kFacesTimesChance * pairs_ / chances_;
+  if (placed_ < kFewestPlaced || before_.too_near < kFewestTooNear) return std::nullopt;
+  const double growth = (last_.mean() - before_.mean()) / (last_.middle() - before_.middle());
+  if (!(growth > 0)) return std::nullopt;
+  const double placed = 2 * static_cast<double>(last_.begin);
+  return placed + kFacesTimesChance * (1 - last_.mean()) / growth;
 }
 
 }  // namespace crowdface

@@ -7,8 +7,10 @@
 namespace crowdface {
 
 /// Foresees, while faces are placed one after the other, how many of them can keep a distance.
-/// While the crowd is sparse a candidate is too near to one of n faces with a chance of n·C, where C
-/// is the chance that two candidates are; first fit comes to its end at some 4/C faces (docs/casting.md).
+/// A candidate is too near to one of n faces with a chance p(n), which grows by C a face while the crowd is sparse, C being
+/// the chance that two candidates are too near to each other; first fit comes to its end at some 4/C faces
+/// (docs/casting.md). Where many candidates crowd together that place is full soon, and p grows slower from then on: so
+/// C is what p has grown by of late.
 class CapacityForecast {
  public:
   /// A face was placed.
@@ -20,10 +22,16 @@ class CapacityForecast {
   std::optional<double> faces() const;
 
  private:
+  /// Faces number `begin` to 2·`begin`.
+  struct Stretch {
+    std::uint64_t begin = 16;
+    std::uint64_t too_near = 0;
+    double chances = 0;  ///< of being too near, summed over its faces
+    double mean() const { return chances / static_cast<double>(begin); }
+    double middle() const { return 1.5 * static_cast<double>(begin); }
+  };
   std::uint64_t placed_ = 0;
-  std::uint64_t too_near_ = 0;
-  double chances_ = 0;  ///< of being too near, summed over the faces placed
-  double pairs_ = 0;    ///< Σ n, the faces that each was compared with
+  Stretch now_, last_, before_;  ///< the two before `now_`, which are whole
 };
 
 }  // namespace crowdface

@@ -8,9 +8,9 @@ namespace crowdface {
 namespace {
 
 /// Draws that all tries together may take; one that has begun is finished.
-constexpr std::uint64_t kMostDraws = 100'000;
+constexpr std::uint64_t kMostDraws = 20'000;
 /// Faces of one trial.
-constexpr std::uint64_t kMostTried = 1000;
+constexpr std::uint64_t kMostTried = 400;
 /// Near enough: what fails is at most this many times what works.
 constexpr double kNearEnough = 1.12;
 

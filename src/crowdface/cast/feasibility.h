@@ -11,11 +11,11 @@ struct Remedy {
   /// The largest value of the binding distance, in whole hundredths of a millimetre, with which a
   /// cast was tried and done. None if another constraint binds or none was found.
   std::optional<double> largest_mm;
-  std::uint64_t tried = 0;  ///< faces of these trials: the whole count, or the first thousand of it
+  std::uint64_t tried = 0;  ///< faces of these trials: the whole count, or its first 400
 };
 
 /// Looks for it by casting again with smaller distances, closing in from both sides until what works
-/// and what fails are an eighth apart or a hundred thousand candidates were drawn. A trial takes a
+/// and what fails are an eighth apart or twenty thousand candidates were drawn. A trial takes a
 /// time that grows with the square of its faces, so that large crowds are tried by their beginning.
 /// \param tried  called after each trial.
 Remedy find_remedy(const Casting& casting, const FaceSpace& space,

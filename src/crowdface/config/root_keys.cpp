@@ -74,9 +74,9 @@ const Keys<Config::Textures>& textures_keys() {
 
 void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
   const Config::Textures& textures = draft.config.textures;
-  const auto complain = [&](const char* key, std::string text) {
+  const auto complain = [&](const char* key, const std::string& text) {
     const YamlEntry* entry = node.find(key);
-    draft.complaints.about(entry != nullptr ? entry->value : node, std::move(text));
+    draft.complaints.about(entry != nullptr ? entry->value : node, text);
   };
   if (textures.colours == ColourWeights::kDrawn && textures.blend != TextureBlend::kAuto) {
     complain("colours", "drawn colours are blended; blend must be auto");

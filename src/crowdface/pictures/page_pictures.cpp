@@ -23,17 +23,18 @@ Texture small_texture(const Texture& texture, int most_px) {
 
 /// sRGB's byte of light from 0 to 1, by a table: a face's picture has a million texels.
 std::uint8_t srgb_byte(float light) {
-  constexpr float kSteps = 4095;  // of the square root, which is close to sRGB's own curve
+  constexpr std::size_t kSteps = 4096;  // of the square root, which is close to sRGB's own curve
   static const std::vector<std::uint8_t> bytes = [] {
     std::vector<std::uint8_t> table;
-    for (int i = 0; i <= static_cast<int>(kSteps); ++i) {
-      const float root = static_cast<float>(i) / kSteps;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      const float root = (static_cast<float>(i) + 0.5F) / kSteps;
       const float value = to_srgb(Light::Constant(root * root))[0];
       table.push_back(static_cast<std::uint8_t>(std::lround(255 * std::min(value, 1.0F))));
     }
     return table;
   }();
-  return bytes[static_cast<std::size_t>(kSteps * std::sqrt(std::clamp(light, 0.0F, 1.0F)) + 0.5F)];
+  const float root = std::sqrt(std::clamp(light, 0.0F, 1.0F));
+  return bytes[std::min(static_cast<std::size_t>(kSteps * root), kSteps - 1)];
 }
 
 std::string address_of(std::string_view type, std::string_view bytes) {
