@@ -2,9 +2,11 @@
 #include "crowdface/heads/light_of_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "crowdface/render/shading.h"
+#include "crowdface/texture/optical_density.h"
 
 namespace crowdface {
 namespace {
@@ -18,6 +20,30 @@ const std::vector<float>& light_of_srgb16() {
     return linear;
   }();
   return table;
+}
+
+/// Of the same light.
+const std::vector<Density>& densities_of_srgb16() {
+  static const std::vector<Density> table = [] {
+    std::vector<Density> densities;
+    for (const float light : light_of_srgb16()) densities.push_back(density_of_light(light));
+    return densities;
+  }();
+  return table;
+}
+
+/// Writes a row of whole numbers as densities. \param steps  of 16 bits to one of the numbers
+template <class Number>
+void write_densities(const Image& image, const std::vector<Number>& numbers, std::size_t steps,
+                     int y, const std::array<Density*, 3>& planes) {
+  const std::vector<Density>& table = densities_of_srgb16();
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const auto width = static_cast<std::size_t>(image.width);
+  const Number* row = numbers.data() + static_cast<std::size_t>(y) * width * channels;
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    const Number* at = row + (channels < 3 ? 0 : c);
+    for (std::size_t x = 0; x < width; ++x, at += channels) planes[c][x] = table[steps * *at];
+  }
 }
 
 }  // namespace
@@ -34,7 +60,17 @@ LightRows light_of(const Image& image) {
       }
     }
   };
-  return {image.width, image.height, row};
+  LightRows light = {image.width, image.height, row};
+  if (!image.of_floats()) {
+    light.densities = [&image](int y, const std::array<Density*, 3>& planes) {
+      if (const auto* bytes = std::get_if<1>(&image.pixels)) {
+        write_densities(image, *bytes, 257, y, planes);
+      } else {
+        write_densities(image, std::get<2>(image.pixels), 1, y, planes);
+      }
+    };
+  }
+  return light;
 }
 
 LightRows slopes_of(const Image& image) {

@@ -59,6 +59,13 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
   TextureMap map{width, height, {}, coding};
   map.planes.resize(static_cast<std::size_t>(coding.channels) * static_cast<std::size_t>(width) *
                     static_cast<std::size_t>(height));
+  const bool same_size = width == picture.width && height == picture.height;
+  if (same_size && picture.densities && coding.content == MapContent::kColours) {
+    parallel_for_each(height, [&](int y) {
+      picture.densities(y, {map.row(0, y), map.row(1, y), map.row(2, y)});
+    });
+    return map;
+  }
   parallel_blocks(height, kRowsPerBlock, [&](int begin, int end) {
     Row row(static_cast<std::size_t>(picture.width)), sum(row.size());
     for (int y = begin; y < end; ++y) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -82,6 +83,9 @@ struct LightRows {
   int width = 0;
   int height = 0;
   std::function<void(int y, std::span<Eigen::Array3f> texels)> row;  ///< writes `width` texels
+  /// Of light alone, and perhaps none: writes row y as densities, what density_of_light says of each number, without
+  /// a logarithm for each. \param planes  red, green, blue
+  std::function<void(int y, const std::array<Density*, 3>& planes)> densities = {};
 };
 
 /// The picture at another size: between texels along straight lines where it grows, and where it shrinks
