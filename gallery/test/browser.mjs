@@ -100,6 +100,27 @@ const front = await shades();
 assert.ok(front.colours > 50, `the 3D view shows ${front.colours} colours`);
 assert.ok(!(await page.locator('main.face').innerText()).includes('[object'), 'raw objects on the page');
 await take('face');
+// Its skin has a picture of its own, where its vertices have nothing but the light that reaches them; the rest has colours.
+const skin = await page.evaluate(() => {
+  const { materials, object: { geometry: { groups, index, attributes: { color } } } } = window.crowdface.page.face.turntable;
+  return groups.map(({ start, count, materialIndex }) => ({
+    size: materials[materialIndex].map?.image.width,
+    grey: Array.from(index.array.slice(start, start + count)).every((v) => (
+      color.getX(v) === color.getY(v) && color.getX(v) === color.getZ(v))),
+  }));
+});
+assert.deepEqual(skin, [{ size: 256, grey: true }, { size: undefined, grey: false }]);
+const bare = await page.evaluate(() => {
+  const { turntable } = window.crowdface.page.face;
+  const [material] = turntable.materials;
+  const { map } = material;
+  const redraw = (to) => Object.assign(material, { map: to, needsUpdate: true }) && turntable.draw();
+  redraw(null);
+  const image = turntable.node.toDataURL();
+  redraw(map);
+  return image !== turntable.node.toDataURL();
+});
+assert.ok(bare, 'the picture is seen');
 // What the face wears: red on the left, and where its picture has a hole nothing.
 const card = await page.evaluate(`(${wornPixels})(window.crowdface.page.face.turntable)`);
 assert.ok(card.left > 100 && card.red > 0.9 * card.left && card.right < 0.3 * card.left, JSON.stringify(card));

@@ -7,7 +7,7 @@
 set -euo pipefail
 . "$(dirname "$0")/page.sh"
 
-"$program" synth -o "$folder/heads" --count 5 --vertices 20000 --seed 2 --quiet
+"$program" synth -o "$folder/heads" --count 5 --vertices 20000 --seed 2 --textures 256 --quiet
 mkdir -p "$folder/template/shapes"
 cp "$folder/heads/synth_01.obj" "$folder/template/neutral.obj"
 awk '/^v / && $3 > 1 && $3 < 5 && $4 > 6 { $3 += 0.5 } { print }' "$folder/template/neutral.obj" >"$folder/template/shapes/browUp.obj"
@@ -29,10 +29,10 @@ YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
 gallery=$folder/out/gallery
 
-# 300 faces stay under 60 MB, pictures not counted.
+# 300 faces stay under 70 MB, with small pictures on them; those beside them are not counted.
 largest=$(stat -c %s "$gallery/data/faces"/*.js | sort -n | tail -n 1)
 echo "$largest bytes a face"
-[ "$largest" -lt 190000 ] || { echo "a face's mesh takes $largest bytes"; exit 1; }
+[ "$largest" -lt 230000 ] || { echo "a face's mesh takes $largest bytes"; exit 1; }
 
 browse browser.mjs "$gallery" "$folder/review.yaml" "${PICTURES-}"
 cat "$folder/review.yaml"
