@@ -5,7 +5,7 @@
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/pick/pick.h"
-#include "crowdface/pictures/gallery.h"
+#include "crowdface/pictures/gallery_page.h"
 #include "crowdface/wrap/scan_file.h"
 
 #include "cli/open_browser.h"

@@ -60,6 +60,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"textures: {colours: drawn, alike: all}", "5:35", "a list of tags, [female, male]"},
         Wrong{"recipes: [{id: r, target: ann, colours: {zed: 1}}]", "5:42", "no head is called"},
         Wrong{"recipes: [{id: r, target: ann, colours: {bob: 0}}]", "5:41", "sum to zero"},
+        Wrong{"textures: {blend: none}\nrecipes: [{id: r, target: ann, colours: {bob: 1}}]", "6:41",
+              "go with textures.blend: auto"},
         Wrong{"recipes: [{id: r, target: ann, colours: bob}]", "5:41", "{head: weight}"}));
 
 INSTANTIATE_TEST_SUITE_P(

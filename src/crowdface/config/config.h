@@ -45,10 +45,10 @@ enum class Gallery {
   kNone,
 };
 
-/// What colours faces have.
 /// Whose textures a face wears: by the weights of its shape, or drawn apart from it.
 enum class ColourWeights { kRecipe, kDrawn };
 
+/// What colours faces have.
 enum class TextureBlend {
   kAuto,    ///< each its own, blended from the heads', where these have different ones
   kTarget,  ///< those of their target

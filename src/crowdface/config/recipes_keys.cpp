@@ -170,6 +170,9 @@ const Keys<HandRecipe>& recipe_keys() {
       key("mirrored", &HandRecipe::mirrored, word<bool>()),
       {"colours",
        [](const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
+         if (draft.config.textures.blend != TextureBlend::kAuto) {
+           draft.complaints.about(node, "go with textures.blend: auto");
+         }
          read_head_weights(node, recipe.colours, draft);
        },
        [](const HandRecipe& recipe, const ConfigWriting& writing) {

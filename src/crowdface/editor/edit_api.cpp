@@ -12,7 +12,7 @@
 #include "crowdface/page/answer_request.h"
 #include "crowdface/page/binary_answer.h"
 #include "crowdface/page/request_values.h"
-#include "crowdface/pictures/gallery.h"
+#include "crowdface/pictures/gallery_page.h"
 
 namespace crowdface {
 

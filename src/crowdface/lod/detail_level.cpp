@@ -22,10 +22,7 @@ Positions rows_of(const Positions& whole, std::span<const std::uint32_t> rows) {
 
 DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
                      const FaceSet& faces) {
-  erase_collapsed(triangles, split);
-  const auto look_of = [&](const Triangle& t) { return split.corners[t[0]].look; };
-  std::ranges::stable_sort(
-      triangles, [&](const Triangle& a, const Triangle& b) { return look_of(a) < look_of(b); });
+  triangles = in_order_of_looks(std::move(triangles), split);
   DetailLevel level;
   std::vector<std::uint32_t> vertices, uvs;
   for (const Triangle& triangle : triangles) {
@@ -33,7 +30,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
       vertices.push_back(split.corners[corner].vertex);
       uvs.push_back(split.corners[corner].uv);
     }
-    level.faces.push_back(split.face_of_look[look_of(triangle)]);
+    level.faces.push_back(split.face_of_look[split.corners[triangle[0]].look]);
   }
   level.vertices = renumber(vertices, faces.topology.vertex_count);
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <system_error>
@@ -148,41 +147,6 @@ void remove_others(const fs::path& folder, const std::set<std::string>& names) {
 }
 
 }  // namespace
-
-std::optional<fs::path> gallery_page_folder() {
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
-  if (const char* chosen = std::getenv("CROWDFACE_GALLERY"); chosen != nullptr && *chosen != 0) {
-    return chosen;
-  }
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return std::nullopt;
-  return program.parent_path().parent_path() / "share/crowdface/gallery";
-}
-
-std::optional<fs::path> find_gallery_page() {
-  auto folder = gallery_page_folder();
-  if (!folder) return std::nullopt;
-  std::error_code error;
-  for (const std::string_view file : kGalleryPageFiles) {
-    if (!fs::exists(*folder / file, error)) return std::nullopt;
-  }
-  return folder;
-}
-
-bool has_gallery(const Config& config) {
-  return config.output.contact_sheet && config.output.gallery == Gallery::kAuto &&
-         find_gallery_page();
-}
-
-Digest gallery_page_digest(const Config& config) {
-  Hasher hasher;
-  if (has_gallery(config)) {
-    const fs::path page = *find_gallery_page();
-    for (const std::string_view file : kGalleryPageFiles) hasher.add(hash_file(page / file).digest);
-  }
-  return hasher.digest();
-}
 
 GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     : config_(config), inputs_(inputs), around_(inputs.faces.topology), frame_(frame_of(inputs)) {

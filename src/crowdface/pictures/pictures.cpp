@@ -11,6 +11,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/face_mesh.h"
+#include "crowdface/pictures/gallery_page.h"
 
 namespace crowdface {
 namespace {

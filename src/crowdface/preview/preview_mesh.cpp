@@ -25,10 +25,8 @@ PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs
 
 PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
                        const TextureCoordinates& uvs) {
-  erase_collapsed(triangles, split);
+  triangles = in_order_of_looks(std::move(triangles), split);
   const auto look_of = [&](const Triangle& t) { return split.corners[t[0]].look; };
-  std::ranges::stable_sort(
-      triangles, [&](const Triangle& a, const Triangle& b) { return look_of(a) < look_of(b); });
   PreviewMesh mesh;
   std::vector<std::uint32_t> number(split.corners.size(), kNoIndex);
   std::map<std::uint32_t, std::uint32_t> first;  // of a row of the whole mesh

@@ -97,11 +97,14 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
   return split;
 }
 
-void erase_collapsed(std::vector<Triangle>& triangles, const SplitMesh& split) {
+std::vector<Triangle> in_order_of_looks(std::vector<Triangle> triangles, const SplitMesh& split) {
   std::erase_if(triangles, [&](const Triangle& t) {
     const auto vertex = [&](std::size_t k) { return split.corners[t[k]].vertex; };
     return vertex(0) == vertex(1) || vertex(1) == vertex(2) || vertex(2) == vertex(0);
   });
+  std::ranges::stable_sort(triangles, {},
+                           [&](const Triangle& t) { return split.corners[t[0]].look; });
+  return triangles;
 }
 
 }  // namespace crowdface

@@ -33,7 +33,8 @@ struct SplitMesh {
 SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
                      std::span<const std::uint32_t> looks);
 
-/// Triangles of the split mesh that have one vertex twice: a seam collapsed between them.
-void erase_collapsed(std::vector<Triangle>& triangles, const SplitMesh& split);
+/// Triangles of the split mesh, one look after the other, without those that have one vertex twice: a seam
+/// collapsed between them.
+std::vector<Triangle> in_order_of_looks(std::vector<Triangle> triangles, const SplitMesh& split);
 
 }  // namespace crowdface

@@ -12,6 +12,7 @@
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/face_textures.h"
+#include "crowdface/pictures/gallery_page.h"
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_ledger.h"

@@ -8,7 +8,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
-#include "crowdface/pictures/gallery.h"
+#include "crowdface/pictures/gallery_page.h"
 #include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/mesh_writers.h"

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pictures/gallery_page.h"
+
+#include <cstdlib>
+#include <system_error>
+
+#include "crowdface/core/file.h"
+#include "crowdface/crowd/crowd_directory.h"
+
+namespace crowdface {
+
+namespace fs = std::filesystem;
+
+std::optional<fs::path> gallery_page_folder() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
+  if (const char* chosen = std::getenv("CROWDFACE_GALLERY"); chosen != nullptr && *chosen != 0) {
+    return chosen;
+  }
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return std::nullopt;
+  return program.parent_path().parent_path() / "share/crowdface/gallery";
+}
+
+std::optional<fs::path> find_gallery_page() {
+  auto folder = gallery_page_folder();
+  if (!folder) return std::nullopt;
+  std::error_code error;
+  for (const std::string_view file : kGalleryPageFiles) {
+    if (!fs::exists(*folder / file, error)) return std::nullopt;
+  }
+  return folder;
+}
+
+bool has_gallery(const Config& config) {
+  return config.output.contact_sheet && config.output.gallery == Gallery::kAuto &&
+         find_gallery_page();
+}
+
+Digest gallery_page_digest(const Config& config) {
+  Hasher hasher;
+  if (has_gallery(config)) {
+    const fs::path page = *find_gallery_page();
+    for (const std::string_view file : kGalleryPageFiles) hasher.add(hash_file(page / file).digest);
+  }
+  return hasher.digest();
+}
+
+}  // namespace crowdface
