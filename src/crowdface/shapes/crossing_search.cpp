@@ -16,7 +16,7 @@ namespace {
 
 /// Triangles so many edges apart are of one sheet if they face alike: the least cosine.
 constexpr int kSheetRings = 3;
-constexpr double kAlike = 0.9;
+constexpr float kAlike = 0.98F;
 
 /// Of a leaf with itself: each pair once.
 constexpr std::uint64_t kOnce = [] {
@@ -71,65 +71,112 @@ class Rings {
 
 }  // namespace
 
-CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach)
-    : triangles_(std::move(triangles)), tree_(triangles_, mesh, reach) {
-  find_near(mesh, reach);
+CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach,
+                               double facing)
+    : triangles_(std::move(triangles)) {
+  for (const Triangle& t : triangles_) vertices_.insert(vertices_.end(), t.begin(), t.end());
+  std::ranges::sort(vertices_);
+  vertices_.erase(std::ranges::unique(vertices_).begin(), vertices_.end());
+  std::vector<Triangle> numbered = triangles_;
+  for (Triangle& triangle : numbered) {
+    for (std::uint32_t& v : triangle) {
+      v = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
+    }
+  }
+  Positions points(static_cast<Index>(vertices_.size()), 3);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    points.row(static_cast<Index>(i)) = mesh.row(vertices_[i]);
+  }
+  tree_ = TriangleTree(numbered, points, reach);
+  find_near(numbered, points, reach, facing);
+  leave_out_sheets(numbered);
 }
 
-void CrossingSearch::find_near(const Positions& mesh, double reach) {
-  std::vector<Eigen::Vector3d> normals;
-  for (const Triangle& triangle : triangles_) normals.push_back(unit3(area_vector(mesh, triangle)));
-  auto leaves = TriangleScene(triangles_, tree_, mesh, reach / 2).near_leaves();
-  std::ranges::sort(leaves, {}, [](const auto& pair) { return std::pair(pair.one, pair.other); });
-  std::vector<std::uint32_t> place(triangles_.size(), kNoIndex);  // in the leaves' order
+/// Which triangles are so near to each other that they are to be asked about, sheets not left out yet.
+void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Positions& points,
+                               double reach, double facing) {
+  const SingleRows single = points.cast<float>();
+  std::vector<LeafBoxes> close, far;
+  std::vector<LeafNormals> normals;
+  for (const LeafCorners& corners : tree_.corners) {
+    close.emplace_back(corners, single, reach / 2);
+    far.emplace_back(corners, single, facing / 2);
+    normals.emplace_back(corners, single);
+  }
+  for (const auto& [one, other] :
+       TriangleScene(numbered, tree_, points, facing / 2).near_leaves()) {
+    std::uint64_t near = overlapping(far[one], far[other]);
+    if (near != 0) near &= ~facing_alike(normals[one], normals[other], 0);
+    near |= overlapping(close[one], close[other]);
+    if (one == other) near &= kOnce;
+    if (near != 0) near_.push_back({one, other, near, 0});
+  }
+  std::ranges::sort(near_, {}, [](const Near& near) { return std::pair(near.one, near.other); });
+}
+
+/// Of triangles few edges apart only those are asked about which do not face alike.
+void CrossingSearch::leave_out_sheets(const std::vector<Triangle>& numbered) {
+  std::vector<std::uint32_t> place(numbered.size(), kNoIndex);  // in the leaves' order
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
-  Rings rings(triangles_, mesh.rows());
+  Rings rings(numbered, static_cast<Index>(vertices_.size()));
   std::vector<std::uint32_t> near_of(tree_.leaf_count(), kNoIndex);  // of the leaf at hand
-  for (auto begin = leaves.begin(), end = begin; begin != leaves.end(); begin = end) {
-    for (; end != leaves.end() && end->one == begin->one; ++end) {
-      near_of[end->other] = static_cast<std::uint32_t>(near_.size());
-      near_.push_back({end->one, end->other, end->one == end->other ? kOnce : ~std::uint64_t{0}});
+  for (auto begin = near_.begin(), end = begin; begin != near_.end(); begin = end) {
+    for (; end != near_.end() && end->one == begin->one; ++end) {
+      near_of[end->other] = static_cast<std::uint32_t>(end - near_.begin());
     }
     const auto ones = tree_.leaf(begin->one);
     for (std::size_t k = 0; k < ones.size(); ++k) {
       for (const std::uint32_t other : rings.around(ones[k])) {
         if (place[other] == kNoIndex) continue;
-        const std::uint32_t near = near_of[place[other] / LeafBoxes::kCount];
-        if (near == kNoIndex || (!share_vertex(triangles_[ones[k]], triangles_[other]) &&
-                                 dot3(normals[ones[k]], normals[other]) <= kAlike)) {
-          continue;
-        }
-        const std::size_t bit = LeafBoxes::kCount * k + place[other] % LeafBoxes::kCount;
-        near_[near].asked &= ~(std::uint64_t{1} << bit);
+        const std::uint32_t number = near_of[place[other] / LeafBoxes::kCount];
+        if (number == kNoIndex) continue;
+        Near& near = near_[number];
+        const std::uint64_t bit = std::uint64_t{1}
+                                  << (LeafBoxes::kCount * k + place[other] % LeafBoxes::kCount);
+        if (!share_vertex(numbered[ones[k]], numbered[other])) near.folded |= near.always & bit;
+        near.always &= ~bit;
       }
     }
     for (auto pair = begin; pair != end; ++pair) near_of[pair->other] = kNoIndex;
   }
-  std::erase_if(near_, [](const Near& near) { return near.asked == 0; });
+  std::erase_if(near_, [](const Near& near) { return (near.always | near.folded) == 0; });
 }
 
-void CrossingSearch::measure(const Positions& mesh, std::size_t l, Boxes& boxes) const {
-  boxes.triangles[l] = LeafBoxes(tree_.leaf(l), triangles_, mesh, 0);
+void CrossingSearch::measure(std::size_t l, Boxes& boxes) const {
+  boxes.triangles[l] = LeafBoxes(tree_.corners[l], boxes.points, 0);
   boxes.leaves[l] = boxes.triangles[l].whole();
+  boxes.normals[l] = LeafNormals(tree_.corners[l], boxes.points);
 }
 
 CrossingSearch::Boxes CrossingSearch::boxes_of(const Positions& mesh) const {
   const std::size_t leaves = tree_.leaf_count();
-  Boxes boxes{std::vector<LeafBoxes>(leaves), std::vector<Box>(leaves),
+  Boxes boxes{SingleRows(static_cast<Index>(vertices_.size()), 3),
+              std::vector<LeafBoxes>(leaves),
+              std::vector<LeafNormals>(leaves),
+              std::vector<Box>(leaves),
               std::vector<std::uint8_t>(leaves, 1)};
-  for (std::size_t l = 0; l < leaves; ++l) measure(mesh, l, boxes);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    boxes.points.row(static_cast<Index>(i)) = mesh.row(vertices_[i]).cast<float>();
+  }
+  for (std::size_t l = 0; l < leaves; ++l) measure(l, boxes);
   return boxes;
 }
 
 void CrossingSearch::renew(const Positions& mesh, const std::vector<bool>& changed,
                            Boxes& boxes) const {
+  std::vector<std::uint8_t> moved(vertices_.size(), 0);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (!changed[vertices_[i]]) continue;
+    moved[i] = 1;
+    boxes.points.row(static_cast<Index>(i)) = mesh.row(vertices_[i]).cast<float>();
+  }
   for (std::size_t l = 0; l < boxes.leaves.size(); ++l) {
-    const auto here = tree_.leaf(l);
-    boxes.is_new[l] = std::any_of(here.begin(), here.end(), [&](std::uint32_t t) {
-      const auto& [a, b, c] = triangles_[t];
-      return changed[a] || changed[b] || changed[c];
-    });
-    if (boxes.is_new[l] != 0) measure(mesh, l, boxes);
+    std::uint8_t any = 0;
+    for (const auto& corner : tree_.corners[l].vertex) {
+      for (const std::int32_t v : corner) any |= moved[static_cast<std::size_t>(v)];
+    }
+    boxes.is_new[l] = any;
+    if (any != 0) measure(l, boxes);
   }
 }
 
@@ -140,8 +187,12 @@ std::vector<CrossingSearch::Pair> CrossingSearch::crossing(
   for (const Near& near : near_) {
     if ((boxes.is_new[near.one] | boxes.is_new[near.other]) == 0) continue;
     if (!overlap(boxes.leaves[near.one], boxes.leaves[near.other])) continue;
-    std::uint64_t left =
-        near.asked & overlapping(boxes.triangles[near.one], boxes.triangles[near.other]);
+    std::uint64_t left = (near.always | near.folded) &
+                         overlapping(boxes.triangles[near.one], boxes.triangles[near.other]);
+    if ((left & near.folded) != 0) {
+      left &= near.always |
+              ~facing_alike(boxes.normals[near.one], boxes.normals[near.other], kAlike);
+    }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
       const std::uint32_t t = tree_.leaf(near.one)[bit / LeafBoxes::kCount];

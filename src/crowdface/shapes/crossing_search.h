@@ -21,14 +21,18 @@ class CrossingSearch {
   /// \param triangles  those that are looked at
   /// \param mesh       #V by 3, on which others' leaves are looked for
   /// \param reach      how near to each other they are there, if they may ever meet
-  /// Triangles of one sheet, a few edges apart and facing alike in `mesh`, are never asked about.
-  CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach);
+  /// \param facing     the same of such as face each other, not less
+  /// Triangles of one sheet, a few edges apart, are asked about where they do not face alike.
+  CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach,
+                 double facing);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
   /// Of one mesh: what is kept between two looks at it.
   struct Boxes {
+    SingleRows points;                 ///< #vertices of the triangles by 3
     std::vector<LeafBoxes> triangles;  ///< #leaves
+    std::vector<LeafNormals> normals;  ///< #leaves
     std::vector<Box> leaves;
     std::vector<std::uint8_t> is_new;  ///< #leaves: since the last look
   };
@@ -46,13 +50,17 @@ class CrossingSearch {
   /// triangle j of the second.
   struct Near {
     std::uint32_t one, other;
-    std::uint64_t asked;
+    std::uint64_t always;
+    std::uint64_t folded;  ///< if they do not face alike, being few edges apart
   };
-  void find_near(const Positions& mesh, double reach);
-  void measure(const Positions& mesh, std::size_t leaf, Boxes& boxes) const;
+  void find_near(const std::vector<Triangle>& numbered, const Positions& points, double reach,
+                 double facing);
+  void leave_out_sheets(const std::vector<Triangle>& numbered);
+  void measure(std::size_t leaf, Boxes& boxes) const;
 
   std::vector<Triangle> triangles_;
-  TriangleTree tree_;
+  std::vector<std::uint32_t> vertices_;  ///< of those, ascending
+  TriangleTree tree_;                    ///< of the triangles, their vertices numbered by these
   std::vector<Near> near_;  ///< ascending
 };
 

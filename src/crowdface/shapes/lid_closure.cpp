@@ -18,7 +18,7 @@ constexpr double kWholeShare = 1.8, kNoShare = 3;   // from the eyeball's centre
 constexpr double kWholeHold = 0.27, kNoHold = 0.6;  // off the eyeball's surface
 /// Cosine of the angle to the axis at which holding off begins, and over which it grows.
 constexpr double kHoldFrom = -2, kHoldOver = 0.25;
-constexpr std::size_t kPlaces = 32;  // along the opening
+constexpr std::size_t kPlaces = 52;  // along the opening
 constexpr double kProfile = 0.35;    // of a place, to either side
 constexpr double kBlur = .12;        // over which places are evened out
 constexpr double kLeastClosed = 0.05;
@@ -32,7 +32,7 @@ constexpr double kSomeDeeper = 0.002;  // what nobody minds
 /// places closes too.
 constexpr double kSure = 0.02;
 constexpr int kSteps = 8;
-constexpr double kOpen = 0.017;  // more than the template's: nobody sees it
+constexpr double kClosed = 0.016;  // as good as no gap
 
 /// From 1 up to `whole` to 0 from `none` on, smoothly.
 double fading(double at, double whole, double none) {
@@ -303,9 +303,11 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye,
 
 double LidClosure::open(const Positions& face, const RigidMotion& whole, const Goals& goals,
                         const Positions& moves) const {
+  const std::vector<Gap> now = gaps(axes_on(whole), face, moves);
   double open = 0;
-  for (const double gap : missing_gaps(gaps(axes_on(whole), face, moves), goals, whole.scale)) {
-    open = std::max(open, gap / (whole.scale * radius_) - kOpen);
+  for (std::size_t p = 0; p < now.size(); ++p) {
+    const double allowed = std::max(goals.gaps[p].plumb / radius_, kClosed);
+    open = std::max(open, now[p].plumb / (whole.scale * radius_) - allowed);
   }
   return open;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/mesh/displacements.h"
+#include "crowdface/mesh/single_rows.h"
 
 namespace crowdface {
 
@@ -14,9 +15,6 @@ struct Shape {
   std::string name;
   Displacements moves;
 };
-
-/// Three numbers a row as mesh files hold them, to save memory.
-using SingleRows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// Where an expression takes one of the heads.
 struct OwnShape {

@@ -187,14 +187,15 @@ void CarriedShape::keep_contacts() {
 void CarriedShape::take_skin_apart() {
   SkinCrossings::Harm harm;
   if (closes_lids()) harm = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
+  const SkinCrossings::Face face{carrier_.mesh, carrier_.at_rest, carrier_.frames.whole};
   double best = HUGE_VAL;
   Positions kept;
   Index crossing = 0;
   for (int round = 0; round < kMends; ++round) {
     if (round > 0) close_lids();
-    crossing_ = prepared_.crossings.mend(carrier_.mesh, carrier_.at_rest, shape_.watched, mesh_,
-                                         result_, harm);
+    crossing_ = prepared_.crossings.mend(face, shape_.watched, mesh_, result_, harm);
     const bool are_out = keep_lids_out();
+    if (harm) crossing_ = prepared_.crossings.count(face, shape_.watched, result_, mesh_);
     const double open = harm ? harm(result_.moves) : 0;
     const double bad = static_cast<double>(crossing_) + open;
     if (bad < best) {

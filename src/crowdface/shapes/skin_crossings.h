@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "crowdface/core/grouped.h"
 #include "crowdface/mesh/displacements.h"
-#include "crowdface/mesh/triangles.h"
 #include "crowdface/parts/head_axes.h"
+#include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/crossing_search.h"
+#include "crowdface/shapes/meeting_skin.h"
 
 namespace crowdface {
 
@@ -30,13 +28,14 @@ class SkinCrossings {
   struct Row {
     std::uint32_t row, vertex;
   };
-  /// Which skin of a shape is looked at: that which the shape brings, or may on a face bring, to other skin.
+  /// Which skin of a shape is looked at: see skin_that_may_meet.
   struct Watched {
     CrossingSearch search;
     std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
     std::vector<signed char>
         side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
     std::vector<Row> rows;
+    Positions shaped;       ///< #rows by 3, of the template in the shape
     bool is_meant = false;  ///< its crossings are counted and left
   };
   /// \param neutral  of the template, #V by 3
@@ -51,41 +50,34 @@ class SkinCrossings {
   /// #V: whether a vertex is one of triangles that pass through others in a face at rest.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
 
+  struct Face {
+    const Positions& rest;             ///< #V by 3
+    const std::vector<bool>& at_rest;  ///< #V, see crossing_at_rest; those crossings are none of a shape's
+    const RigidMotion& whole;          ///< from the template
+  };
+  /// How many triangles pass through others in a shape of a face.
+  /// \param mesh  the face at rest; changed while it works
+  Index count(const Face& face, const Watched& watched, const Displacements& shape,
+              Positions& mesh) const;
+
   using Harm = std::function<double(const Positions& moves)>;
   /// Makes a shape fit: displacements around crossings are evened out over what is near each other at rest, so
-  /// that it stays as it lies there; and lids are pushed off each other. Crossings of the face at rest are
-  /// none of the shape's.
-  /// \param rest     of the face, #V by 3
-  /// \param at_rest  #V, see crossing_at_rest
-  /// \param mesh     the same as `rest`; changed while it works
+  /// that it stays as it lies there; lids are pushed off each other, or laid as the template's lie.
+  /// \param mesh     the face at rest; changed while it works
   /// \param shape    of the face
   /// \param harm     of displacements, beside crossings, in triangles: the best of all rounds is kept; none: the
   ///                 last is
   /// \return         how many triangles still pass through others
-  Index mend(const Positions& rest, const std::vector<bool>& at_rest, const Watched& watched,
-             Positions& mesh, Displacements& shape, const Harm& harm = {}) const;
+  Index mend(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
+             const Harm& harm = {}) const;
 
  private:
-  using Pair = CrossingSearch::Pair;
-  using Excused = std::function<bool(std::uint32_t)>;
-
-  /// \param pairs  that cross; those that are left, in the end
-  void take_apart(const Positions& rest, const Watched& watched, const Excused& excused,
-                  CrossingSearch::Boxes& boxes, std::vector<Pair>& pairs, Positions& mesh,
-                  Displacements& shape, const Harm& harm) const;
-  int side_of(const Watched& watched, std::uint32_t triangle) const;
-  enum class Push { kForward, kApart };
-  void push_apart(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
-                  double by, Push how, Displacements& shape, std::vector<bool>& changed) const;
-  void even_out(const std::vector<Pair>& pairs, const Watched& watched, const Positions& rest,
-                double grown, Displacements& shape, std::vector<bool>& changed) const;
+  class Mending;
 
   double extent_ = 0;
   HeadAxes axes_;
-  std::vector<std::uint32_t> skin_;
   std::vector<bool> is_skin_;  ///< #V
-  std::vector<Triangle> triangles_;
-  Grouped<std::uint32_t> around_;  ///< #V: triangles at each
+  SkinMesh skin_;
 };
 
 }  // namespace crowdface

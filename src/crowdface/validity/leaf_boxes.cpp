@@ -6,7 +6,6 @@
 #include "hwy/foreach_target.h"
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "hwy/highway.h"
@@ -15,27 +14,111 @@ HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-std::uint64_t overlapping_boxes(const LeafBoxes& a, const LeafBoxes& b) {
-  constexpr std::size_t kCount = LeafBoxes::kCount;
-  const hn::CappedTag<float, kCount> lanes;
-  std::uint64_t all = 0;
-  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(lanes)) {
-    hn::VFromD<decltype(lanes)> low[3], high[3];
+constexpr std::size_t kCount = LeafCorners::kCount;
+constexpr hn::CappedTag<float, kCount> kLanes;
+using Lanes = hn::VFromD<decltype(kLanes)>;
+
+struct Lanes3 {
+  Lanes x[3];
+};
+
+/// A corner of triangles from `begin` on.
+Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
+                 const float* points) {
+  const hn::RebindToSigned<decltype(kLanes)> integers;
+  const auto vertex = hn::LoadU(integers, &corners.vertex[k][begin]);
+  const auto row = hn::Add(hn::Add(vertex, vertex), vertex);
+  Lanes3 corner;
+  for (int c = 0; c < 3; ++c) {
+    corner.x[c] = hn::GatherIndex(kLanes, points, hn::Add(row, hn::Set(integers, c)));
+  }
+  return corner;
+}
+
+void measure_boxes(const LeafCorners& corners, const float* points, float margin,
+                   LeafBoxes& boxes) {
+  // More than what single precision takes off a coordinate or a margin.
+  const auto rounding = hn::Set(kLanes, 1e-6F), grown = hn::Set(kLanes, margin);
+  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
+    const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
+                 r = corner_of(corners, 2, begin, points);
     for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = hn::LoadU(lanes, &b.low[c][begin]);
-      high[c] = hn::LoadU(lanes, &b.high[c][begin]);
-    }
-    for (std::size_t i = 0; i < kCount; ++i) {
-      const auto along = [&](std::size_t c) {
-        return hn::And(hn::Le(hn::Set(lanes, a.low[c][i]), high[c]),
-                       hn::Le(low[c], hn::Set(lanes, a.high[c][i])));
+      const auto least = hn::Min(hn::Min(p.x[c], q.x[c]), r.x[c]);
+      const auto most = hn::Max(hn::Max(p.x[c], q.x[c]), r.x[c]);
+      const auto by = [&](Lanes at) {
+        return hn::Add(grown, hn::Mul(rounding, hn::Add(hn::Abs(at), grown)));
       };
+      hn::StoreU(hn::Sub(least, by(least)), kLanes, &boxes.low[c][begin]);
+      hn::StoreU(hn::Add(most, by(most)), kLanes, &boxes.high[c][begin]);
+    }
+  }
+}
+
+void measure_normals(const LeafCorners& corners, const float* points, LeafNormals& normals) {
+  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
+    const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
+                 r = corner_of(corners, 2, begin, points);
+    Lanes a[3], b[3], n[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      a[c] = hn::Sub(q.x[c], p.x[c]);
+      b[c] = hn::Sub(r.x[c], p.x[c]);
+    }
+    auto square = hn::Zero(kLanes);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
+      n[c] = hn::Sub(hn::Mul(a[d], b[e]), hn::Mul(a[e], b[d]));
+      square = hn::Add(square, hn::Mul(n[c], n[c]));
+    }
+    const auto length = hn::Sqrt(square);
+    for (std::size_t c = 0; c < 3; ++c) {
+      hn::StoreU(hn::Div(n[c], length), kLanes, &normals.along[c][begin]);
+    }
+  }
+}
+
+/// Bit 8 i + j: what `compare` says of i of one leaf and some j of another.
+template <class Compare>
+std::uint64_t compared(const Compare& compare) {
+  std::uint64_t all = 0;
+  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
+    const auto with_each = compare(begin);
+    for (std::size_t i = 0; i < kCount; ++i) {
       std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(lanes, hn::And(hn::And(along(0), along(1)), along(2)), bits);
+      hn::StoreMaskBits(kLanes, with_each(i), bits);
       all |= std::uint64_t{bits[0]} << (kCount * i + begin);
     }
   }
   return all;
+}
+
+std::uint64_t overlapping_boxes(const LeafBoxes& a, const LeafBoxes& b) {
+  return compared([&](std::size_t begin) {
+    Lanes3 low, high;
+    for (std::size_t c = 0; c < 3; ++c) {
+      low.x[c] = hn::LoadU(kLanes, &b.low[c][begin]);
+      high.x[c] = hn::LoadU(kLanes, &b.high[c][begin]);
+    }
+    return [&a, low, high](std::size_t i) {
+      const auto along = [&](std::size_t c) {
+        return hn::And(hn::Le(hn::Set(kLanes, a.low[c][i]), high.x[c]),
+                       hn::Le(low.x[c], hn::Set(kLanes, a.high[c][i])));
+      };
+      return hn::And(hn::And(along(0), along(1)), along(2));
+    };
+  });
+}
+
+std::uint64_t alike_normals(const LeafNormals& a, const LeafNormals& b, float least) {
+  return compared([&](std::size_t begin) {
+    Lanes3 n;
+    for (std::size_t c = 0; c < 3; ++c) n.x[c] = hn::LoadU(kLanes, &b.along[c][begin]);
+    return [&a, n, least](std::size_t i) {
+      const auto part = [&](std::size_t c) {
+        return hn::Mul(hn::Set(kLanes, a.along[c][i]), n.x[c]);
+      };
+      return hn::Gt(hn::Add(hn::Add(part(0), part(1)), part(2)), hn::Set(kLanes, least));
+    };
+  });
 }
 
 }  // namespace crowdface::HWY_NAMESPACE
@@ -44,10 +127,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
+HWY_EXPORT(alike_normals);
+HWY_EXPORT(measure_boxes);
+HWY_EXPORT(measure_normals);
 HWY_EXPORT(overlapping_boxes);
 
 std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b) {
   return HWY_DYNAMIC_DISPATCH(overlapping_boxes)(a, b);
+}
+
+std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least) {
+  return HWY_DYNAMIC_DISPATCH(alike_normals)(a, b, least);
 }
 
 /// Without branches, which no processor foresees here.
@@ -60,29 +150,43 @@ bool overlap(const Box& a, const Box& b) {
   return apart == 0;
 }
 
-LeafBoxes::LeafBoxes(std::span<const std::uint32_t> numbers, std::span<const Triangle> triangles,
-                     const Positions& positions, double margin) {
+LeafCorners::LeafCorners(std::span<const std::uint32_t> numbers,
+                         std::span<const Triangle> triangles)
+    : count(numbers.size()) {
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Triangle& triangle = triangles[numbers[i < count ? i : 0]];
+    for (std::size_t k = 0; k < 3; ++k) vertex[k][i] = static_cast<std::int32_t>(triangle[k]);
+  }
+}
+
+LeafBoxes::LeafBoxes(const LeafCorners& corners, const SingleRows& points, double margin) {
+  HWY_DYNAMIC_DISPATCH(measure_boxes)
+  (corners, points.data(), static_cast<float>(margin), *this);
   constexpr float kEnd = std::numeric_limits<float>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
-    low[c].fill(kEnd);
-    high[c].fill(-kEnd);
-    const auto axis = static_cast<Index>(c);
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const Triangle& t = triangles[numbers[i]];
-      const double x = positions(t[0], axis), y = positions(t[1], axis), z = positions(t[2], axis);
-      const auto least = static_cast<float>(std::min({x, y, z}) - margin);
-      const auto most = static_cast<float>(std::max({x, y, z}) + margin);
-      low[c][i] = least - 1e-6F * std::abs(least);
-      high[c][i] = most + 1e-6F * std::abs(most);
+    for (std::size_t i = corners.count; i < kCount; ++i) {
+      low[c][i] = kEnd;
+      high[c][i] = -kEnd;
     }
   }
+}
+
+LeafNormals::LeafNormals(const LeafCorners& corners, const SingleRows& points) {
+  HWY_DYNAMIC_DISPATCH(measure_normals)(corners, points.data(), *this);
 }
 
 Box LeafBoxes::whole() const {
   Box box;
   for (std::size_t c = 0; c < 3; ++c) {
-    box.low[c] = *std::min_element(low[c].begin(), low[c].end());
-    box.high[c] = *std::max_element(high[c].begin(), high[c].end());
+    std::array<float, kCount> least = low[c], most = high[c];
+    for (std::size_t half = kCount / 2; half > 0; half /= 2) {
+      for (std::size_t i = 0; i < half; ++i) {
+        least[i] = std::min(least[i], least[i + half]);
+        most[i] = std::max(most[i], most[i + half]);
+      }
+    }
+    box.low[c] = least[0];
+    box.high[c] = most[0];
   }
   return box;
 }

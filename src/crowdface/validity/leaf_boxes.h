@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "crowdface/mesh/single_rows.h"
 #include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
@@ -17,22 +18,41 @@ struct Box {
 
 bool overlap(const Box& a, const Box& b);
 
-/// Boxes of up to eight triangles that lie near each other, side by side for the processor; where there are fewer,
-/// boxes that overlap nothing.
-struct LeafBoxes {
+/// Up to eight triangles that lie near each other, side by side for the processor; where there are fewer, the first
+/// stands again.
+struct LeafCorners {
   static constexpr std::size_t kCount = 8;
+  std::array<std::array<std::int32_t, kCount>, 3> vertex;
+  std::size_t count;
+
+  /// \param numbers  of the triangles, one to kCount
+  LeafCorners(std::span<const std::uint32_t> numbers, std::span<const Triangle> triangles);
+};
+
+/// Boxes of the triangles of a leaf; where there are fewer than eight, boxes that overlap nothing.
+struct LeafBoxes {
+  static constexpr std::size_t kCount = LeafCorners::kCount;
   std::array<std::array<float, kCount>, 3> low, high;
 
   LeafBoxes() = default;
-  /// \param numbers  of the triangles, at most kCount
-  /// \param margin   by which boxes are grown on all sides
-  LeafBoxes(std::span<const std::uint32_t> numbers, std::span<const Triangle> triangles,
-            const Positions& positions, double margin);
+  /// \param points  #V by 3
+  /// \param margin  by which boxes are grown on all sides
+  LeafBoxes(const LeafCorners& corners, const SingleRows& points, double margin);
   /// Around all of them.
   Box whole() const;
 };
 
+/// Unit normals of the triangles of a leaf.
+struct LeafNormals {
+  std::array<std::array<float, LeafCorners::kCount>, 3> along;
+
+  LeafNormals() = default;
+  LeafNormals(const LeafCorners& corners, const SingleRows& points);
+};
+
 /// Which boxes of two leaves overlap: bit 8 i + j for box i of the first and box j of the second.
 std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b);
+/// Which triangles of two leaves face alike: those whose normals' cosine is above `least`, as bits like these.
+std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least);
 
 }  // namespace crowdface

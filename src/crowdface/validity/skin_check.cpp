@@ -84,7 +84,8 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Target& target)
 
 std::uint64_t SkinCheck::memory_bytes() const {
   std::uint64_t bytes = triangles_.size() * (sizeof(Triangle) + 5 * sizeof(std::uint32_t)) +
-                        tree_.nodes.size() * sizeof(TriangleTree::Node);
+                        tree_.nodes.size() * sizeof(TriangleTree::Node) +
+                        tree_.corners.size() * sizeof(LeafCorners);
   for (const auto& [head, target] : targets_) {
     bytes += target.triangles.memory_bytes() + triangles_.size() / 8;
   }

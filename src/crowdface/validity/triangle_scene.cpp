@@ -58,8 +58,9 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
       leaves_(tree.leaf_count()),
       boxes_(tree.nodes.size()) {
   constexpr std::size_t kLeavesATask = 512;
+  const SingleRows points = positions.cast<float>();
   parallel_for_each(leaves_.size(), kLeavesATask, [&](std::size_t l) {
-    leaves_[l] = LeafBoxes(tree.leaf(l), triangles, positions, margin);
+    leaves_[l] = LeafBoxes(tree.corners[l], points, margin);
   });
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
     const TriangleTree::Node& node = tree.nodes[n];

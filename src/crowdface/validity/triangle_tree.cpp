@@ -62,7 +62,10 @@ TriangleTree::TriangleTree(const std::vector<Triangle>& triangles, const Positio
     if (apart > 0) middles.back() += 3 * apart * unit3(area_vector(positions, triangles[t]));
     if (!left_out[t]) order.push_back(t);
   }
-  if (!order.empty()) add_nodes(*this, middles, 0, static_cast<std::uint32_t>(order.size()));
+  if (order.empty()) return;
+  add_nodes(*this, middles, 0, static_cast<std::uint32_t>(order.size()));
+  corners.reserve((order.size() + kLeaf - 1) / kLeaf);
+  for (std::size_t l = 0; kLeaf * l < order.size(); ++l) corners.emplace_back(leaf(l), triangles);
 }
 
 }  // namespace crowdface

@@ -26,6 +26,7 @@ struct TriangleTree {
 
   std::vector<std::uint32_t> order;  ///< without triangles at a vertex of more than a thousand
   std::vector<Node> nodes;           ///< parents first; empty if there are no triangles
+  std::vector<LeafCorners> corners;  ///< of the leaves' triangles
 
   TriangleTree() = default;
   /// \param apart  by so much triangles count as moved along their normals: sheets that lie on each other come
@@ -33,7 +34,7 @@ struct TriangleTree {
   TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
                double apart = 0);
 
-  std::size_t leaf_count() const { return (order.size() + kLeaf - 1) / kLeaf; }
+  std::size_t leaf_count() const { return corners.size(); }
   /// The triangles of a leaf.
   std::span<const std::uint32_t> leaf(std::size_t number) const {
     const std::size_t begin = number * kLeaf;
