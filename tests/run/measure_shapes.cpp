@@ -78,7 +78,6 @@ struct LidFigures {
       if (!wanted[i] || !now[i] || *wanted[i] > 3 * kTenthOfMm) continue;
       ++closing;
       if (*now[i] <= 3 * kTenthOfMm) ++closed;
-      else if (std::getenv("LIST") && &moves != &of_template_moves) std::cout << "OPEN " << blinks << " point " << i << " of " << wanted.size() << " template " << *wanted[i]*10 << " now " << *now[i]*10 << '\n';
       widest = std::max(widest, *now[i]);
     }
     const auto in_template = eye.depths(there, closed_there), at_rest = eye.depths(ball, face),
@@ -149,16 +148,7 @@ int main(int argc, char** argv) try {
     face = as_written(face);
     const std::vector<TrianglePair> at_rest = crossings.of(face);
     at_rest_in_all += crossings.all(at_rest);
-    std::vector<Index> seen; const std::vector<Displacements> moves = shapes.of_face(*recipe, face, &seen);
-    {
-      std::size_t o = 0, c = 0;
-      for (std::size_t s = 0; s < set.shapes.size(); ++s) { if (set.shapes[s].name == "jawOpen") o = s; if (set.shapes[s].name == "mouthClose") c = s; }
-      const auto both = [&](const Positions& base, const Displacements& a, const Displacements& b) { return in_shape(in_shape(base, a), b); };
-      const auto oft = crossings.of(both(set.neutral, set.shapes[o].moves, set.shapes[c].moves));
-      const auto mine = crossings.beyond(oft, at_rest, both(face, moves[o], moves[c]));
-      const auto un = crossings.beyond(oft, at_rest, both(face, set.shapes[o].moves, set.shapes[c].moves));
-      std::cout << "BOTH " << f << ' ' << crossings.all(oft) << ' ' << un << ' ' << mine << '\n';
-    }
+    const std::vector<Displacements> moves = shapes.of_face(*recipe, face);
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       const Displacements& shape = set.shapes[s].moves;
       for (MeasuredLids& eye : eyes) {
@@ -171,28 +161,6 @@ int main(int argc, char** argv) try {
       counted[s].carried += carried;
       counted[s].most = std::max(counted[s].most, carried);
       if (carried > 0) ++counted[s].faces;
-      if (carried > 0 && std::getenv("LIST")) {
-        const Positions m = in_shape(face, moves[s]);
-        std::vector<TrianglePair> known = of_template[s];
-        known.insert(known.end(), at_rest.begin(), at_rest.end());
-        std::vector<bool> ex(face.rows(), false);
-        const auto tris = triangles_of(job.inputs.faces.topology, job.inputs.skin, job.inputs.skin.largest());
-        for (auto& p : known) for (auto t : {p.first, p.second}) for (auto v : tris[t]) ex[v] = true;
-        auto touches=[&](auto t){ return ex[tris[t][0]]||ex[tris[t][1]]||ex[tris[t][2]];};
-        std::cout << "LIST face " << f << ' ' << set.shapes[s].name << ' ' << carried << " seen " << seen[s] << '\n';
-        for (auto& p : crossings.of(m)) {
-          if (touches(p.first) && touches(p.second)) continue;
-          Eigen::Vector3d c(0,0,0), r(0,0,0), d(0,0,0);
-          for (auto v : tris[p.first]) { c += row3(m, v)/3; r += row3(face,v)/3; d += row3(set.neutral,v)/3; }
-          Eigen::Vector3d c2(0,0,0), r2(0,0,0), d2(0,0,0), nr(0,0,0);
-          for (auto v : tris[p.second]) { c2 += row3(m, v)/3; r2 += row3(face,v)/3; d2 += row3(set.neutral,v)/3; }
-          const auto tm = in_shape(set.neutral, set.shapes[s].moves);
-          Eigen::Vector3d e1(0,0,0), e2(0,0,0); for (auto v : tris[p.first]) e1 += row3(tm,v)/3; for (auto v : tris[p.second]) e2 += row3(tm,v)/3;
-          const auto dotn=[&](const Positions& q){ return dot3(unit3(area_vector(q, tris[p.first])), unit3(area_vector(q, tris[p.second])));};
-          std::cout << "  PAIR template rest " << 10*(d-d2).norm() << " n " << dotn(set.neutral) << " shape " << 10*(e1-e2).norm() << " n " << dotn(tm) << " face rest " << 10*(r-r2).norm() << " n " << dotn(face)<< " shape " << 10*(c-c2).norm() << " n " << dotn(m) << " moved " << 10*(d-e1).norm() << ' ' << 10*(d2-e2).norm();
-          std::cout << "  " << p.first << ' ' << p.second << " v " << tris[p.first][0] << ' ' << tris[p.second][0] << " at " << c.transpose() << '\n';
-        }
-      }
     }
   }
   const auto mean = [&](Index sum) {

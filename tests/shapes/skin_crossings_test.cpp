@@ -47,19 +47,25 @@ Topology sheet() {
   return topology;
 }
 
-/// The upper half comes down around its middle.
-Displacements pressed(const Positions& mesh, double depth) {
+/// The upper half comes down around its middle, and the lower one up.
+Displacements closing(const Positions& mesh, double depth, double of_lower) {
   Displacements shape;
   std::vector<double> by;
   for (std::uint32_t v = 0; v < mesh.rows(); ++v) {
     const double off = length3(Eigen::Vector3d(mesh(v, 0) - 5, 0, mesh(v, 2) - 4)) / 3;
-    if (v < mesh.rows() / 2 || off >= 1) continue;
+    const double share = v < mesh.rows() / 2 ? of_lower : of_lower - 1;
+    if (share == 0 || off >= 1) continue;
     shape.vertices.push_back(v);
-    by.push_back(-depth * (1 - off * off) * (1 - off * off));
+    by.push_back(share * depth * (1 - off * off) * (1 - off * off));
   }
   shape.moves.setZero(static_cast<Index>(by.size()), 3);
   for (std::size_t i = 0; i < by.size(); ++i) shape.moves(static_cast<Index>(i), 1) = by[i];
   return shape;
+}
+
+/// The upper half comes down alone.
+Displacements pressed(const Positions& mesh, double depth) {
+  return closing(mesh, depth, 0);
 }
 
 class SkinCrossingsTest : public ::testing::Test {
@@ -78,9 +84,13 @@ class SkinCrossingsTest : public ::testing::Test {
                        const SkinCrossings::Watched& watched) const {
     const std::array watching = {&watched.search};
     const CrossingSearch all = crossings_.watch_all(face, watching);
+    const std::vector<bool> at_rest = crossings_.crossing_at_rest(face, all);
+    const SkinCrossings::Face there{face, at_rest, {}};
     Displacements result = shape;
     Positions mesh = face;
-    crossings_.mend(face, crossings_.crossing_at_rest(face, all), watched, mesh, result);
+    const Index left = crossings_.mend(there, watched, mesh, result);
+    EXPECT_EQ(mesh, face);
+    EXPECT_EQ(crossings_.count(there, watched, result, mesh), left);
     EXPECT_EQ(mesh, face);
     return result;
   }
@@ -102,15 +112,47 @@ TEST_F(SkinCrossingsTest, AreMendedWhereAFaceIsNarrower) {
   EXPECT_LT(result.moves.col(1).minCoeff(), -0.3) << "the shape is left";
 }
 
-TEST_F(SkinCrossingsTest, LidsArePushedApart) {
-  const Positions face = folded(0.6);
-  const Displacements shape = pressed(folded(1), 0.9);
+TEST_F(SkinCrossingsTest, AFoldOfFewEdgesIsFound) {
+  Positions flat(kColumns * kRows, 3);
+  for (std::uint32_t r = 0; r < kRows; ++r) {
+    for (std::uint32_t c = 0; c < kColumns; ++c) flat.row(r * kColumns + c) << c, 0, r;
+  }
+  Displacements shape;
+  for (std::uint32_t v = 14 * kColumns; v < 17 * kColumns; ++v) shape.vertices.push_back(v);
+  shape.moves.setZero(static_cast<Index>(shape.vertices.size()), 3);
+  // A row goes over the next one, and down through what lies behind that.
+  for (Index i = 0; i < kColumns; ++i) shape.moves.row(i) << 0, 0.4, 0.9;
+  for (Index i = kColumns; i < 2 * kColumns; ++i) shape.moves.row(i) << 0, -0.3, 1.6;
+  const Displacements gentle{shape.vertices, 0.6 * shape.moves};
+  ASSERT_EQ(pairs_in(flat, gentle), 0U);
+  Displacements steep{shape.vertices, 1.3 * shape.moves};
+  ASSERT_GT(pairs_in(flat, steep), 0U);
+  const auto watched = crossings_.watch(flat, gentle, {});
+  const Displacements result = mended(flat, steep, watched);
+  EXPECT_EQ(pairs_in(flat, result), 0U);
+}
+
+TEST_F(SkinCrossingsTest, FarSkinThatAFaceHasNearIsWatched) {
+  const Displacements shape = pressed(folded(3), 0.9);
+  const auto watched = crossings_.watch(folded(3), shape, {});
+  const Positions face = folded(0.5);
+  ASSERT_GT(pairs_in(face, shape), 20U);
+  EXPECT_EQ(pairs_in(face, mended(face, shape, watched)), 0U);
+}
+
+TEST_F(SkinCrossingsTest, LidsComeToLieAsOnTheTemplate) {
   std::vector<signed char> side(skin_.size(), -1);
   std::fill(side.begin() + static_cast<std::ptrdiff_t>(side.size() / 2), side.end(), 1);
-  const Displacements result =
-      mended(face, shape, crossings_.watch(folded(1), shape, std::move(side)));
+  const Displacements shape = closing(folded(1), 0.9, 0.3);
+  const auto watched = crossings_.watch(folded(1), shape, std::move(side));
+  const Positions face = folded(0.6);
+  ASSERT_GT(pairs_in(face, shape), 20U);
+  const Displacements result = mended(face, shape, watched);
   EXPECT_EQ(pairs_in(face, result), 0U);
-  EXPECT_LT(result.moves.col(1).minCoeff(), -0.45) << "lids close still";
+  EXPECT_EQ(result.vertices, shape.vertices);
+  const double closed = result.moves.col(1).maxCoeff() - result.moves.col(1).minCoeff();
+  EXPECT_GT(closed, 0.45) << "lids close still";
+  EXPECT_LT(closed, 0.6);
 }
 
 TEST_F(SkinCrossingsTest, WithoutAnyNothingChanges) {

@@ -150,10 +150,8 @@ void CrossingSearch::measure(std::size_t l, Boxes& boxes) const {
 
 CrossingSearch::Boxes CrossingSearch::boxes_of(const Positions& mesh) const {
   const std::size_t leaves = tree_.leaf_count();
-  Boxes boxes{SingleRows(static_cast<Index>(vertices_.size()), 3),
-              std::vector<LeafBoxes>(leaves),
-              std::vector<LeafNormals>(leaves),
-              std::vector<Box>(leaves),
+  Boxes boxes{SingleRows(static_cast<Index>(vertices_.size()), 3), std::vector<LeafBoxes>(leaves),
+              std::vector<LeafNormals>(leaves), std::vector<Box>(leaves),
               std::vector<std::uint8_t>(leaves, 1)};
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     boxes.points.row(static_cast<Index>(i)) = mesh.row(vertices_[i]).cast<float>();
@@ -190,8 +188,8 @@ std::vector<CrossingSearch::Pair> CrossingSearch::crossing(
     std::uint64_t left = (near.always | near.folded) &
                          overlapping(boxes.triangles[near.one], boxes.triangles[near.other]);
     if ((left & near.folded) != 0) {
-      left &= near.always |
-              ~facing_alike(boxes.normals[near.one], boxes.normals[near.other], kAlike);
+      left &=
+          near.always | ~facing_alike(boxes.normals[near.one], boxes.normals[near.other], kAlike);
     }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));

@@ -61,7 +61,7 @@ class CrossingSearch {
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> vertices_;  ///< of those, ascending
   TriangleTree tree_;                    ///< of the triangles, their vertices numbered by these
-  std::vector<Near> near_;  ///< ascending
+  std::vector<Near> near_;               ///< ascending
 };
 
 }  // namespace crowdface

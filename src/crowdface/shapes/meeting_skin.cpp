@@ -18,7 +18,7 @@ constexpr double kReachEdges = 1.6;  // the same, in edges
 /// How much of its distance to other skin a shape may take away on a face: of what it moves skin, and of what it moves
 /// it against that.
 constexpr double kOfMove = 4, kOfDifference = 10;
-constexpr double kFolds = 0.5;   // a difference between what the ends of an edge move, in its length
+constexpr double kFolds = 0.5;  // a difference between what the ends of an edge move, in its length
 constexpr double kCell = 0.003;  // skin so near to each other that one vertex speaks for it
 
 /// For each vertex of the skin one that lies in the same cell and faces the same way; other vertices: none.
@@ -77,8 +77,8 @@ std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neut
       const double distance = length3(row3(shaped, w) - at);
       if (distance > reach) continue;
       const Eigen::Vector3d other = move_of(w);
-      const double may_differ = kOfMove * std::max(length3(move), length3(other)) +
-                                kOfDifference * length3(move - other);
+      const double may_differ =
+          kOfMove * std::max(length3(move), length3(other)) + kOfDifference * length3(move - other);
       if (may_differ >= distance) meets[v] = meets[w] = true;
     }
   }

@@ -101,9 +101,9 @@ class SkinCrossings::Mending {
     for (int round = 0; round <= kRounds; ++round, grown += kGrowth) {
       since_best = is_best(harm) ? 0 : since_best + 1;
       if (pairs_.empty() || since_best == patience || round == kRounds) return;
-      const auto lids = std::stable_partition(
-          pairs_.begin(), pairs_.end(),
-          [&](const Pair& pair) { return side_of(pair[0]) * side_of(pair[1]) >= 0; });
+      const auto lids = std::stable_partition(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+        return side_of(pair[0]) * side_of(pair[1]) >= 0;
+      });
       const std::vector<Pair> meeting(lids, pairs_.end());
       pairs_.erase(lids, pairs_.end());
       changed_.assign(skin_.is_skin_.size(), false);
@@ -295,9 +295,9 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
     meets = std::move(wider);
   }
   std::vector<Triangle> triangles;
-  std::ranges::copy_if(
-      skin_.triangles, std::back_inserter(triangles),
-      [&](const Triangle& t) { return meets[t[0]] || meets[t[1]] || meets[t[2]]; });
+  std::ranges::copy_if(skin_.triangles, std::back_inserter(triangles), [&](const Triangle& t) {
+    return meets[t[0]] || meets[t[1]] || meets[t[2]];
+  });
   watched.excused.assign(triangles.size(), false);
   watched.search =
       CrossingSearch(std::move(triangles), shaped, kMeets * extent_, kFacing * extent_);

@@ -51,9 +51,10 @@ class SkinCrossings {
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
 
   struct Face {
-    const Positions& rest;             ///< #V by 3
-    const std::vector<bool>& at_rest;  ///< #V, see crossing_at_rest; those crossings are none of a shape's
-    const RigidMotion& whole;          ///< from the template
+    const Positions& rest;  ///< #V by 3
+    const std::vector<bool>&
+        at_rest;               ///< #V, see crossing_at_rest; those crossings are none of a shape's
+    const RigidMotion& whole;  ///< from the template
   };
   /// How many triangles pass through others in a shape of a face.
   /// \param mesh  the face at rest; changed while it works

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/evened_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+const Eigen::Vector3d kHere = {0, 0, 0}, kThere = {3, 0, 0};
+
+std::vector<EvenedField::Sample> scattered(
+    const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& value) {
+  std::mt19937 random(7);
+  std::vector<EvenedField::Sample> samples;
+  const auto one = [&] { return static_cast<double>(random()) / 4294967295.0; };
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d place(8 * one() - 2.5, 4 * one() - 2, 4 * one() - 2);
+    samples.push_back({i, place, value(place)});
+  }
+  return samples;
+}
+
+TEST(EvenedField, WhatIsEvenAlreadyStays) {
+  const EvenedField field({kHere, kThere}, 0.5, 1, 2);
+  for (const auto& change :
+       field.changes(scattered([](const auto&) { return Eigen::Vector3d(1, 2, 3); }))) {
+    EXPECT_LT(length3(change.by), 1e-12);
+  }
+}
+
+TEST(EvenedField, NearItIsTheMeanAndFarAwayWhatItWas) {
+  const EvenedField field({kHere, kThere}, 0.5, 1, 2);
+  // One in two goes up, the next one down.
+  auto samples = scattered([](const auto&) { return Eigen::Vector3d::Zero().eval(); });
+  for (auto& sample : samples) sample.value.z() = sample.number % 2 == 0 ? 1 : -1;
+  std::vector<double> left(samples.size());
+  for (const auto& sample : samples) left[sample.number] = sample.value.z();
+  for (const auto& [number, by] : field.changes(samples)) left[number] += by.z();
+  std::size_t near = 0, far = 0;
+  for (const auto& sample : samples) {
+    const double distance = std::min(length3(sample.place - kHere), length3(sample.place - kThere));
+    if (distance < 1) {
+      EXPECT_LT(std::abs(left[sample.number]), 0.6);
+      ++near;
+    } else if (distance > 2) {
+      EXPECT_EQ(left[sample.number], sample.value.z());
+      ++far;
+    }
+  }
+  EXPECT_GT(near, 100U);
+  EXPECT_GT(far, 100U);
+}
+
+TEST(EvenedField, HearsWhatLiesWithinItsReach) {
+  const EvenedField field({kHere}, 0.5, 1, 2);
+  EXPECT_TRUE(field.hears({2.4, 0, 0}));
+  EXPECT_FALSE(field.hears({2.6, 0, 0}));
+  EXPECT_FALSE(EvenedField({}, 0.5, 1, 2).hears(kHere));
+}
+
+}  // namespace
+}  // namespace crowdface
