@@ -15,6 +15,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/shared_by_heads.h"
 
 #include "support/meshes.h"
@@ -120,6 +121,43 @@ TEST_F(KeptLists, PlacesOnTheOtherSideLieInTheirTriangles) {
     EXPECT_EQ(find_other_sides(inputs, side).map.shares, found.map.shares);
     EXPECT_EQ(read_file(entry()), kept);
   }
+}
+
+TEST_F(KeptLists, LevelsOfDetailAreThoseOfTheMesh) {
+  Inputs inputs;
+  inputs.faces.topology = testing::cube_topology();
+  inputs.faces.heads = {{"cube", testing::cube_positions()}};
+  inputs.mean = testing::cube_positions();
+  inputs.materials.of_face.assign(
+      static_cast<std::size_t>(inputs.faces.topology.face_count()), 0);
+  find_neighbours(inputs);
+  Config config;
+  config.output.lods = {50};
+  config.output.meshes = {MeshFormat::kObj};
+  const auto level = [&] {
+    inputs.levels.clear();
+    find_levels(config, folder_.path(), inputs);
+    return inputs.levels.at(0);
+  };
+  const MeasuredLevel made = level();
+  const std::string kept = read_file(entry());
+  const auto expect_same = [&](const MeasuredLevel& found) {
+    EXPECT_EQ(found.level.share, made.level.share);
+    EXPECT_EQ(found.level.vertices, made.level.vertices);
+    EXPECT_EQ(found.level.topology.corner_vertices, made.level.topology.corner_vertices);
+    EXPECT_EQ(found.level.topology.face_offsets, made.level.topology.face_offsets);
+    EXPECT_EQ(found.level.faces, made.level.faces);
+    EXPECT_EQ(found.heads.most, made.heads.most);
+    EXPECT_EQ(found.heads.root_mean_square, made.heads.root_mean_square);
+  };
+  expect_same(level());
+  constexpr std::size_t kFirstVertex = 48 + 6 * 8;  // after header and sizes
+  forge(entry(), kFirstVertex, std::uint32_t{8});
+  expect_same(level());
+  EXPECT_EQ(read_file(entry()), kept);
+  forge(entry(), kept.size() - sizeof(Digest) - sizeof(double), std::nan(""));
+  expect_same(level());
+  EXPECT_EQ(read_file(entry()), kept);
 }
 
 TEST_F(KeptLists, WithoutACacheAreNotKept) {

@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/kept_lists.h"
 #include "crowdface/lod/level_error.h"
 #include "crowdface/mesh/vector3.h"
 
@@ -78,25 +83,102 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
   return error;
 }
 
-}  // namespace
-
-void find_levels(const Config& config, Inputs& inputs) {
-  if (config.output.lods.empty() || config.output.meshes.empty()) return;
-  const Positions mean = mean_head(inputs.faces);
+/// One level, and how far it is from the heads and their shapes.
+MeasuredLevel measured_level(const Inputs& inputs, const FaceSet& typical, double share,
+                             double mm) {
+  DetailLevel level = std::move(detail_levels(typical, inputs.materials.of_face, {&share, 1})[0]);
+  const LevelMap map = map_to_level(inputs.faces.topology, inputs.adjacency, level, inputs.mean);
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
+  const LevelError of_heads = in_mm(level_error(level, map, heads), mm);
+  const LevelError of_shapes = in_mm(error_in_shapes(inputs, level, map), mm);
+  return {std::move(level), of_heads, of_shapes};
+}
+
+/// Of all that a level follows from.
+Digest key_of(const Inputs& inputs, const FaceSet& typical, double share, double mm) {
+  const auto numbers = [](const auto& rows) {
+    return std::span(rows.data(), static_cast<std::size_t>(rows.size()));
+  };
+  Hasher key;
+  key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
+  key.add_array(std::span(inputs.faces.topology.corner_uvs)).add_array(numbers(inputs.faces.uvs));
+  key.add_array(std::span(inputs.materials.of_face));
+  key.add_array(numbers(typical.heads[0].positions));
+  for (const Digest& head : inputs.head_digests) key.add(head);
+  if (!inputs.shapes.shapes.empty()) key.add(inputs.shapes_digest);
+  return key.digest();
+}
+
+/// Whether it is a level of a mesh, whatever its numbers.
+bool is_sound(const DetailLevel& level, const Topology& whole) {
+  const auto below = [](const std::vector<std::uint32_t>& numbers, Index end) {
+    return std::ranges::all_of(numbers, [&](std::uint32_t n) { return n < end; });
+  };
+  const auto& uvs = level.topology.corner_uvs;
+  return below(level.vertices, whole.vertex_count) && below(level.faces, whole.face_count()) &&
+         std::ranges::adjacent_find(level.vertices, std::greater_equal()) ==
+             level.vertices.end() &&
+         level.topology.corner_vertices.size() == 3 * level.faces.size() &&
+         below(level.topology.corner_vertices, level.topology.vertex_count) &&
+         (uvs.empty() || uvs.size() == 3 * level.faces.size()) &&
+         std::ranges::all_of(
+             uvs, [&](std::uint32_t row) { return row == kNoIndex || row < level.uvs.rows(); }) &&
+         level.uvs.allFinite();
+}
+
+/// As measured_level, from the cache if it is there.
+MeasuredLevel kept_level(const Inputs& inputs, const std::filesystem::path& cache,
+                         const FaceSet& typical, double share, double mm) {
+  const auto level_of = [&](auto vertices, auto corners, auto corner_uvs, auto faces,
+                            const std::vector<double>& uvs) {
+    DetailLevel level{share, std::move(vertices), {}, {}, std::move(faces)};
+    level.topology.vertex_count = static_cast<Index>(level.vertices.size());
+    level.topology.corner_vertices = std::move(corners);
+    level.topology.corner_uvs = std::move(corner_uvs);
+    for (std::uint32_t t = 1; t <= level.faces.size(); ++t) {
+      level.topology.face_offsets.push_back(3 * t);  // after the 0 that is there
+    }
+    level.uvs = Eigen::Map<const TextureCoordinates>(uvs.data(),
+                                                     static_cast<Index>(uvs.size()) / 2, 2);
+    return level;
+  };
+  auto [vertices, corners, corner_uvs, faces, uvs, errors] =
+      kept_lists<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, double, double>(
+          cache, key_of(inputs, typical, share, mm),
+          [&] {
+            MeasuredLevel made = measured_level(inputs, typical, share, mm);
+            DetailLevel& level = made.level;
+            return std::tuple(
+                std::move(level.vertices), std::move(level.topology.corner_vertices),
+                std::move(level.topology.corner_uvs), std::move(level.faces),
+                std::vector<double>(level.uvs.data(), level.uvs.data() + level.uvs.size()),
+                std::vector<double>{made.heads.most, made.heads.root_mean_square, made.shapes.most,
+                                    made.shapes.root_mean_square});
+          },
+          [&](const auto& vertex, const auto& corner, const auto& corner_uv, const auto& face,
+              const auto& uv, const auto& error) {
+            return is_sound(level_of(vertex, corner, corner_uv, face, uv), inputs.faces.topology) &&
+                   error.size() == 4 &&
+                   std::ranges::all_of(error, [](double mm_off) { return mm_off >= 0; });
+          });
+  return {level_of(std::move(vertices), std::move(corners), std::move(corner_uvs),
+                   std::move(faces), uvs),
+          {errors[0], errors[1]},
+          {errors[2], errors[3]}};
+}
+
+}  // namespace
+
+void find_levels(const Config& config, const std::filesystem::path& cache, Inputs& inputs) {
+  if (config.output.lods.empty() || config.output.meshes.empty()) return;
   const double mm = mm_per(config.faces.units);
-  std::vector<double> shares;
-  for (const double percent : config.output.lods) shares.push_back(percent / 100);
   const FaceSet typical{
-      inputs.faces.topology, inputs.faces.uvs, {{"mean", weighted(mean, inputs.parts)}}};
-  for (DetailLevel& level : detail_levels(typical, inputs.materials.of_face, shares)) {
-    throw_if_interrupted();
-    const LevelMap map = map_to_level(inputs.faces.topology, inputs.adjacency, level, mean);
-    const LevelError of_heads = in_mm(level_error(level, map, heads), mm);
-    const LevelError of_shapes = in_mm(error_in_shapes(inputs, level, map), mm);
-    inputs.levels.push_back({std::move(level), of_heads, of_shapes});
-  }
+      inputs.faces.topology, inputs.faces.uvs, {{"mean", weighted(inputs.mean, inputs.parts)}}};
+  inputs.levels.resize(config.output.lods.size());
+  parallel_for_each(inputs.levels.size(), [&](std::size_t l) {
+    inputs.levels[l] = kept_level(inputs, cache, typical, config.output.lods[l] / 100, mm);
+  });
 }
 
 std::string describe_levels(const Inputs& inputs) {

@@ -406,7 +406,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   load_rig(config, inputs, problems);
   load_attachments(config, inputs, problems);
   if (problems.size() > before) return std::nullopt;
-  find_levels(config, inputs);
+  find_levels(config, cache, inputs);
   return inputs;
 }
 
