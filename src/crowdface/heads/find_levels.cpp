@@ -117,8 +117,7 @@ bool is_sound(const DetailLevel& level, const Topology& whole) {
   };
   const auto& uvs = level.topology.corner_uvs;
   return below(level.vertices, whole.vertex_count) && below(level.faces, whole.face_count()) &&
-         std::ranges::adjacent_find(level.vertices, std::greater_equal()) ==
-             level.vertices.end() &&
+         std::ranges::adjacent_find(level.vertices, std::greater_equal()) == level.vertices.end() &&
          level.topology.corner_vertices.size() == 3 * level.faces.size() &&
          below(level.topology.corner_vertices, level.topology.vertex_count) &&
          (uvs.empty() || uvs.size() == 3 * level.faces.size()) &&
@@ -139,8 +138,8 @@ MeasuredLevel kept_level(const Inputs& inputs, const std::filesystem::path& cach
     for (std::uint32_t t = 1; t <= level.faces.size(); ++t) {
       level.topology.face_offsets.push_back(3 * t);  // after the 0 that is there
     }
-    level.uvs = Eigen::Map<const TextureCoordinates>(uvs.data(),
-                                                     static_cast<Index>(uvs.size()) / 2, 2);
+    level.uvs =
+        Eigen::Map<const TextureCoordinates>(uvs.data(), static_cast<Index>(uvs.size()) / 2, 2);
     return level;
   };
   auto [vertices, corners, corner_uvs, faces, uvs, errors] =
@@ -162,8 +161,8 @@ MeasuredLevel kept_level(const Inputs& inputs, const std::filesystem::path& cach
                    error.size() == 4 &&
                    std::ranges::all_of(error, [](double mm_off) { return mm_off >= 0; });
           });
-  return {level_of(std::move(vertices), std::move(corners), std::move(corner_uvs),
-                   std::move(faces), uvs),
+  return {level_of(std::move(vertices), std::move(corners), std::move(corner_uvs), std::move(faces),
+                   uvs),
           {errors[0], errors[1]},
           {errors[2], errors[3]}};
 }

@@ -2,7 +2,9 @@
 #include "crowdface/shapes/crossing_search.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -17,6 +19,9 @@ namespace {
 /// Triangles so many edges apart are of one sheet if they face alike: the least cosine.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.98F;
+
+/// Leaves of dense meshes are small: no more than some of them side by side are looked through.
+constexpr double kMostLeaves = 3;
 
 /// Of a leaf with itself: each pair once.
 constexpr std::uint64_t kOnce = [] {
@@ -69,6 +74,21 @@ class Rings {
   std::vector<std::uint32_t> reached_;
 };
 
+/// Diagonals of the leaves' boxes, on average.
+double mean_leaf_size(const TriangleTree& tree, const SingleRows& points) {
+  double sum = 0;
+  for (const LeafCorners& corners : tree.corners) {
+    const Box box = LeafBoxes(corners, points, 0).whole();
+    double square = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double side = static_cast<double>(box.high[c]) - static_cast<double>(box.low[c]);
+      square += side * side;
+    }
+    sum += std::sqrt(square);
+  }
+  return tree.corners.empty() ? 0 : sum / static_cast<double>(tree.corners.size());
+}
+
 }  // namespace
 
 CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach,
@@ -89,13 +109,15 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
   }
   tree_ = TriangleTree(numbered, points, reach);
   find_near(numbered, points, reach, facing);
-  leave_out_sheets(numbered);
 }
 
-/// Which triangles are so near to each other that they are to be asked about, sheets not left out yet.
 void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Positions& points,
                                double reach, double facing) {
   const SingleRows single = points.cast<float>();
+  const double most = kMostLeaves * mean_leaf_size(tree_, single);
+  reach = std::min(reach, most);
+  facing = std::min(facing, most);
+  const TriangleScene scene(numbered, tree_, points, facing / 2);
   std::vector<LeafBoxes> close, far;
   std::vector<LeafNormals> normals;
   for (const LeafCorners& corners : tree_.corners) {
@@ -103,43 +125,35 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
     far.emplace_back(corners, single, facing / 2);
     normals.emplace_back(corners, single);
   }
-  for (const auto& [one, other] :
-       TriangleScene(numbered, tree_, points, facing / 2).near_leaves()) {
-    std::uint64_t near = overlapping(far[one], far[other]);
-    if (near != 0) near &= ~facing_alike(normals[one], normals[other], 0);
-    near |= overlapping(close[one], close[other]);
-    if (one == other) near &= kOnce;
-    if (near != 0) near_.push_back({one, other, near, 0});
-  }
-  std::ranges::sort(near_, {}, [](const Near& near) { return std::pair(near.one, near.other); });
-}
-
-/// Of triangles few edges apart only those are asked about which do not face alike.
-void CrossingSearch::leave_out_sheets(const std::vector<Triangle>& numbered) {
   std::vector<std::uint32_t> place(numbered.size(), kNoIndex);  // in the leaves' order
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
-  Rings rings(numbered, static_cast<Index>(vertices_.size()));
-  std::vector<std::uint32_t> near_of(tree_.leaf_count(), kNoIndex);  // of the leaf at hand
-  for (auto begin = near_.begin(), end = begin; begin != near_.end(); begin = end) {
-    for (; end != near_.end() && end->one == begin->one; ++end) {
-      near_of[end->other] = static_cast<std::uint32_t>(end - near_.begin());
-    }
-    const auto ones = tree_.leaf(begin->one);
+  Rings rings(numbered, points.rows());
+  std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());  // of the leaf at hand
+  for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
+    const std::vector<std::uint32_t> others = scene.leaves_near(one);
+    for (const std::uint32_t other : others) of_sheet[other] = {0, 0};
+    const auto ones = tree_.leaf(one);
     for (std::size_t k = 0; k < ones.size(); ++k) {
       for (const std::uint32_t other : rings.around(ones[k])) {
         if (place[other] == kNoIndex) continue;
-        const std::uint32_t number = near_of[place[other] / LeafBoxes::kCount];
-        if (number == kNoIndex) continue;
-        Near& near = near_[number];
         const std::uint64_t bit = std::uint64_t{1}
                                   << (LeafBoxes::kCount * k + place[other] % LeafBoxes::kCount);
-        if (!share_vertex(numbered[ones[k]], numbered[other])) near.folded |= near.always & bit;
-        near.always &= ~bit;
+        auto& [few_edges, joined] = of_sheet[place[other] / LeafBoxes::kCount];
+        few_edges |= bit;
+        if (share_vertex(numbered[ones[k]], numbered[other])) joined |= bit;
       }
     }
-    for (auto pair = begin; pair != end; ++pair) near_of[pair->other] = kNoIndex;
+    for (const std::uint32_t other : others) {
+      const auto& [few_edges, joined] = of_sheet[other];
+      const std::uint64_t once = one == other ? kOnce : ~std::uint64_t{0};
+      std::uint64_t facing_it = overlapping(far[one], far[other]);
+      if (facing_it != 0) facing_it &= ~facing_alike(normals[one], normals[other], 0);
+      const std::uint64_t near = overlapping(close[one], close[other]) & once;
+      const std::uint64_t always = (near | (facing_it & once)) & ~few_edges;
+      const std::uint64_t folded = near & few_edges & ~joined;
+      if ((always | folded) != 0) near_.push_back({one, other, always, folded});
+    }
   }
-  std::erase_if(near_, [](const Near& near) { return (near.always | near.folded) == 0; });
 }
 
 void CrossingSearch::measure(std::size_t l, Boxes& boxes) const {

@@ -55,7 +55,6 @@ class CrossingSearch {
   };
   void find_near(const std::vector<Triangle>& numbered, const Positions& points, double reach,
                  double facing);
-  void leave_out_sheets(const std::vector<Triangle>& numbered);
   void measure(std::size_t leaf, Boxes& boxes) const;
 
   std::vector<Triangle> triangles_;

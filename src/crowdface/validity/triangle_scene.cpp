@@ -153,12 +153,22 @@ std::vector<TrianglePair> TriangleScene::near_pairs() const {
   return pairs;
 }
 
-std::vector<TriangleScene::LeafPair> TriangleScene::near_leaves() const {
-  std::vector<LeafPair> pairs;
-  for (const NodePair& from : first_pairs()) {
-    visit_leaves(from, [&](const LeafPair& pair) { pairs.push_back(pair); });
+std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const {
+  const Box here = leaves_[leaf].whole();
+  std::vector<std::uint32_t> near, waiting = {0};
+  while (!waiting.empty()) {
+    const std::uint32_t n = waiting.back();
+    waiting.pop_back();
+    const TriangleTree::Node& node = tree_.nodes[n];
+    if (node.end <= leaf * kLeaf || !overlap(boxes_[n], here)) continue;
+    if (node.is_leaf()) {
+      near.push_back(node.leaf());
+    } else {
+      waiting.push_back(node.right);
+      waiting.push_back(n + 1);
+    }
   }
-  return pairs;
+  return near;
 }
 
 bool TriangleScene::meets(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,

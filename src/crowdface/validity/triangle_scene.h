@@ -26,12 +26,8 @@ class TriangleScene {
   /// thousand are left out.
   std::vector<TrianglePair> near_pairs() const;
 
-  /// Two leaves of the tree, the same one or the one that comes first in it first.
-  struct LeafPair {
-    std::uint32_t one, other;
-  };
-  /// Those with triangles whose boxes may overlap.
-  std::vector<LeafPair> near_leaves() const;
+  /// Leaves of the tree, from this one on, with triangles whose boxes may overlap some of its own; ascending.
+  std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
   /// Whether a ray meets a triangle other than the one it starts from.
   /// \param direction  of any length but zero.
@@ -41,6 +37,10 @@ class TriangleScene {
  private:
   struct NodePair {
     std::uint32_t a, b;
+  };
+  /// The same one, or the one that comes first in the tree first.
+  struct LeafPair {
+    std::uint32_t one, other;
   };
 
   bool are_leaves(const NodePair& pair) const {
