@@ -96,7 +96,7 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
     : triangles_(std::move(triangles)) {
   for (const Triangle& t : triangles_) vertices_.insert(vertices_.end(), t.begin(), t.end());
   std::ranges::sort(vertices_);
-  vertices_.erase(std::ranges::unique(vertices_).begin(), vertices_.end());
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   std::vector<Triangle> numbered = triangles_;
   for (Triangle& triangle : numbered) {
     for (std::uint32_t& v : triangle) {

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> vertices_of(const std::vector<Pair>& pairs,
     }
   }
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 
@@ -53,7 +53,7 @@ Index crossing_triangles(const std::vector<Pair>& pairs) {
   std::vector<std::uint32_t> triangles;
   for (const Pair& pair : pairs) triangles.insert(triangles.end(), pair.begin(), pair.end());
   std::ranges::sort(triangles);
-  return std::ranges::unique(triangles).begin() - triangles.begin();
+  return std::unique(triangles.begin(), triangles.end()) - triangles.begin();
 }
 
 }  // namespace
@@ -327,7 +327,7 @@ CrossingSearch SkinCrossings::watch_all(const Positions& neutral,
     all.insert(all.end(), shape->triangles().begin(), shape->triangles().end());
   }
   std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return {std::move(all), neutral, kMeets * extent_, kFacing * extent_};
 }
 
