@@ -19,11 +19,11 @@ constexpr double kReachEdges = 1.6;  // the same, in edges
 /// it against that.
 constexpr double kOfMove = 4, kOfDifference = 10;
 constexpr double kFolds = 0.5;  // a difference between what the ends of an edge move, in its length
-constexpr double kCell = 0.003;  // skin so near to each other that one vertex speaks for it
+constexpr double kCell = 0.003;  // skin so near to each other that one vertex stands for it
 
 /// For each vertex of the skin one that lies in the same cell and faces the same way; other vertices: none.
-std::vector<std::uint32_t> speakers(const SkinMesh& skin, const Positions& shaped,
-                                    const Positions& normals, double cell) {
+std::vector<std::uint32_t> representatives(const SkinMesh& skin, const Positions& shaped,
+                                           const Positions& normals, double cell) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t, Index, bool>;
   std::vector<std::pair<Cell, std::uint32_t>> placed;
   for (const std::uint32_t v : skin.vertices) {
@@ -35,13 +35,13 @@ std::vector<std::uint32_t> speakers(const SkinMesh& skin, const Positions& shape
     placed.push_back({{at(0), at(1), at(2), axis, normals(v, axis) > 0}, v});
   }
   std::ranges::sort(placed);
-  std::vector<std::uint32_t> speaker(static_cast<std::size_t>(shaped.rows()), kNoIndex);
+  std::vector<std::uint32_t> representative(static_cast<std::size_t>(shaped.rows()), kNoIndex);
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const auto& [at, v] = placed[i];
     const bool is_first = i == 0 || at != placed[i - 1].first;
-    speaker[v] = is_first ? v : speaker[placed[i - 1].second];
+    representative[v] = is_first ? v : representative[placed[i - 1].second];
   }
-  return speaker;
+  return representative;
 }
 
 }  // namespace
@@ -49,16 +49,17 @@ std::vector<std::uint32_t> speakers(const SkinMesh& skin, const Positions& shape
 std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neutral,
                                      const Positions& shaped, double extent) {
   const Positions normals = vertex_normals(skin.triangles, shaped);
-  const std::vector<std::uint32_t> speaker = speakers(skin, shaped, normals, kCell * extent);
+  const std::vector<std::uint32_t> representative =
+      representatives(skin, shaped, normals, kCell * extent);
   std::vector<std::uint32_t> asked;
   for (const std::uint32_t v : skin.vertices) {
-    if (speaker[v] == v) asked.push_back(v);
+    if (representative[v] == v) asked.push_back(v);
   }
   const auto move_of = [&](std::uint32_t v) -> Eigen::Vector3d {
     return row3(shaped, v) - row3(neutral, v);
   };
   const PointGrid grid(shaped, asked);
-  std::vector<bool> meets(speaker.size(), false), folds = meets;
+  std::vector<bool> meets(representative.size(), false), folds = meets;
   for (const std::uint32_t v : skin.vertices) {
     const Eigen::Vector3d at = row3(shaped, v), move = move_of(v);
     if (dot3(move, move) == 0) continue;
@@ -71,7 +72,7 @@ std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neut
         if (length3(move_of(w) - move) > kFolds * shorter) folds[v] = folds[w] = true;
       }
     }
-    if (speaker[v] != v) continue;
+    if (representative[v] != v) continue;
     for (const std::uint32_t w : grid.about(at, reach)) {
       if ((meets[v] && meets[w]) || dot3(row3(normals, w), row3(normals, v)) > 0) continue;
       const double distance = length3(row3(shaped, w) - at);
@@ -82,7 +83,7 @@ std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neut
       if (may_differ >= distance) meets[v] = meets[w] = true;
     }
   }
-  for (const std::uint32_t v : skin.vertices) meets[v] = meets[speaker[v]] || folds[v];
+  for (const std::uint32_t v : skin.vertices) meets[v] = meets[representative[v]] || folds[v];
   return meets;
 }
 

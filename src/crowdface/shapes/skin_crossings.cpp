@@ -84,7 +84,7 @@ class SkinCrossings::Mending {
     if (!watched_.side.empty() && best_ > 0) {
       shape_.moves = start;
       changed_.assign(changed_.size(), true);
-      look_again();
+      look_again({});
       take_apart(harm, &Mending::lay_lids);
     }
     shape_.moves = std::move(best_moves_);
@@ -104,12 +104,12 @@ class SkinCrossings::Mending {
       const auto lids = std::stable_partition(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
         return side_of(pair[0]) * side_of(pair[1]) >= 0;
       });
-      const std::vector<Pair> meeting(lids, pairs_.end());
+      const std::vector<Pair> before = pairs_, meeting(lids, pairs_.end());
       pairs_.erase(lids, pairs_.end());
       changed_.assign(skin_.is_skin_.size(), false);
       if (!meeting.empty()) (this->*handle_lids)(meeting, grown);
       if (!pairs_.empty()) even_out(grown);
-      look_again();
+      look_again(before);
     }
   }
 
@@ -131,12 +131,22 @@ class SkinCrossings::Mending {
     pairs_ =
         watched_.search.crossing(mesh_, boxes_, [&](std::uint32_t t) { return is_excused(t); });
   }
-  void look_again() {
+  /// \param before  that crossed; those of which nothing has changed still do
+  void look_again(const std::vector<Pair>& before) {
     for (const Row& row : watched_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
     }
     watched_.search.renew(mesh_, changed_, boxes_);
     look();
+    const auto has_changed = [&](std::uint32_t triangle) {
+      return std::ranges::any_of(watched_.search.triangles()[triangle],
+                                 [&](std::uint32_t v) { return changed_[v]; });
+    };
+    for (const Pair& pair : before) {
+      if (!has_changed(pair[0]) && !has_changed(pair[1])) pairs_.push_back(pair);
+    }
+    std::ranges::sort(pairs_);
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
   }
 
   Eigen::Vector3d place_of(const Row& row) const {
