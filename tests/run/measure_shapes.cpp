@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <iterator>
+#include <optional>
 #include <string>
 
 #include "crowdface/core/text.h"
@@ -96,6 +98,24 @@ struct LidFigures {
   }
 };
 
+/// Shapes made to be added to another are looked at where they are.
+Displacements with_companion(const std::vector<Displacements>& shapes, std::size_t shape,
+                             std::optional<std::size_t> companion) {
+  if (!companion) return shapes[shape];
+  const Displacements &one = shapes[shape], &other = shapes[*companion];
+  Displacements both;
+  std::set_union(one.vertices.begin(), one.vertices.end(), other.vertices.begin(),
+                 other.vertices.end(), std::back_inserter(both.vertices));
+  both.moves.setZero(static_cast<Index>(both.vertices.size()), 3);
+  for (const Displacements* moves : {&one, &other}) {
+    for (std::size_t i = 0; i < moves->vertices.size(); ++i) {
+      const auto at = std::ranges::lower_bound(both.vertices, moves->vertices[i]);
+      both.moves.row(at - both.vertices.begin()) += moves->moves.row(static_cast<Index>(i));
+    }
+  }
+  return both;
+}
+
 /// Of what lies within 0.02 mm of where it was on the template: how far from that on faces.
 struct LipFigures {
   double carried = 0, unchanged = 0;
@@ -171,9 +191,14 @@ int main(int argc, char** argv) try {
   std::size_t count = cast.crowd.size();
   if (argc > 2) count = std::min<std::size_t>(count, std::strtoul(argv[2], nullptr, 10));
   std::vector<Counted> counted(set.shapes.size());
+  std::vector<Displacements> alone, template_moves;
+  for (const Shape& shape : set.shapes) alone.push_back(shape.moves);
+  for (std::size_t s = 0; s < alone.size(); ++s) {
+    template_moves.push_back(with_companion(alone, s, shapes.companion(s)));
+  }
   std::vector<std::vector<TrianglePair>> of_template;
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
-    of_template.push_back(crossings.of(in_shape(set.neutral, set.shapes[s].moves)));
+    of_template.push_back(crossings.of(in_shape(set.neutral, template_moves[s])));
     counted[s].of_template = crossings.all(of_template[s]);
   }
   std::vector<std::uint32_t> skin;
@@ -200,18 +225,19 @@ int main(int argc, char** argv) try {
     face = as_written(face);
     const std::vector<TrianglePair> at_rest = crossings.of(face);
     at_rest_in_all += crossings.all(at_rest);
-    const std::vector<Displacements> moves = shapes.of_face(*recipe, face);
+    const std::vector<Displacements> carried_shapes = shapes.of_face(*recipe, face);
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
-      const Displacements& shape = set.shapes[s].moves;
-      of_lips[s].add(lips, set.neutral, face, shape, moves[s]);
+      const Displacements& shape = template_moves[s];
+      const Displacements moves = with_companion(carried_shapes, s, shapes.companion(s));
+      of_lips[s].add(lips, set.neutral, face, shape, moves);
       for (MeasuredLids& eye : eyes) {
         if (eye.moved(shape) < 50 * kTenthOfMm) continue;
-        add_stretch(skin_triangles, set.neutral, face, shape, moves[s], stretch);
+        add_stretch(skin_triangles, set.neutral, face, shape, moves, stretch);
         add_stretch(skin_triangles, set.neutral, face, shape, shape, unchanged_stretch);
-        lids.add(eye, set.neutral, face, shape, moves[s]);
+        lids.add(eye, set.neutral, face, shape, moves);
         unchanged_lids.add(eye, set.neutral, face, shape, shape);
       }
-      const Index carried = crossings.beyond(of_template[s], at_rest, in_shape(face, moves[s]));
+      const Index carried = crossings.beyond(of_template[s], at_rest, in_shape(face, moves));
       counted[s].unchanged += crossings.beyond(of_template[s], at_rest, in_shape(face, shape));
       counted[s].carried += carried;
       counted[s].most = std::max(counted[s].most, carried);
@@ -238,8 +264,10 @@ int main(int argc, char** argv) try {
                "at most; faces with any\n";
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
     const Counted& of = counted[s];
-    std::cout << set.shapes[s].name << ": " << of.of_template << ' ' << mean(of.unchanged) << ' '
-              << mean(of.carried) << ' ' << of.most << ' ' << of.faces << '\n';
+    std::cout << set.shapes[s].name;
+    if (const auto other = shapes.companion(s)) std::cout << "+" << set.shapes[*other].name;
+    std::cout << ": " << of.of_template << ' ' << mean(of.unchanged) << ' ' << mean(of.carried)
+              << ' ' << of.most << ' ' << of.faces << '\n';
   }
 } catch (const Error& error) {
   std::cerr << error.what() << '\n';

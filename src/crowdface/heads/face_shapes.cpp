@@ -88,6 +88,10 @@ std::vector<Displacements> FaceShapes::of_face(const Recipe& recipe, const Posit
   return transfer_->carry(recipe.target, face, shares_of(recipe), crossing);
 }
 
+std::optional<std::size_t> FaceShapes::companion(std::size_t shape) const {
+  return transfer_->companion(shape);
+}
+
 std::vector<Displacements> FaceShapes::of_head(Index head) const {
   if (!transfer_) return {};
   const SetShares own = {{static_cast<std::uint32_t>(head), 1}};

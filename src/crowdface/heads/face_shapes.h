@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "crowdface/blend/recipe.h"
@@ -25,6 +26,8 @@ class FaceShapes {
   /// Of one of the heads.
   std::vector<Displacements> of_head(Index head) const;
 
+  /// The shape to which one is made to be added, see companions_of.
+  std::optional<std::size_t> companion(std::size_t shape) const;
   std::size_t memory_bytes() const;
 
  private:

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -16,16 +18,35 @@ namespace {
 /// Shapes side by side on one page.
 constexpr std::size_t kMostColumns = 16;
 
+/// What columns of a page show: a shape, or one with that to which it is made to be added.
+struct Column {
+  std::string name;
+  std::vector<std::size_t> shapes;
+};
+
+std::vector<Column> columns_of(const ShapeSet& set, const FaceShapes& shapes) {
+  std::vector<Column> columns;
+  for (std::size_t s = 0; s < set.shapes.size(); ++s) {
+    Column column{set.shapes[s].name, {s}};
+    if (const auto other = shapes.companion(s)) {
+      column.name += concat(" + ", set.shapes[*other].name);
+      column.shapes.push_back(*other);
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
 /// A face at rest and in some of its shapes.
-void add_row(const CrowdRenders& renders, const ShapeSet& set, std::size_t first, std::size_t count,
-             const std::string& name, const Positions& face,
-             const std::vector<Displacements>& moves, std::vector<SheetCell>& cells) {
-  std::vector<SheetCell> row(1 + count);
+void add_row(const CrowdRenders& renders, std::span<const Column> columns, const std::string& name,
+             const Positions& face, const std::vector<Displacements>& moves,
+             std::vector<SheetCell>& cells) {
+  std::vector<SheetCell> row(1 + columns.size());
   row[0] = {renders.render_front(face), name};
-  parallel_for_each(count, [&](std::size_t s) {
+  parallel_for_each(columns.size(), [&](std::size_t c) {
     Positions moved = face;
-    moves[first + s].add_to(moved);
-    row[1 + s] = {renders.render_front(moved), set.shapes[first + s].name};
+    for (const std::size_t s : columns[c].shapes) moves[s].add_to(moved);
+    row[1 + c] = {renders.render_front(moved), columns[c].name};
   });
   cells.insert(cells.end(), row.begin(), row.end());
 }
@@ -41,24 +62,25 @@ void add_shape_pages(const Config& config, const Config::ContactSheet& sheet, co
   if (faces == 0) return;
   std::vector<Displacements> of_template;
   for (const Shape& shape : set.shapes) of_template.push_back(shape.moves);
+  const std::vector<Column> columns = columns_of(set, shapes);
   const std::size_t count = (set.shapes.size() + kMostColumns - 2) / (kMostColumns - 1);
   const std::size_t per_page = (set.shapes.size() + count - 1) / count;
   Progress progress("sheets of shapes", count);
   for (std::size_t page = 0; page < count; ++page) {
     const std::size_t first = page * per_page;
-    const std::size_t shown = std::min(per_page, set.shapes.size() - first);
+    const std::span shown =
+        std::span(columns).subspan(first, std::min(per_page, columns.size() - first));
     std::vector<SheetCell> cells;
-    add_row(renders, set, first, shown, set.of_head.empty() ? "template" : "mean head", set.neutral,
+    add_row(renders, shown, set.of_head.empty() ? "template" : "mean head", set.neutral,
             of_template, cells);
     for (std::size_t f = 0; f < faces; ++f) {
       throw_if_interrupted();
       const Positions face = read_face(directory, crowd[f].id, config.output.meshes,
                                        inputs.faces.topology.vertex_count);
-      add_row(renders, set, first, shown, crowd[f].id, face, shapes.of_face(crowd[f].recipe, face),
-              cells);
+      add_row(renders, shown, crowd[f].id, face, shapes.of_face(crowd[f].recipe, face), cells);
     }
     pages.add(concat("shapes_", zero_padded(page + 1, 3)), "shapes",
-              contact_sheet(cells, {.columns = static_cast<int>(1 + shown),
+              contact_sheet(cells, {.columns = static_cast<int>(1 + shown.size()),
                                     .rows = 0,
                                     .title = concat(config.crowd.name, ": shapes"),
                                     .legend = {},

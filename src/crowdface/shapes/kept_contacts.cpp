@@ -39,11 +39,17 @@ std::vector<std::uint32_t> KeptContacts::vertices() const {
   return vertices;
 }
 
-void KeptContacts::keep(std::span<const double> rest, std::span<const double> widening,
+double KeptContacts::deepest(const Positions& positions) const {
+  double deepest = 0;
+  for (const double gap : gaps(positions)) deepest = std::max(deepest, -gap);
+  return deepest;
+}
+
+void KeptContacts::keep(std::span<const double> rest, std::span<const double> widening, Keeping how,
                         Positions& shape) const {
   std::vector<SkinContacts::Range> ranges(rest.size(), {-HUGE_VAL, HUGE_VAL});
   for (std::size_t p = 0; p < rest.size(); ++p) {
-    if (std::abs(widening[p]) > most_) continue;
+    if (how == Keeping::kNearlySame && std::abs(widening[p]) > most_) continue;
     ranges[p] = {rest[p] + widening[p], rest[p] + widening[p]};
   }
   contacts_.bring_into(ranges, shape);

@@ -27,12 +27,17 @@ class KeptContacts {
 
   /// Of all places. \param positions  #V by 3
   std::vector<double> gaps(const Positions& positions) const { return contacts_.gaps(positions); }
+  /// How far skin goes through skin at most; 0: nowhere.
+  double deepest(const Positions& positions) const;
 
-  /// Brings the gaps of those places which are to stay nearly as they are to what is asked for.
+  /// Of places that are to stay nearly as they are, or of all.
+  enum class Keeping { kNearlySame, kAll };
+  /// Brings the gaps of those places to what is asked for.
   /// \param rest      #places: gaps of the face at rest
   /// \param widening  #places, asked for
   /// \param shape     of the face, #V by 3; made to fit
-  void keep(std::span<const double> rest, std::span<const double> widening, Positions& shape) const;
+  void keep(std::span<const double> rest, std::span<const double> widening, Keeping how,
+            Positions& shape) const;
 
  private:
   SkinContacts contacts_;

@@ -2,6 +2,7 @@
 #include "crowdface/shapes/prepared_shapes.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 
 #include "crowdface/core/parallel.h"
@@ -19,9 +20,9 @@ namespace {
 constexpr std::size_t kMostFitted = 500;
 /// How far from an eyeball's centre its lids' skin may be, as a share of its radius.
 constexpr double kEyeSkin = 3;
-/// A shape that takes lips through each other by more than this share of the skin's extent, some 5 mm, is made
-/// to be added to another; its crossings are meant.
-constexpr double kMeant = 0.012;
+/// A shape that takes lips through each other by more than this share of the skin's extent, some 5 mm, is made to be
+/// added to another.
+constexpr double kFarThrough = 0.012;
 
 std::uint32_t place_in(std::span<const std::uint32_t> sorted, std::uint32_t value) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
@@ -52,6 +53,31 @@ Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& sh
 
 }  // namespace
 
+std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
+                                                      const KeptContacts& contacts, double extent) {
+  const auto through_in = [&](std::initializer_list<std::size_t> shapes) {
+    Positions mesh = set.neutral;
+    for (const std::size_t s : shapes) set.shapes[s].moves.add_to(mesh);
+    return contacts.deepest(mesh);
+  };
+  const std::size_t count = set.shapes.size();
+  std::vector<double> through(count);
+  parallel_for_each(count, [&](std::size_t s) { through[s] = through_in({s}); });
+  std::vector<std::optional<std::size_t>> companions(count);
+  for (std::size_t s = 0; s < count; ++s) {
+    if (through[s] <= kFarThrough * extent) continue;
+    double least = through[s] / 2;
+    for (std::size_t other = 0; other < count; ++other) {
+      if (through[other] > kFarThrough * extent) continue;
+      const double both = through_in({s, other});
+      if (both >= least) continue;
+      least = both;
+      companions[s] = other;
+    }
+  }
+  return companions;
+}
+
 PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjacency,
                                const PartList& parts, const HeadAxes& head_axes,
                                const ShapeSet& shape_set, const RegionWeights& regions)
@@ -73,8 +99,11 @@ PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjace
   field = FrameField(set.neutral, skin, extent, used);
   if (!set.of_head.empty()) look_up_regions(regions);
   shapes.resize(set.shapes.size());
-  parallel_for_each(shapes.size(),
-                    [&](std::size_t s) { shapes[s] = bind(set.shapes[s].moves, adjacency); });
+  const auto companions = companions_of(set, contacts, extent);
+  parallel_for_each(shapes.size(), [&](std::size_t s) {
+    shapes[s].companion = companions[s];
+    bind(set.shapes[s].moves, adjacency, shapes[s]);
+  });
   std::vector<const CrossingSearch*> searches;
   for (const PreparedShape& shape : shapes) searches.push_back(&shape.watched.search);
   watched = crossings.watch_all(set.neutral, searches);
@@ -144,8 +173,8 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   }
 }
 
-PreparedShape PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency) const {
-  PreparedShape state;
+void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency,
+                          PreparedShape& state) const {
   for (const std::uint32_t v : moves.vertices) state.used.push_back(place_in(used, v));
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     PartMove part{p, {}, {}, {}};
@@ -160,24 +189,21 @@ PreparedShape PreparedShapes::bind(const Displacements& moves, const Adjacency& 
   bind_lids(moves, adjacency, state);
   state.moves_contacts = contacts.moved_by(moves.vertices);
   state.watched = watch(moves, state);
-  return state;
 }
 
 SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
                                              const PreparedShape& state) const {
-  Positions mesh = set.neutral;
-  moves.add_to(mesh);
-  const std::vector<double> gaps = contacts.gaps(mesh);
-  const bool is_meant =
-      std::ranges::any_of(gaps, [&](double gap) { return gap < -kMeant * extent; });
   std::vector<signed char> side;
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     if (!state.lids[e].lids.closes()) continue;
-    side.resize(static_cast<std::size_t>(mesh.rows()), 0);
+    side.resize(static_cast<std::size_t>(set.neutral.rows()), 0);
     lid_sides(eyes[e].of_template, set.neutral, side);
   }
-  SkinCrossings::Watched found = crossings.watch(set.neutral, moves, std::move(side));
-  found.is_meant = is_meant;
+  if (!state.companion) return crossings.watch(set.neutral, moves, std::move(side));
+  Positions rest = set.neutral;
+  set.shapes[*state.companion].moves.add_to(rest);
+  SkinCrossings::Watched found = crossings.watch(rest, moves, std::move(side));
+  found.comes_from_afar = true;
   return found;
 }
 
@@ -246,17 +272,24 @@ void PreparedShapes::add_sets() {
       at_eyes.push_back(placed(eye, there, carrier.mesh));
     }
     parallel_for_each(shapes.size(), [&](std::size_t s) {
-      const Displacements& all = set.shapes[s].moves;
-      if (heads == 0) return add_set(carrier, all, at_eyes, shapes[s]);
-      const Positions own = rows_in(all.vertices, set.of_head[h][s]);
-      add_set(carrier, {all.vertices, own}, at_eyes, shapes[s]);
-      shapes[s].of_head.push_back(undone(carrier, shapes[s], own));
+      const Displacements own = shape_of_set(h, s);
+      Positions rest = carrier.mesh;
+      if (const auto& other = shapes[s].companion) shape_of_set(h, *other).add_to(rest);
+      add_set(carrier, rest, own, at_eyes, shapes[s]);
+      if (heads > 0) shapes[s].of_head.push_back(undone(carrier, shapes[s], own.moves));
     });
   }
 }
 
-void PreparedShapes::add_set(const Carrier& carrier, const Displacements& shape,
-                             std::span<const PlacedEye> at_eyes, PreparedShape& state) const {
+Displacements PreparedShapes::shape_of_set(std::size_t number, std::size_t shape) const {
+  const Displacements& all = set.shapes[shape].moves;
+  if (set.of_head.empty()) return all;
+  return {all.vertices, rows_in(all.vertices, set.of_head[number][shape])};
+}
+
+void PreparedShapes::add_set(const Carrier& carrier, const Positions& rest,
+                             const Displacements& shape, std::span<const PlacedEye> at_eyes,
+                             PreparedShape& state) const {
   const Positions& moves = shape.moves;
   const RigidMotion& whole = carrier.frames.whole;
   for (PartMove& part : state.parts) {
@@ -271,7 +304,7 @@ void PreparedShapes::add_set(const Carrier& carrier, const Displacements& shape,
     const auto& [eye, rest_gaps] = at_eyes[e];
     move.goals.push_back(move.lids.goals(carrier.mesh, eye, rest_gaps, whole, moves));
   }
-  Positions moved = carrier.mesh;
+  Positions moved = rest;
   shape.add_to(moved);
   if (!set.of_head.empty() && !state.watched.search.triangles().empty()) {
     crossings.excuse(moved, state.watched);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,10 +49,17 @@ struct Hanging {
   std::array<double, 3> shares;
 };
 
+/// #shapes: of those that take lips far through each other, such as ARKit's `mouthClose`, the one to which they are
+/// made to be added: that with which lips go through each other least, and half as far at most.
+/// \param extent  of the skin
+std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
+                                                      const KeptContacts& contacts, double extent);
+
 /// One shape: what it moves, and what is to come of that on a face.
 struct PreparedShape {
-  std::vector<std::uint32_t> used;  ///< #rows: numbers among the used vertices
-  std::vector<SingleRows> of_head;  ///< #heads by #rows, as on the mean head; empty: one set
+  std::optional<std::size_t> companion;  ///< lips and crossings are mended where that is added
+  std::vector<std::uint32_t> used;       ///< #rows: numbers among the used vertices
+  std::vector<SingleRows> of_head;       ///< #heads by #rows, as on the mean head; empty: one set
   std::vector<PartMove> parts;
   std::vector<LidMove> lids;  ///< of the eyes
   std::vector<Hanging> hanging;
@@ -110,12 +118,14 @@ struct PreparedShapes {
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
   void look_up_regions(const RegionWeights& regions);
-  PreparedShape bind(const Displacements& moves, const Adjacency& adjacency) const;
+  void bind(const Displacements& moves, const Adjacency& adjacency, PreparedShape& state) const;
   void bind_lids(const Displacements& moves, const Adjacency& adjacency,
                  PreparedShape& state) const;
   SkinCrossings::Watched watch(const Displacements& moves, const PreparedShape& state) const;
   void add_sets();
-  void add_set(const Carrier& carrier, const Displacements& shape,
+  Displacements shape_of_set(std::size_t number, std::size_t shape) const;
+  /// \param rest  what the shape is added to
+  void add_set(const Carrier& carrier, const Positions& rest, const Displacements& shape,
                std::span<const PlacedEye> at_eyes, PreparedShape& state) const;
   SingleRows undone(const Carrier& carrier, const PreparedShape& state,
                     const Positions& moves) const;

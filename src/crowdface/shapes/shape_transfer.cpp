@@ -36,15 +36,17 @@ std::vector<PlacedEye> placed_eyes(const PreparedShapes& prepared, std::size_t t
 /// One shape of a face.
 class CarriedShape {
  public:
-  /// \param mesh  the face at rest; changed while it works
+  /// \param rest  what the shape is added to: the face at rest, or in the shape's companion
+  /// \param mesh  the same; changed while it works
   CarriedShape(const PreparedShapes& prepared, std::size_t number,
                std::span<const PlacedEye> at_eyes, const Carrier& carrier,
-               const RegionShares& shares, Positions& mesh)
+               const RegionShares& shares, const Positions& rest, Positions& mesh)
       : prepared_(prepared),
         shape_(prepared.shapes[number]),
         at_eyes_(at_eyes),
         carrier_(carrier),
         shares_(shares),
+        rest_(rest),
         mesh_(mesh),
         result_{prepared.set.shapes[number].moves.vertices,
                 Positions(static_cast<Index>(shape_.used.size()), 3)} {
@@ -91,6 +93,7 @@ class CarriedShape {
   std::span<const PlacedEye> at_eyes_;
   const Carrier& carrier_;
   const RegionShares& shares_;
+  const Positions& rest_;
   Positions& mesh_;
   Displacements result_;
   std::vector<LidClosure::Goals> goals_;  ///< of the eyes
@@ -156,7 +159,7 @@ void CarriedShape::fit_lids() {
   }
 }
 
-/// Lips that the shape leaves closed stay closed.
+/// Lips that the shape leaves closed stay closed; those that one closes again lie as the template's do.
 void CarriedShape::keep_contacts() {
   std::vector<double> widening(shape_.widening.front().size(), 0.0);
   for (std::size_t p = 0; p < widening.size(); ++p) {
@@ -171,15 +174,17 @@ void CarriedShape::keep_contacts() {
     }
   }
   result_.add_to(mesh_);
-  prepared_.contacts.keep(carrier_.gaps, widening, mesh_);
+  const auto how =
+      shape_.companion ? KeptContacts::Keeping::kAll : KeptContacts::Keeping::kNearlySame;
+  prepared_.contacts.keep(carrier_.gaps, widening, how, mesh_);
   for (std::size_t i = 0; i < result_.vertices.size(); ++i) {
     const std::uint32_t v = result_.vertices[i];
     auto move = result_.moves.row(static_cast<Index>(i));
-    const Eigen::RowVector3d before = carrier_.mesh.row(v) + move;
+    const Eigen::RowVector3d before = rest_.row(v) + move;
     move += mesh_.row(v) - before;
   }
-  for (const std::uint32_t v : result_.vertices) mesh_.row(v) = carrier_.mesh.row(v);
-  for (const std::uint32_t v : prepared_.contacts.moved()) mesh_.row(v) = carrier_.mesh.row(v);
+  for (const std::uint32_t v : result_.vertices) mesh_.row(v) = rest_.row(v);
+  for (const std::uint32_t v : prepared_.contacts.moved()) mesh_.row(v) = rest_.row(v);
 }
 
 /// Taking skin apart may open lids, and closing them take skin through skin: of what is found by turns the best is
@@ -187,7 +192,7 @@ void CarriedShape::keep_contacts() {
 void CarriedShape::take_skin_apart() {
   SkinCrossings::Harm harm;
   if (closes_lids()) harm = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
-  const SkinCrossings::Face face{carrier_.mesh, carrier_.at_rest, carrier_.frames.whole};
+  const SkinCrossings::Face face{rest_, carrier_.at_rest, carrier_.frames.whole};
   double best = HUGE_VAL;
   Positions kept;
   Index crossing = 0;
@@ -273,15 +278,30 @@ std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& f
   const Carrier carrier = prepared_->carrier_to(face);
   const auto at_eyes = placed_eyes(*prepared_, static_cast<std::size_t>(target), face);
   const RegionShares none;
-  std::vector<Displacements> shapes;
-  if (crossing != nullptr) crossing->clear();
+  std::vector<Displacements> shapes(prepared_->shapes.size());
+  if (crossing != nullptr) crossing->assign(shapes.size(), 0);
+  const auto carry_one = [&](std::size_t s, const Positions& rest, Positions& mesh) {
+    CarriedShape shape(*prepared_, s, at_eyes, carrier, s < shares.size() ? shares[s] : none, rest,
+                       mesh);
+    if (crossing != nullptr) (*crossing)[s] = shape.crossing();
+    shapes[s] = std::move(shape).moves();
+  };
   Positions mesh = face;
-  for (std::size_t s = 0; s < prepared_->shapes.size(); ++s) {
-    CarriedShape shape(*prepared_, s, at_eyes, carrier, s < shares.size() ? shares[s] : none, mesh);
-    if (crossing != nullptr) crossing->push_back(shape.crossing());
-    shapes.push_back(std::move(shape).moves());
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    if (!companion(s)) carry_one(s, face, mesh);
+  }
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    if (!companion(s)) continue;
+    shapes[*companion(s)].add_to(mesh);
+    const Positions rest = mesh;
+    carry_one(s, rest, mesh);
+    mesh = face;
   }
   return shapes;
+}
+
+std::optional<std::size_t> ShapeTransfer::companion(std::size_t shape) const {
+  return prepared_->shapes[shape].companion;
 }
 
 std::size_t ShapeTransfer::memory_bytes() const {

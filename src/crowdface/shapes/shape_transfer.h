@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,9 @@ class ShapeTransfer {
   std::vector<Displacements> carry(Index target, const Positions& face,
                                    std::span<const RegionShares> shares = {},
                                    std::vector<Index>* crossing = nullptr) const;
+
+  /// The shape to which one is made to be added, see companions_of.
+  std::optional<std::size_t> companion(std::size_t shape) const;
 
   /// What it keeps of the heads' own shapes.
   std::size_t memory_bytes() const;

@@ -21,7 +21,7 @@ constexpr int kRings = 2;                              // around what may meet
 constexpr double kEvened = 0.002, kNotEvened = 0.005;  // from crossings, at rest
 constexpr double kCell = 0.003;                        // over which displacements are evened out
 constexpr double kGrowth = 0.08;                       // of those, a round
-constexpr double kLaid = 0.7;                          // of those, for lids
+constexpr double kLaid = 0.7;                          // of those, where skin is laid
 /// Of what evens out how lids move up and down, so that they close still.
 constexpr double kClosing = 0.3;
 constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
@@ -80,12 +80,12 @@ class SkinCrossings::Mending {
   void take_apart(const Harm& harm) {
     if (pairs_.empty()) return;
     const Positions start = shape_.moves;
-    take_apart(harm, &Mending::push_lids);
+    take_apart(harm, watched_.comes_from_afar ? &Mending::lay : &Mending::push_lids);
     if (!watched_.side.empty() && best_ > 0) {
       shape_.moves = start;
       changed_.assign(changed_.size(), true);
       look_again({});
-      take_apart(harm, &Mending::lay_lids);
+      take_apart(harm, &Mending::lay);
     }
     shape_.moves = std::move(best_moves_);
     pairs_ = std::move(best_pairs_);
@@ -102,7 +102,7 @@ class SkinCrossings::Mending {
       since_best = is_best(harm) ? 0 : since_best + 1;
       if (pairs_.empty() || since_best == patience || round == kRounds) return;
       const auto lids = std::stable_partition(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-        return side_of(pair[0]) * side_of(pair[1]) >= 0;
+        return !watched_.comes_from_afar && side_of(pair[0]) * side_of(pair[1]) >= 0;
       });
       const std::vector<Pair> before = pairs_, meeting(lids, pairs_.end());
       pairs_.erase(lids, pairs_.end());
@@ -188,11 +188,11 @@ class SkinCrossings::Mending {
     }
   }
 
-  /// Lids that are near each other on the template in the shape come to lie to each other as there: what the face adds
+  /// Skin that is near each other on the template in the shape comes to lie to each other as there: what the face adds
   /// to the template is evened out there.
-  void lay_lids(const std::vector<Pair>& lids, double grown) {
+  void lay(const std::vector<Pair>& meeting, double grown) {
     const double unit = kLaid * grown * skin_.extent_;
-    const std::vector<std::uint32_t> crossing = vertices_of(lids, watched_.search);
+    const std::vector<std::uint32_t> crossing = vertices_of(meeting, watched_.search);
     std::vector<Eigen::Vector3d> around;
     const auto shaped = [&](std::uint32_t i) { return row3(watched_.shaped, i); };
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
@@ -204,7 +204,8 @@ class SkinCrossings::Mending {
     std::vector<EvenedField::Sample> samples;
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
       const Row& row = watched_.rows[i];
-      if (side(row.vertex) == 0 || !field.hears(shaped(i))) continue;
+      if (!watched_.comes_from_afar && side(row.vertex) == 0) continue;
+      if (!field.hears(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.whole.apply(shaped(i))});
     }
     for (const auto& [number, by] : field.changes(samples)) move(watched_.rows[number], by);
@@ -361,7 +362,7 @@ Index SkinCrossings::mend(const Face& face, const Watched& watched, Positions& m
                           Displacements& shape, const Harm& harm) const {
   if (watched.search.triangles().empty()) return 0;
   Mending mending(*this, face, watched, mesh, shape);
-  if (!watched.is_meant) mending.take_apart(harm);
+  mending.take_apart(harm);
   return mending.crossing();
 }
 

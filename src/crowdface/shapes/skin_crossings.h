@@ -35,8 +35,9 @@ class SkinCrossings {
     std::vector<signed char>
         side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
     std::vector<Row> rows;
-    Positions shaped;       ///< #rows by 3, of the template in the shape
-    bool is_meant = false;  ///< its crossings are counted and left
+    Positions shaped;  ///< #rows by 3, of the template in the shape
+    /// Skin that is far from each other at rest meets in it: it is laid as the template's lies.
+    bool comes_from_afar = false;
   };
   /// \param neutral  of the template, #V by 3
   Watched watch(const Positions& neutral, const Displacements& shape,
@@ -51,7 +52,7 @@ class SkinCrossings {
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
 
   struct Face {
-    const Positions& rest;  ///< #V by 3
+    const Positions& rest;  ///< #V by 3: what shapes are added to
     const std::vector<bool>&
         at_rest;               ///< #V, see crossing_at_rest; those crossings are none of a shape's
     const RigidMotion& whole;  ///< from the template
