@@ -11,12 +11,12 @@
 #include "crowdface/synth/synthetic_head.h"
 
 #include "parts/scene.h"
+#include "parts/slotted_roller.h"
 
 namespace crowdface {
 namespace {
 
-constexpr int kAround = 60, kWall = 10, kLong = 16;  // quads
-constexpr double kRadius = 5;
+using testing::slotted_roller;
 
 std::vector<std::uint32_t> all_of(const Topology& topology) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(topology.vertex_count));
@@ -24,40 +24,10 @@ std::vector<std::uint32_t> all_of(const Topology& topology) {
   return all;
 }
 
-/// A roller, open at both ends, with a slot along its front: two walls that face each other.
-/// \param gap   between the walls
-/// \param step  along the roller
-Mesh slotted(double gap, double step = 0.5) {
-  std::vector<std::array<double, 2>> profile;  // y, z
-  const double pi = 3.14159265358979323846, front = std::asin(0.05);
-  for (int i = 0; i <= kAround; ++i) {
-    const double angle = front + (2 * pi - 2 * front) * i / kAround;
-    profile.push_back({kRadius * std::sin(angle), kRadius * std::cos(angle)});
-  }
-  for (int i = 0; i < kWall; ++i) profile.push_back({-gap / 2, 4.9 - 0.5 * i});
-  for (int i = kWall; i-- > 0;) profile.push_back({gap / 2, 4.9 - 0.5 * i});
-
-  Mesh mesh;
-  const auto around = static_cast<std::uint32_t>(profile.size());
-  mesh.topology.vertex_count = around * (kLong + 1);
-  mesh.positions.resize(mesh.topology.vertex_count, 3);
-  for (std::uint32_t x = 0; x <= kLong; ++x) {
-    for (std::uint32_t i = 0; i < around; ++i) {
-      mesh.positions.row(x * around + i) << step * (x - kLong / 2.0), profile[i][0], profile[i][1];
-      if (x == kLong) continue;
-      const std::uint32_t a = x * around + i, b = x * around + (i + 1) % around;
-      auto& corners = mesh.topology.corner_vertices;
-      corners.insert(corners.end(), {a, a + around, b + around, b});
-      mesh.topology.face_offsets.push_back(static_cast<std::uint32_t>(corners.size()));
-    }
-  }
-  return mesh;
-}
-
 FaceSet heads_with_gaps(const std::vector<double>& gaps, double step = 0.5) {
   FaceSet faces;
   for (const double gap : gaps) {
-    Mesh mesh = slotted(gap, step);
+    Mesh mesh = slotted_roller(gap, step);
     faces.topology = mesh.topology;
     faces.heads.push_back({"head", std::move(mesh.positions)});
   }
@@ -74,7 +44,7 @@ std::vector<SkinContacts::Range> everywhere(const SkinContacts& contacts, double
 }
 
 TEST(FacingSkin, IsWhatLooksAtEachOtherThroughANarrowGap) {
-  Mesh mesh = slotted(0.1);
+  Mesh mesh = slotted_roller(0.1);
   const auto groups = [&] {
     return find_facing_skin(mesh.topology, build_adjacency(mesh.topology), mesh.positions,
                             all_of(mesh.topology));
@@ -87,7 +57,7 @@ TEST(FacingSkin, IsWhatLooksAtEachOtherThroughANarrowGap) {
   }
   mesh.positions.col(0) *= -1;  // now the faces look inward
   EXPECT_EQ(groups().size(), 1U);
-  mesh = slotted(1);
+  mesh = slotted_roller(1);
   EXPECT_TRUE(groups().empty()) << "too wide to be a contact";
 }
 
@@ -107,15 +77,15 @@ TEST(SkinContacts, AreAsWideAsTheyWereMade) {
   for (const auto& [head, gap] : {std::pair{0, 0.04}, {1, 0.08}, {2, 0.12}}) {
     for (const double found : contacts.head_gaps(head)) EXPECT_NEAR(found, gap, 1e-9);
   }
-  EXPECT_NEAR(contacts.wider(slotted(0.5).positions), 0.38, 1e-9);
-  EXPECT_EQ(contacts.wider(slotted(0.1).positions), 0);
+  EXPECT_NEAR(contacts.wider(slotted_roller(0.5).positions), 0.38, 1e-9);
+  EXPECT_EQ(contacts.wider(slotted_roller(0.1).positions), 0);
 }
 
 TEST(SkinContacts, AreBroughtIntoTheirRanges) {
   const FaceSet faces = heads_with_gaps({0.04, 0.12});
   const SkinContacts contacts = contacts_of(faces);
   for (const auto& [made, wanted] : {std::pair{0.5, 0.12}, {-0.2, 0.04}}) {
-    Positions face = slotted(made).positions;
+    Positions face = slotted_roller(made).positions;
     const Positions before = face;
     contacts.bring_into(everywhere(contacts, 0.04, 0.12), face);
     for (const double gap : contacts.gaps(face)) EXPECT_NEAR(gap, wanted, 1e-3);
@@ -130,7 +100,7 @@ TEST(SkinContacts, AreBroughtIntoTheirRanges) {
 // Skin that moves far changes which points lie at one depth: some of the gap was left.
 TEST(SkinContacts, AreBroughtIntoTheirRangesFromFarWhereWallsAreWaves) {
   const auto waves = [](double gap) {
-    Positions points = slotted(gap).positions;
+    Positions points = slotted_roller(gap).positions;
     for (Index v = 0; v < points.rows(); ++v) {
       points(v, 1) += 0.3 * std::sin(2 * points(v, 2) + 0.75 * points(v, 0));
     }
@@ -167,7 +137,7 @@ TEST(SkinContacts, DoNotPullSkinApartAndTogetherWhereNeighboursDiffer) {
     const double gap = i % 2 == 0 ? 0.2 : 0;
     ranges[along[i]] = {gap, gap + 0.005};
   }
-  Positions face = slotted(0.5, kFine).positions;
+  Positions face = slotted_roller(0.5, kFine).positions;
   const Positions before = face;
   contacts.bring_into(ranges, face);
   EXPECT_LT((face - before).rowwise().norm().maxCoeff(), 0.27)
@@ -182,9 +152,9 @@ TEST(SkinContacts, DoNotPullSkinApartAndTogetherWhereNeighboursDiffer) {
 TEST(SkinContacts, AreLeftAloneToTheBitWhereAllIsWell) {
   const FaceSet faces = heads_with_gaps({0.04, 0.12});
   const SkinContacts contacts = contacts_of(faces);
-  Positions face = slotted(0.07).positions;
+  Positions face = slotted_roller(0.07).positions;
   contacts.bring_into(everywhere(contacts, 0.04, 0.12), face);
-  EXPECT_TRUE(face == slotted(0.07).positions);
+  EXPECT_TRUE(face == slotted_roller(0.07).positions);
 }
 
 TEST(SkinContacts, OfSyntheticHeadsAreTheirLipsAtAnyResolution) {

@@ -96,6 +96,7 @@ PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjace
     add_part(part, parts, mean);
     if (part.eyeball) add_eye(part, parts.shapes[part.ball], mean);
   }
+  find_inner(parts);
   field = FrameField(set.neutral, skin, extent, used);
   if (!set.of_head.empty()) look_up_regions(regions);
   shapes.resize(set.shapes.size());
@@ -145,6 +146,18 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
   eyes.push_back(std::move(eye));
 }
 
+void PreparedShapes::find_inner(const PartList& parts) {
+  for (const Part& part : parts.parts) {
+    if (part.eyeball) continue;
+    std::ranges::copy_if(part.vertices, std::back_inserter(inner), [&](std::uint32_t v) {
+      return std::ranges::none_of(eyes, [&](const ActingEye& eye) {
+        const BallMap& ball = eye.of_template.ball;
+        return length3(row3(set.neutral, v) - ball.centre()) < kEyeSkin * ball.radius();
+      });
+    });
+  }
+}
+
 /// Masks say nothing of lashes and eyeballs.
 void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   const PointGrid grid(set.neutral, skin);
@@ -189,6 +202,10 @@ void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency
   bind_lids(moves, adjacency, state);
   state.moves_contacts = contacts.moved_by(moves.vertices);
   state.watched = watch(moves, state);
+  Positions shaped = set.neutral;
+  if (state.companion) set.shapes[*state.companion].moves.add_to(shaped);
+  moves.add_to(shaped);
+  state.over_parts = SkinOverParts(shaped, crossings.mesh(), inner, moves.vertices, axes, extent);
 }
 
 SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,

@@ -63,6 +63,7 @@ struct PreparedShape {
   std::vector<PartMove> parts;
   std::vector<LidMove> lids;  ///< of the eyes
   std::vector<Hanging> hanging;
+  SkinOverParts over_parts;
   SkinCrossings::Watched watched;
   bool moves_contacts = false;
   std::vector<std::vector<double>> widening;  ///< #sets, if it does: of the gaps between lips
@@ -88,7 +89,8 @@ struct PreparedShapes {
   KeptContacts contacts;
   RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
   FrameField field;
-  double extent = 0;  ///< of the template's skin
+  double extent = 0;                 ///< of the template's skin
+  std::vector<std::uint32_t> inner;  ///< vertices of parts away from eyes: gums and teeth
   SkinCrossings crossings;
   CrossingSearch watched;  ///< of any shape
   std::vector<PreparedShape> shapes;
@@ -115,6 +117,7 @@ struct PreparedShapes {
                          std::span<const Eigen::Matrix3d> maps) const;
 
  private:
+  void find_inner(const PartList& parts);
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
   void look_up_regions(const RegionWeights& regions);

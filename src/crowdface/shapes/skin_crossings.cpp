@@ -29,7 +29,6 @@ constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds in which nothing gets better, where lids meet
 
 using Pair = CrossingSearch::Pair;
-using Row = SkinCrossings::Row;
 
 double square(double x) {
   return x * x;
@@ -133,7 +132,7 @@ class SkinCrossings::Mending {
   }
   /// \param before  that crossed; those of which nothing has changed still do
   void look_again(const std::vector<Pair>& before) {
-    for (const Row& row : watched_.rows) {
+    for (const ShapeRow& row : watched_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
     }
     watched_.search.renew(mesh_, changed_, boxes_);
@@ -149,7 +148,7 @@ class SkinCrossings::Mending {
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
   }
 
-  Eigen::Vector3d place_of(const Row& row) const {
+  Eigen::Vector3d place_of(const ShapeRow& row) const {
     return row3(face_.rest, row.vertex) + row3(shape_.moves, row.row);
   }
   signed char side(std::uint32_t vertex) const {
@@ -161,7 +160,7 @@ class SkinCrossings::Mending {
     }
     return 0;
   }
-  void move(const Row& row, const Eigen::Vector3d& by) {
+  void move(const ShapeRow& row, const Eigen::Vector3d& by) {
     shape_.moves.row(row.row) += by.transpose();
     changed_[row.vertex] = true;
   }
@@ -176,13 +175,13 @@ class SkinCrossings::Mending {
     const EvenedField field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
     std::vector<EvenedField::Sample> samples;
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
-      const Row& row = watched_.rows[i];
+      const ShapeRow& row = watched_.rows[i];
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       if (field.hears(here)) samples.push_back({i, here, row3(shape_.moves, row.row)});
     }
     const Eigen::Vector3d& up = skin_.axes_.up;
     for (auto [number, by] : field.changes(samples)) {
-      const Row& row = watched_.rows[number];
+      const ShapeRow& row = watched_.rows[number];
       if (side(row.vertex) != 0) by -= (1 - kClosing) * dot3(by, up) * up;
       move(row, by);
     }
@@ -203,7 +202,7 @@ class SkinCrossings::Mending {
     const EvenedField field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
     std::vector<EvenedField::Sample> samples;
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
-      const Row& row = watched_.rows[i];
+      const ShapeRow& row = watched_.rows[i];
       if (!watched_.comes_from_afar && side(row.vertex) == 0) continue;
       if (!field.hears(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.whole.apply(shaped(i))});
@@ -234,7 +233,7 @@ class SkinCrossings::Mending {
     }
     for (auto& [v, push] : wanted) push = unit3(push);
     const double reach = kPushed * skin_.extent_, by = grown * kPush * skin_.extent_;
-    for (const Row& row : watched_.rows) {
+    for (const ShapeRow& row : watched_.rows) {
       if (side(row.vertex) == 0) continue;
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();

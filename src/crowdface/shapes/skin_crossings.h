@@ -11,6 +11,7 @@
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/crossing_search.h"
 #include "crowdface/shapes/meeting_skin.h"
+#include "crowdface/shapes/skin_over_parts.h"
 
 namespace crowdface {
 
@@ -24,18 +25,16 @@ class SkinCrossings {
   SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin, double extent,
                 const HeadAxes& axes);
 
-  /// A row of a shape's displacements that is skin.
-  struct Row {
-    std::uint32_t row, vertex;
-  };
+  const SkinMesh& mesh() const { return skin_; }
+
   /// Which skin of a shape is looked at: see skin_that_may_meet.
   struct Watched {
     CrossingSearch search;
     std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
     std::vector<signed char>
-        side;  ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
-    std::vector<Row> rows;
-    Positions shaped;  ///< #rows by 3, of the template in the shape
+        side;                    ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
+    std::vector<ShapeRow> rows;  ///< that are skin
+    Positions shaped;            ///< #rows by 3, of the template in the shape
     /// Skin that is far from each other at rest meets in it: it is laid as the template's lies.
     bool comes_from_afar = false;
   };

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/skin_over_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+// Lengths are shares of the skin's extent, some 430 mm.
+constexpr double kDepth = 0.001;  // below the skin, if the template is not less deep
+constexpr double kReach = 0.025;  // of skin in front
+constexpr double kNear = 0.008;  // so near the template's skin is on a face, if there is a question
+constexpr double kPushed = 0.02;   // around
+constexpr double kCell = 0.0025;   // in which one vertex stands for others
+constexpr double kTooNear = 0.25;  // of that depth: what lies less deep is not left there
+constexpr double kFacing = 0.5;    // how much skin looks to the front: rims of lips do not
+constexpr int kRings = 2;          // of triangles around, one of which is in front on a face
+constexpr int kRounds = 6;
+
+double square(double x) {
+  return x * x;
+}
+
+Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& corners) {
+  return unit3(cross3(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+/// How far a triangle is in front of a point, if it is in front of or behind it.
+std::optional<double> ahead_of(const Eigen::Vector3d& point,
+                               const std::array<Eigen::Vector3d, 3>& corners, const HeadAxes& axes,
+                               const Eigen::Vector3d& side) {
+  std::array<double, 3> x{}, y{}, shares{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = dot3(corners[k] - point, side);
+    y[k] = dot3(corners[k] - point, axes.up);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+    shares[k] = x[a] * y[b] - y[a] * x[b];
+  }
+  const auto [least, most] = std::ranges::minmax(shares);
+  if (least == most || (least < 0 && most > 0)) return std::nullopt;
+  double ahead = 0;
+  for (std::size_t k = 0; k < 3; ++k) ahead += shares[k] * dot3(corners[k] - point, axes.front);
+  return ahead / (shares[0] + shares[1] + shares[2]);
+}
+
+/// Triangles by where they are when seen from the front.
+class FrontView {
+ public:
+  FrontView(const Positions& positions, std::span<const Triangle> triangles, const HeadAxes& axes,
+            double cell)
+      : positions_(positions), triangles_(triangles), axes_(axes), side_(axes.side()), cell_(cell) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      Eigen::AlignedBox2d box;
+      for (const std::uint32_t v : triangles[t]) box.extend(seen(row3(positions, v)));
+      const auto [left, bottom] = cell_of(box.min());
+      const auto [right, top] = cell_of(box.max());
+      for (std::int64_t x = left; x <= right; ++x) {
+        for (std::int64_t y = bottom; y <= top; ++y) cells_[{x, y}].push_back(t);
+      }
+    }
+  }
+
+  struct Hit {
+    std::uint32_t triangle;
+    double ahead;  ///< of the point
+  };
+  /// What is foremost of all that is in front of or behind a point.
+  std::optional<Hit> foremost(const Eigen::Vector3d& point) const {
+    const auto cell = cells_.find(cell_of(seen(point)));
+    if (cell == cells_.end()) return std::nullopt;
+    std::optional<Hit> best;
+    for (const std::uint32_t t : cell->second) {
+      const auto ahead = ahead_of(point, corners_of(t), axes_, side_);
+      if (ahead && (!best || *ahead > best->ahead)) best = Hit{t, *ahead};
+    }
+    return best;
+  }
+  std::array<Eigen::Vector3d, 3> corners_of(std::uint32_t triangle) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {row3(positions_, a), row3(positions_, b), row3(positions_, c)};
+  }
+
+ private:
+  using Cell = std::pair<std::int64_t, std::int64_t>;
+
+  Eigen::Vector2d seen(const Eigen::Vector3d& point) const {
+    return {dot3(point, side_), dot3(point, axes_.up)};
+  }
+  Cell cell_of(const Eigen::Vector2d& at) const {
+    return {static_cast<std::int64_t>(std::floor(at.x() / cell_)),
+            static_cast<std::int64_t>(std::floor(at.y() / cell_))};
+  }
+
+  const Positions& positions_;
+  std::span<const Triangle> triangles_;
+  HeadAxes axes_;
+  Eigen::Vector3d side_;
+  double cell_;
+  std::map<Cell, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace
+
+SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
+                             std::span<const std::uint32_t> inner,
+                             std::span<const std::uint32_t> moved, const HeadAxes& axes,
+                             double extent)
+    : axes_(axes), extent_(extent) {
+  if (inner.empty()) return;
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t v : inner) box.extend(row3(shaped, v));
+  box = {box.min().array() - kReach * extent, box.max().array() + kReach * extent};
+  std::vector<std::uint32_t> numbers;
+  std::vector<Triangle> around;
+  for (std::uint32_t t = 0; t < skin.triangles.size(); ++t) {
+    if (!box.contains(row3(shaped, skin.triangles[t][0]))) continue;
+    numbers.push_back(t);
+    around.push_back(skin.triangles[t]);
+  }
+  const FrontView view(shaped, around, axes, kReach * extent / 4);
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
+  for (const std::uint32_t v : inner) {
+    const Eigen::Vector3d point = row3(shaped, v);
+    const auto cell = [&](Index c) {
+      return static_cast<std::int64_t>(std::floor(point[c] / (kCell * extent)));
+    };
+    const std::tuple at{cell(0), cell(1), cell(2)};
+    if (taken.contains(at)) continue;
+    const auto hit = view.foremost(point);
+    if (!hit || hit->ahead <= 0) continue;
+    const double facing = dot3(axes.front, normal_of(view.corners_of(hit->triangle)));
+    const double depth = hit->ahead * facing;
+    if (facing < kFacing || depth > kReach * extent) continue;
+    if (std::ranges::none_of(around[hit->triangle], [&](std::uint32_t corner) {
+          return std::ranges::binary_search(moved, corner);
+        })) {
+      continue;
+    }
+    taken.insert(at);
+    std::vector<std::uint32_t> near = {numbers[hit->triangle]};
+    for (int ring = 0; ring < kRings; ++ring) {
+      std::vector<std::uint32_t> wider;
+      for (const std::uint32_t t : near) {
+        for (const std::uint32_t corner : skin.triangles[t]) {
+          const auto of = skin.around.of(corner);
+          wider.insert(wider.end(), of.begin(), of.end());
+        }
+      }
+      std::ranges::sort(wider);
+      wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+      near = std::move(wider);
+    }
+    Covered covered{v, around[hit->triangle], {}, std::min(depth, kDepth * extent)};
+    for (const std::uint32_t t : near) covered.near.push_back(skin.triangles[t]);
+    covered_.push_back(std::move(covered));
+  }
+}
+
+void SkinOverParts::keep(const Positions& rest, double scale, std::span<const ShapeRow> rows,
+                         Displacements& shape) const {
+  const auto move_of = [&](std::uint32_t v) -> Eigen::Vector3d {
+    const auto at = std::ranges::lower_bound(shape.vertices, v);
+    if (at == shape.vertices.end() || *at != v) return {0, 0, 0};
+    return row3(shape.moves, at - shape.vertices.begin());
+  };
+  const auto place = [&](std::uint32_t v) -> Eigen::Vector3d { return row3(rest, v) + move_of(v); };
+  const auto corners_of = [&](const Triangle& triangle) {
+    return std::array{place(triangle[0]), place(triangle[1]), place(triangle[2])};
+  };
+  const Eigen::Vector3d side = axes_.side();
+  const double unit = scale * extent_, reach = kPushed * unit;
+  struct Push {
+    Eigen::Vector3d at, by;
+  };
+  std::vector<double> most_pushed;  // what the shape itself moves
+  for (const Covered& covered : covered_) {
+    const auto& [a, b, c] = covered.over;
+    most_pushed.push_back(
+        std::min({length3(move_of(a)), length3(move_of(b)), length3(move_of(c))}));
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Push> pushes;
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < covered_.size(); ++i) {
+      const Covered& covered = covered_[i];
+      if (most_pushed[i] <= 0) continue;
+      const Eigen::Vector3d point = place(covered.vertex);
+      const auto over = corners_of(covered.over);
+      if (dot3(over[0] - point, normal_of(over)) > kNear * unit) continue;
+      double missing = -HUGE_VAL;
+      Eigen::Vector3d normal = Eigen::Vector3d::Zero(), at = normal;
+      std::optional<double> foremost;
+      for (const Triangle& triangle : covered.near) {
+        const auto corners = corners_of(triangle);
+        const auto ahead = ahead_of(point, corners, axes_, side);
+        if (!ahead || (foremost && *ahead <= *foremost)) continue;
+        foremost = ahead;
+        normal = normal_of(corners);
+        at = point + *ahead * axes_.front;
+        missing = scale * covered.depth - *ahead * dot3(axes_.front, normal);
+      }
+      if (!foremost || dot3(normal, axes_.front) < kFacing) continue;
+      if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
+      const double by = std::min(missing, most_pushed[i]);
+      most_pushed[i] -= by;
+      pushes.push_back({at, by * normal});
+      box.extend(at);
+    }
+    if (pushes.empty()) return;
+    box = {box.min().array() - reach, box.max().array() + reach};
+    for (const auto& [row, v] : rows) {
+      const Eigen::Vector3d here = row3(rest, v) + row3(shape.moves, row);
+      if (!box.contains(here)) continue;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double most = 0;
+      for (const Push& push : pushes) {
+        const double distance = length3(push.at - here) / reach;
+        if (distance >= 1) continue;
+        const double weight = square(1 - square(distance));
+        sum += weight * push.by;
+        most = std::max(most, weight * length3(push.by));
+      }
+      if (most > 0) shape.moves.row(row) += (most * unit3(sum)).transpose();
+    }
+  }
+}
+
+}  // namespace crowdface

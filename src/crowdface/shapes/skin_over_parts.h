@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/displacements.h"
+#include "crowdface/parts/head_axes.h"
+#include "crowdface/shapes/meeting_skin.h"
+
+namespace crowdface {
+
+/// A row of a shape's displacements, and its vertex.
+struct ShapeRow {
+  std::uint32_t row, vertex;
+};
+
+/// Skin in front of gums and teeth, which a shape brings nearer to them than they let it on another face: a jaw that
+/// opens draws the cheeks in.
+class SkinOverParts {
+ public:
+  SkinOverParts() = default;
+  /// \param shaped  the template in the shape, #V by 3
+  /// \param inner   vertices of what lies under it, and maybe elsewhere
+  /// \param moved   by the shape, ascending
+  /// \param extent  of the skin
+  SkinOverParts(const Positions& shaped, const SkinMesh& skin, std::span<const std::uint32_t> inner,
+                std::span<const std::uint32_t> moved, const HeadAxes& axes, double extent);
+
+  /// Moves skin outwards until what lies under it on the template does so on a face.
+  /// \param rest   what the shape is added to, #V by 3
+  /// \param scale  of the face against the template
+  /// \param rows   of the shape that are skin
+  void keep(const Positions& rest, double scale, std::span<const ShapeRow> rows,
+            Displacements& shape) const;
+
+ private:
+  /// A vertex under the skin, and the triangle that is in front of it on the template in the shape.
+  struct Covered {
+    std::uint32_t vertex;
+    Triangle over;
+    std::vector<Triangle> near;  ///< and around it: one of them is in front on a face
+    double depth;                ///< how far below it must be
+  };
+
+  HeadAxes axes_;
+  double extent_ = 0;
+  std::vector<Covered> covered_;
+};
+
+}  // namespace crowdface
