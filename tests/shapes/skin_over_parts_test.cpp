@@ -42,6 +42,13 @@ class SkinOverPartsTest : public ::testing::Test {
     positions.row(kInner) << 0.7, 0.4, -depth;
     return positions;
   }
+  Displacements kept(const SkinOverParts& over, const Positions& face) const {
+    Displacements shape = back(2);
+    Positions mesh = face;
+    over.keep(face, 1, rows_, mesh, shape);
+    EXPECT_EQ(mesh, face);
+    return shape;
+  }
   /// All of the skin goes back.
   Displacements back(double by) const {
     Displacements shape{skin_.vertices, Positions::Zero(kInner, 3)};
@@ -60,8 +67,7 @@ class SkinOverPartsTest : public ::testing::Test {
 };
 
 TEST_F(SkinOverPartsTest, StaysOverThemOnAnotherFace) {
-  Displacements shape = back(2);
-  over_template().keep(sheet(1), 1, rows_, shape);
+  const Displacements shape = kept(over_template(), sheet(1));
   const Index middle = kInner / 2;
   EXPECT_GT(shape.moves(middle, 2), -1 + kDepth / 4);
   EXPECT_LT(shape.moves(middle, 2), -1 + 1.5 * kDepth) << "no further out than needed";
@@ -71,9 +77,7 @@ TEST_F(SkinOverPartsTest, StaysOverThemOnAnotherFace) {
 }
 
 TEST_F(SkinOverPartsTest, NothingMovesWhereNothingIsInTheWay) {
-  Displacements shape = back(2);
-  over_template().keep(sheet(4), 1, rows_, shape);
-  EXPECT_EQ(shape.moves, back(2).moves);
+  EXPECT_EQ(kept(over_template(), sheet(4)).moves, back(2).moves);
 }
 
 TEST_F(SkinOverPartsTest, WhatIsBareOnTheTemplateMayBeOnAFace) {
@@ -81,9 +85,7 @@ TEST_F(SkinOverPartsTest, WhatIsBareOnTheTemplateMayBeOnAFace) {
   back(2).add_to(shaped);
   const SkinOverParts over(shaped, skin_, std::vector<std::uint32_t>{kInner}, skin_.vertices, {},
                            kExtent);
-  Displacements shape = back(2);
-  over.keep(sheet(1), 1, rows_, shape);
-  EXPECT_EQ(shape.moves, back(2).moves);
+  EXPECT_EQ(kept(over, sheet(1)).moves, back(2).moves);
 }
 
 }  // namespace

@@ -193,14 +193,19 @@ TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
     const bool expected =
         std::any_of(sheet.triangles.begin(), sheet.triangles.end(),
                     [&](const Triangle& triangle) { return crosses(origin, direction, triangle); });
-    EXPECT_EQ(scene.meets(origin, direction, ~0U), expected) << i;
+    const std::array guesses = {kNoIndex, static_cast<std::uint32_t>(i % sheet.triangles.size())};
+    for (const std::uint32_t guess : guesses) {
+      const std::uint32_t other = scene.met_by(origin, direction, kNoIndex, guess);
+      EXPECT_EQ(other != kNoIndex, expected) << i;
+      EXPECT_TRUE(other == kNoIndex || crosses(origin, direction, sheet.triangles[other]));
+    }
     met += expected ? 1 : 0;
   }
   EXPECT_GT(met, 50);
   EXPECT_LT(met, 250);
   const Eigen::Vector3d up(0, 0, 1);
   const Eigen::Vector3d below(3.3, 7.4, -1);
-  EXPECT_TRUE(scene.meets(below, up, ~0U));
+  EXPECT_NE(scene.met_by(below, up, kNoIndex, kNoIndex), kNoIndex);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ inline constexpr int kSharedVersion = 1;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
 inline constexpr int kFaceFilesVersion = 17;
 inline constexpr int kShapesVersion =
-    8;  ///< shapes carried to a face of the same positions, and shown
+    9;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
 inline constexpr int kRigVersion = 1;          ///< joints that follow, and what is bound to them
 inline constexpr int kAttachmentsVersion = 4;  ///< attachments of a face of the same positions

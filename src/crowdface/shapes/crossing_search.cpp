@@ -18,7 +18,7 @@ namespace {
 
 /// Triangles so many edges apart are of one sheet if they face alike: the least cosine.
 constexpr int kSheetRings = 3;
-constexpr float kAlike = 0.98F;
+constexpr float kAlike = 0.998F;
 
 /// Leaves of dense meshes are small: no more than some of them side by side are looked through.
 constexpr double kMostLeaves = 3;

@@ -167,71 +167,80 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
 }
 
 void SkinOverParts::keep(const Positions& rest, double scale, std::span<const ShapeRow> rows,
-                         Displacements& shape) const {
-  const auto move_of = [&](std::uint32_t v) -> Eigen::Vector3d {
-    const auto at = std::ranges::lower_bound(shape.vertices, v);
-    if (at == shape.vertices.end() || *at != v) return {0, 0, 0};
-    return row3(shape.moves, at - shape.vertices.begin());
-  };
-  const auto place = [&](std::uint32_t v) -> Eigen::Vector3d { return row3(rest, v) + move_of(v); };
-  const auto corners_of = [&](const Triangle& triangle) {
-    return std::array{place(triangle[0]), place(triangle[1]), place(triangle[2])};
-  };
-  const Eigen::Vector3d side = axes_.side();
-  const double unit = scale * extent_, reach = kPushed * unit;
-  struct Push {
-    Eigen::Vector3d at, by;
-  };
-  std::vector<double> most_pushed;  // what the shape itself moves
+                         Positions& mesh, Displacements& shape) const {
+  shape.add_to(mesh);
+  std::vector<double> most;  // what the shape itself moves
   for (const Covered& covered : covered_) {
-    const auto& [a, b, c] = covered.over;
-    most_pushed.push_back(
-        std::min({length3(move_of(a)), length3(move_of(b)), length3(move_of(c))}));
+    double least = HUGE_VAL;
+    for (const std::uint32_t v : covered.over) {
+      least = std::min(least, length3(row3(mesh, v) - row3(rest, v)));
+    }
+    most.push_back(least);
   }
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<Push> pushes;
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i < covered_.size(); ++i) {
-      const Covered& covered = covered_[i];
-      if (most_pushed[i] <= 0) continue;
-      const Eigen::Vector3d point = place(covered.vertex);
-      const auto over = corners_of(covered.over);
-      if (dot3(over[0] - point, normal_of(over)) > kNear * unit) continue;
-      double missing = -HUGE_VAL;
-      Eigen::Vector3d normal = Eigen::Vector3d::Zero(), at = normal;
-      std::optional<double> foremost;
-      for (const Triangle& triangle : covered.near) {
-        const auto corners = corners_of(triangle);
-        const auto ahead = ahead_of(point, corners, axes_, side);
-        if (!ahead || (foremost && *ahead <= *foremost)) continue;
-        foremost = ahead;
-        normal = normal_of(corners);
-        at = point + *ahead * axes_.front;
-        missing = scale * covered.depth - *ahead * dot3(axes_.front, normal);
-      }
-      if (!foremost || dot3(normal, axes_.front) < kFacing) continue;
-      if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
-      const double by = std::min(missing, most_pushed[i]);
-      most_pushed[i] -= by;
-      pushes.push_back({at, by * normal});
-      box.extend(at);
+    const std::vector<Push> pushes = pushes_in(mesh, scale, most);
+    if (pushes.empty()) break;
+    push(pushes, scale, rows, mesh, shape);
+  }
+  for (const std::uint32_t v : shape.vertices) mesh.row(v) = rest.row(v);
+}
+
+std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh, double scale,
+                                                          std::span<double> most) const {
+  const auto corners_of = [&](const Triangle& triangle) {
+    return std::array{row3(mesh, triangle[0]), row3(mesh, triangle[1]), row3(mesh, triangle[2])};
+  };
+  const Eigen::Vector3d side = axes_.side();
+  std::vector<Push> pushes;
+  for (std::size_t i = 0; i < covered_.size(); ++i) {
+    const Covered& covered = covered_[i];
+    if (most[i] <= 0) continue;
+    const Eigen::Vector3d point = row3(mesh, covered.vertex);
+    const auto over = corners_of(covered.over);
+    if (dot3(over[0] - point, normal_of(over)) > kNear * scale * extent_) continue;
+    std::optional<double> foremost;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for (const Triangle& triangle : covered.near) {
+      const auto corners = corners_of(triangle);
+      const auto ahead = ahead_of(point, corners, axes_, side);
+      if (!ahead || (foremost && *ahead <= *foremost)) continue;
+      foremost = ahead;
+      normal = normal_of(corners);
     }
-    if (pushes.empty()) return;
-    box = {box.min().array() - reach, box.max().array() + reach};
-    for (const auto& [row, v] : rows) {
-      const Eigen::Vector3d here = row3(rest, v) + row3(shape.moves, row);
-      if (!box.contains(here)) continue;
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      double most = 0;
-      for (const Push& push : pushes) {
-        const double distance = length3(push.at - here) / reach;
-        if (distance >= 1) continue;
-        const double weight = square(1 - square(distance));
-        sum += weight * push.by;
-        most = std::max(most, weight * length3(push.by));
-      }
-      if (most > 0) shape.moves.row(row) += (most * unit3(sum)).transpose();
+    const double facing = dot3(axes_.front, normal);
+    if (!foremost || facing < kFacing) continue;
+    const double missing = scale * covered.depth - *foremost * facing;
+    if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
+    const double by = std::min(missing, most[i]);
+    most[i] -= by;
+    pushes.push_back({point + *foremost * axes_.front, by * normal});
+  }
+  return pushes;
+}
+
+/// Skin around goes along.
+void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
+                         Positions& mesh, Displacements& shape) const {
+  const double reach = kPushed * scale * extent_;
+  Eigen::AlignedBox3d box;
+  for (const Push& push : pushes) box.extend(push.at);
+  box = {box.min().array() - reach, box.max().array() + reach};
+  for (const auto& [row, v] : rows) {
+    const Eigen::Vector3d here = row3(mesh, v);
+    if (!box.contains(here)) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double longest = 0;
+    for (const Push& push : pushes) {
+      const double distance = length3(push.at - here) / reach;
+      if (distance >= 1) continue;
+      const double weight = square(1 - square(distance));
+      sum += weight * push.by;
+      longest = std::max(longest, weight * length3(push.by));
     }
+    if (longest == 0) continue;
+    const Eigen::RowVector3d by = (longest * unit3(sum)).transpose();
+    shape.moves.row(row) += by;
+    mesh.row(v) += by;
   }
 }
 

@@ -32,7 +32,8 @@ class SkinOverParts {
   /// \param rest   what the shape is added to, #V by 3
   /// \param scale  of the face against the template
   /// \param rows   of the shape that are skin
-  void keep(const Positions& rest, double scale, std::span<const ShapeRow> rows,
+  /// \param mesh   the same as rest; changed while it works
+  void keep(const Positions& rest, double scale, std::span<const ShapeRow> rows, Positions& mesh,
             Displacements& shape) const;
 
  private:
@@ -43,6 +44,14 @@ class SkinOverParts {
     std::vector<Triangle> near;  ///< and around it: one of them is in front on a face
     double depth;                ///< how far below it must be
   };
+
+  struct Push {
+    Eigen::Vector3d at, by;
+  };
+  /// \param most  #covered: how far each may still be pushed
+  std::vector<Push> pushes_in(const Positions& mesh, double scale, std::span<double> most) const;
+  void push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
+            Positions& mesh, Displacements& shape) const;
 
   HeadAxes axes_;
   double extent_ = 0;

@@ -28,13 +28,15 @@ int points_along_edge(const Corners& at, double mm_per_unit) {
 }
 
 /// Which share of a triangle shows its back, told at the middles of n² equal triangles that it is cut into.
+/// \param in_the_way  #directions: of the last ray to each viewer
 double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
-                     const Viewing& viewing) {
+                     const Viewing& viewing, std::span<std::uint32_t> in_the_way) {
   const Eigen::Vector3d normal = cross3(at[1] - at[0], at[2] - at[0]);
-  std::vector<Eigen::Vector3d> behind;
-  for (const Eigen::Vector3d& viewer : viewing.directions) {
+  std::vector<std::size_t> behind;
+  for (std::size_t i = 0; i < viewing.directions.size(); ++i) {
+    const Eigen::Vector3d& viewer = viewing.directions[i];
     if (-dot3(normal, viewer) > kFlattestCosine * length3(normal) * length3(viewer)) {
-      behind.push_back(viewer);
+      behind.push_back(i);
     }
   }
   if (behind.empty()) return 0;
@@ -43,8 +45,10 @@ double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_
   const auto look_at = [&](int thirds_b, int thirds_c) {
     const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
     const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
-    shown += std::ranges::any_of(behind, [&](const Eigen::Vector3d& viewer) {
-      return !scene.meets(point, viewer, triangle);
+    shown += std::ranges::any_of(behind, [&](std::size_t viewer) {
+      std::uint32_t& other = in_the_way[viewer];
+      other = scene.met_by(point, viewing.directions[viewer], triangle, other);
+      return other == kNoIndex;
     });
   };
   for (int i = 0; i < n; ++i) {
@@ -92,11 +96,13 @@ double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& tri
     look_around(a);
     look_around(b);
   }
+  std::vector<std::uint32_t> in_the_way(viewing.directions.size(), kNoIndex);
   double exposed = 0;
   while (!waiting.empty()) {
     const std::uint32_t t = waiting.back();
     waiting.pop_back();
-    const double share = exposed_share(scene, corners(positions, triangles[t]), t, viewing);
+    const double share =
+        exposed_share(scene, corners(positions, triangles[t]), t, viewing, in_the_way);
     if (share == 0) continue;
     exposed += 0.5 * share * length3(area_vector(positions, triangles[t]));
     look_around(t);

@@ -14,38 +14,50 @@ namespace {
 
 constexpr std::uint32_t kLeaf = TriangleTree::kLeaf;
 
+class Ray {
+ public:
+  Ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
+      : origin_(origin), direction_(direction), inverse_(direction.cwiseInverse()) {}
+
+  bool meets(const Positions& positions, const Triangle& triangle) const;
+  bool meets(const Box& box) const;
+
+ private:
+  Eigen::Vector3d origin_, direction_, inverse_;
+};
+
 /// Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
-bool meets_triangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                    const Positions& positions, const Triangle& triangle) {
+bool Ray::meets(const Positions& positions, const Triangle& triangle) const {
   const Eigen::Vector3d a = row3(positions, triangle[0]);
   const Eigen::Vector3d ab = row3(positions, triangle[1]) - a;
   const Eigen::Vector3d ac = row3(positions, triangle[2]) - a;
-  const Eigen::Vector3d p = cross3(direction, ac);
+  const Eigen::Vector3d p = cross3(direction_, ac);
   const double determinant = dot3(ab, p);
   if (determinant == 0) return false;
-  const Eigen::Vector3d from_a = origin - a;
+  const Eigen::Vector3d from_a = origin_ - a;
   const double u = dot3(from_a, p) / determinant;
   if (u < 0 || u > 1) return false;
   const Eigen::Vector3d q = cross3(from_a, ab);
-  const double v = dot3(direction, q) / determinant;
+  const double v = dot3(direction_, q) / determinant;
   return v >= 0 && u + v <= 1 && dot3(ac, q) / determinant > 0;
 }
 
-/// Whether a ray meets a box (slabs, Kay & Kajiya 1986).
-bool meets_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, const Box& box) {
+/// Slabs, Kay & Kajiya 1986; never without a box that it meets.
+bool Ray::meets(const Box& box) const {
+  constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
   double near = 0, far = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
     const auto axis = static_cast<Index>(c);
-    const double low = box.low[c] - origin[axis], high = box.high[c] - origin[axis];
-    if (direction[axis] == 0) {
+    const double low = box.low[c] - origin_[axis], high = box.high[c] - origin_[axis];
+    if (direction_[axis] == 0) {
       if (low > 0 || high < 0) return false;
       continue;
     }
-    const double a = low / direction[axis], b = high / direction[axis];
+    const double a = low * inverse_[axis], b = high * inverse_[axis];
     near = std::max(near, std::min(a, b));
     far = std::min(far, std::max(a, b));
   }
-  return near <= far;
+  return near <= far * kRounding;
 }
 
 }  // namespace
@@ -171,14 +183,16 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
   return near;
 }
 
-bool TriangleScene::meets(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                          std::uint32_t start) const {
+std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                    std::uint32_t start, std::uint32_t guess) const {
+  const Ray ray(origin, direction);
+  if (guess != kNoIndex && guess != start && ray.meets(positions_, triangles_[guess])) return guess;
   std::vector<std::uint32_t> waiting;
   if (!tree_.nodes.empty()) waiting.push_back(0);
   while (!waiting.empty()) {
     const std::uint32_t n = waiting.back();
     waiting.pop_back();
-    if (!meets_box(origin, direction, boxes_[n])) continue;
+    if (!ray.meets(boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
       waiting.push_back(node.right);
@@ -187,10 +201,10 @@ bool TriangleScene::meets(const Eigen::Vector3d& origin, const Eigen::Vector3d& 
     }
     for (std::uint32_t place = node.begin; place < node.end; ++place) {
       const std::uint32_t t = tree_.order[place];
-      if (t != start && meets_triangle(origin, direction, positions_, triangles_[t])) return true;
+      if (t != start && ray.meets(positions_, triangles_[t])) return t;
     }
   }
-  return false;
+  return kNoIndex;
 }
 
 }  // namespace crowdface
