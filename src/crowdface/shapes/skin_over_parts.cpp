@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {

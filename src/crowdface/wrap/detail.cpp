@@ -11,13 +11,14 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastCosine = 0.7;  // of the scan's normal with the skin's, so that it is no wall
+constexpr double kNoWall = 0.7;  // cosine of the scan's normal with the skin's at least
 constexpr double kLeastOpenness = 0.15;
 constexpr double kUnasked = 1e-4;  ///< weight of staying where the scan says nothing
 constexpr int kSteps = 30;
 constexpr int kMostEvenings = 60, kEvenOnly = 3, kSweeps = 8;
-constexpr double kKept = 0.98;       ///< of an offset in each sweep
-constexpr double kLeastLeft = 0.05;  ///< of a triangle's area, seen as it faced before
+constexpr double kKept = 0.98;         ///< of an offset in each sweep
+constexpr double kLeastLeft = 0.05;    ///< of a triangle's area, seen as it faced before
+constexpr double kLeastCosine = 0.05;  ///< of a triangle with the template's
 
 constexpr std::ptrdiff_t kBlock = 8192;
 
@@ -90,7 +91,7 @@ Asked ask_scan(const SkinMesh& skin, const Positions& positions, const Positions
     for (Index v = begin; v < end; ++v) {
       if (skin.openness[static_cast<std::size_t>(v)] < kLeastOpenness) continue;
       const Eigen::Vector3d point = row3(positions, v), normal = row3(normals, v);
-      const auto place = scan.nearest(point, normal, kLeastCosine, reach, before);
+      const auto place = scan.nearest(point, normal, kNoWall, reach, before);
       before = place.triangle;
       if (!place.found) continue;
       const double off = dot3(place.point - point, place.normal) / dot3(normal, place.normal);
@@ -102,38 +103,53 @@ Asked ask_scan(const SkinMesh& skin, const Positions& positions, const Positions
   return asked;
 }
 
-bool turns_over(const Positions& before, const Positions& normals, const Eigen::VectorXd& along,
-                const Triangle& t) {
+/// A triangle against how it was, or against the template's if it was not turned over against that already.
+bool turns_over(const Positions& rest, const Positions& before, const Positions& normals,
+                const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
     return row3(before, v) + along(v) * row3(normals, v);
   };
   const Eigen::Vector3d was = area_vector(before, t), first = moved(t[0]);
   const Eigen::Vector3d is = cross3(moved(t[1]) - first, moved(t[2]) - first);
-  return dot3(was, is) <= kLeastLeft * dot3(was, was);
+  if (dot3(was, is) <= kLeastLeft * dot3(was, was)) return true;
+  const Eigen::Vector3d of_rest = area_vector(rest, t);
+  const double least = kLeastCosine * length3(of_rest);
+  return dot3(of_rest, is) <= least * length3(is) && dot3(of_rest, was) > least * length3(was);
+}
+
+/// Triangles that offsets turn over, of those with a vertex at which they changed.
+std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& rest,
+                                       const Positions& before, const Positions& normals,
+                                       const Eigen::VectorXd& along,
+                                       const std::vector<char>& changed) {
+  std::vector<char> is_turned(skin.triangles.size(), 0);
+  parallel_for_each(skin.triangles.size(), kBlock, [&](std::size_t i) {
+    const Triangle& t = skin.triangles[i];
+    if (changed[t[0]] + changed[t[1]] + changed[t[2]] == 0) return;
+    is_turned[i] = turns_over(rest, before, normals, along, t) ? 1 : 0;
+  });
+  std::vector<std::uint32_t> turned;
+  for (std::uint32_t i = 0; i < is_turned.size(); ++i) {
+    if (is_turned[i] != 0) turned.push_back(i);
+  }
+  return turned;
 }
 
 /// Neighbours that found different sheets of the scan would turn the triangles between them over: there,
-/// and as far around as it takes, offsets go between those beside.
-void even_out_folds(const SkinMesh& skin, const Positions& before, const Positions& normals,
-                    Eigen::VectorXd& along) {
-  std::vector<char> uneven(skin.vertices.size(), 0);
-  for (int round = 0; round < kMostEvenings; ++round) {
-    std::vector<char> folds(skin.triangles.size(), 0);
-    parallel_for_each(skin.triangles.size(), kBlock, [&](std::size_t i) {
-      const Triangle& t = skin.triangles[i];
-      if (round > 0 && uneven[t[0]] + uneven[t[1]] + uneven[t[2]] == 0) return;
-      folds[i] = turns_over(before, normals, along, t) ? 1 : 0;
-    });
-    bool any = false;
-    for (std::size_t i = 0; i < folds.size(); ++i) {
-      if (folds[i] == 0) continue;
-      any = true;
+/// and as far around as it takes, offsets go between those beside; what that leaves does not move.
+void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
+                    const Positions& normals, Eigen::VectorXd& along) {
+  std::vector<char> uneven(skin.vertices.size(), 1);
+  const auto find = [&] { return turned_over(skin, rest, before, normals, along, uneven); };
+  std::vector<std::uint32_t> turned = find();
+  std::fill(uneven.begin(), uneven.end(), 0);
+  for (int round = 0; round < kMostEvenings && !turned.empty(); ++round) {
+    for (const std::uint32_t i : turned) {
       for (const std::uint32_t v : skin.triangles[i]) {
         uneven[v] = 1;
         for (const std::uint32_t n : skin.adjacency.of(v)) uneven[n] = 1;
       }
     }
-    if (!any) return;
     // In a crease even like offsets cross: less and less is asked there.
     const double kept = round < kEvenOnly ? 1 : kKept;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -145,6 +161,17 @@ void even_out_folds(const SkinMesh& skin, const Positions& before, const Positio
         along(v) = kept * sum / static_cast<double>(around.size());
       }
     }
+    turned = find();
+  }
+  for (bool moves = true; moves && !turned.empty(); turned = find()) {
+    moves = false;
+    for (const std::uint32_t i : turned) {
+      for (const std::uint32_t v : skin.triangles[i]) {
+        moves = moves || along(v) != 0;
+        along(v) = 0;
+        for (const std::uint32_t n : skin.adjacency.of(v)) uneven[n] = 1;
+      }
+    }
   }
 }
 
@@ -154,8 +181,8 @@ void move_along(const Positions& normals, const Eigen::VectorXd& along, Position
 
 }  // namespace
 
-Positions follow_detail(const SkinMesh& skin, const Positions& positions, const ScanSurface& scan,
-                        const DetailOptions& options) {
+Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
+                        const ScanSurface& scan, const DetailOptions& options) {
   Positions result = positions;
   Positions normals = vertex_normals(skin.triangles, result);
   if (options.smoothings > 0) {
@@ -168,7 +195,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& positions, const 
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;
     sums = iterate(lazy, sums, times);
     Eigen::VectorXd along = sums.col(0).cwiseQuotient(sums.col(1));
-    even_out_folds(skin, result, normals, along);
+    even_out_folds(skin, rest, result, normals, along);
     move_along(normals, along, result);
   }
   // On a regular mesh of edges h the mean of the neighbours is h²/4 times the Laplacian away.
@@ -177,7 +204,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& positions, const 
     if (options.smoothings == 0) normals = vertex_normals(skin.triangles, result);
     const Asked asked = ask_scan(skin, result, normals, scan, options.reach_mm);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
-    even_out_folds(skin, result, normals, along);
+    even_out_folds(skin, rest, result, normals, along);
     move_along(normals, along, result);
   }
   return result;

@@ -18,8 +18,9 @@ struct DetailOptions {
 
 /// Brings a skin that lies near the scan onto it, each vertex along its own normal only, so that
 /// nothing slides: relief down to about twice the skin's edges is kept.
+/// \param rest       #skin by 3, the template's own: no triangle comes to lie turned over against it.
 /// \param positions  #skin by 3, in millimetres, where the scan stands.
-Positions follow_detail(const SkinMesh& skin, const Positions& positions, const ScanSurface& scan,
-                        const DetailOptions& options = {});
+Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
+                        const ScanSurface& scan, const DetailOptions& options = {});
 
 }  // namespace crowdface
