@@ -12,8 +12,8 @@ namespace crowdface {
 std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Positions& rest,
                                             const Positions& positions);
 
-/// Turns folded triangles back: a patch around them becomes as rigid as it can be against the
-/// template, a few rings at first and more where that is not enough, until nothing is folded.
+/// Turns folded triangles back: around each the smallest patch that mends it is laid as the template is, by the
+/// similarity that carries the template's patch there, less and less towards the patch's rim.
 /// \return how many triangles are still folded.
 Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions);
 

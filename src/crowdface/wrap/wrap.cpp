@@ -202,11 +202,7 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   }
   DetailOptions detail = options.detail;
   if (small) detail.smoothings = shape.reduced->smoothings;
-  if (getenv("DBG"))
-    fprintf(stderr, "before detail %zu\n", folded_triangles(skin, rest, wrapped).size());
   wrapped = follow_detail(skin, rest, wrapped, surface, detail);
-  if (getenv("DBG"))
-    fprintf(stderr, "after detail %zu\n", folded_triangles(skin, rest, wrapped).size());
   result.flipped = unfold(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
