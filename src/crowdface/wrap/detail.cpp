@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/detail.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/smooth/iterate.h"
+#include "crowdface/wrap/growing_patch.h"
 #include "crowdface/wrap/shape_fit.h"
 
 namespace crowdface {
@@ -15,7 +18,7 @@ constexpr double kNoWall = 0.7;  // cosine of the scan's normal with the skin's 
 constexpr double kLeastOpenness = 0.15;
 constexpr double kUnasked = 1e-4;  ///< weight of staying where the scan says nothing
 constexpr int kSteps = 30;
-constexpr int kMostEvenings = 60, kEvenOnly = 3, kSweeps = 8;
+constexpr int kMostEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKept = 0.98;         ///< of an offset in each sweep
 constexpr double kLeastLeft = 0.05;    ///< of a triangle's area, seen as it faced before
 constexpr double kLeastCosine = 0.05;  ///< of a triangle with the template's
@@ -135,26 +138,55 @@ std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& re
   return turned;
 }
 
+/// Around triangles that offsets turn over less is asked: nothing at them, all of it where a patch ends.
+void hold_back(const SkinMesh& skin, const Positions& rest, const Positions& before,
+               const Positions& normals, std::span<const std::uint32_t> turned,
+               Eigen::VectorXd& along) {
+  const FacesAround around(topology_of(skin.triangles, skin.vertex_count()));
+  const auto is_bad = [&](const Triangle& t) {
+    return turns_over(rest, before, normals, along, t);
+  };
+  Eigen::VectorXd asked;
+  const PatchChange change{
+      .make =
+          [&](const GrowingPatch& patch) {
+            const auto rows = patch.vertices();
+            asked = along(rows);
+            for (std::size_t i = 0; i < rows.size(); ++i) along(rows[i]) *= 1 - patch.share(i);
+          },
+      .undo = [&](const GrowingPatch& patch) { along(patch.vertices()) = asked; }};
+  for (const std::uint32_t i : turned) {
+    throw_if_interrupted();
+    const Triangle& triangle = skin.triangles[i];
+    if (is_bad(triangle)) mend_patch(skin, around, triangle, is_bad, change);
+  }
+}
+
 /// Neighbours that found different sheets of the scan would turn the triangles between them over: there,
-/// and as far around as it takes, offsets go between those beside; what that leaves does not move.
+/// and as far around as it takes, offsets go between those beside.
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
                     const Positions& normals, Eigen::VectorXd& along) {
   std::vector<char> uneven(skin.vertices.size(), 1);
   const auto find = [&] { return turned_over(skin, rest, before, normals, along, uneven); };
   std::vector<std::uint32_t> turned = find();
   std::fill(uneven.begin(), uneven.end(), 0);
+  std::vector<std::uint32_t> evened;  // ascending
+  const auto add = [&](std::uint32_t v) {
+    if (uneven[v] == 0) evened.push_back(v);
+    uneven[v] = 1;
+  };
   for (int round = 0; round < kMostEvenings && !turned.empty(); ++round) {
     for (const std::uint32_t i : turned) {
       for (const std::uint32_t v : skin.triangles[i]) {
-        uneven[v] = 1;
-        for (const std::uint32_t n : skin.adjacency.of(v)) uneven[n] = 1;
+        add(v);
+        for (const std::uint32_t n : skin.adjacency.of(v)) add(n);
       }
     }
+    std::ranges::sort(evened);
     // In a crease even like offsets cross: less and less is asked there.
     const double kept = round < kEvenOnly ? 1 : kKept;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      for (std::uint32_t v = 0; v < uneven.size(); ++v) {
-        if (uneven[v] == 0) continue;
+      for (const std::uint32_t v : evened) {
         const auto around = skin.adjacency.of(v);
         double sum = 0;
         for (const std::uint32_t n : around) sum += along(n);
@@ -163,16 +195,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
     }
     turned = find();
   }
-  for (bool moves = true; moves && !turned.empty(); turned = find()) {
-    moves = false;
-    for (const std::uint32_t i : turned) {
-      for (const std::uint32_t v : skin.triangles[i]) {
-        moves = moves || along(v) != 0;
-        along(v) = 0;
-        for (const std::uint32_t n : skin.adjacency.of(v)) uneven[n] = 1;
-      }
-    }
-  }
+  if (!turned.empty()) hold_back(skin, rest, before, normals, turned, along);
 }
 
 void move_along(const Positions& normals, const Eigen::VectorXd& along, Positions& positions) {

@@ -43,8 +43,8 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
   const std::vector<Camera> cameras = fit_cameras(heads, frame, kViews, {.cut_below = 0.1});
   const RenderOptions options{.size_px = kSidePx, .front = frame.front};
   const Topology scan_topology = topology_of(scan.triangles, scan.positions.rows());
-  const FaceRenderer of_scan(scan_topology, options),
-      of_head(shape.topology, options, surfaces_of(shape));
+  const FaceRenderer of_scan(scan_topology, options, {}, &standing),
+      of_head(shape.topology, options, surfaces_of(shape), &result.positions);
   Eigen::VectorXd distances = Eigen::VectorXd::Zero(shape.topology.vertex_count);
   for (std::size_t i = 0; i < shape.skin.vertices.size(); ++i) {
     distances(shape.skin.vertices[i]) = result.distance_mm(static_cast<Index>(i));

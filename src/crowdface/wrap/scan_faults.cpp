@@ -62,19 +62,16 @@ void look_at_eyes(const WrapTemplate& shape, const WrapResult& result,
 
 void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const SkinRegions& regions,
                    std::vector<std::string>& faults) {
+  std::vector<std::uint32_t> of_mouth;
+  for (std::uint32_t v = 0; v < shape.skin.vertex_count(); ++v) {
+    if (regions.is(v, "mouth")) of_mouth.push_back(shape.skin.vertices[v]);
+  }
   const FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
-  const SkinContacts contacts(faces, shape.adjacency, shape.skin.vertices);
+  const SkinContacts contacts(faces, shape.adjacency, of_mouth);
   const std::vector<double> before = contacts.gaps(shape.positions),
                             after = contacts.gaps(result.positions);
   std::vector<double> wider;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const ContactPlace& place = contacts.place(i);
-    if (place.low.empty() || place.high.empty()) continue;
-    const auto at = std::lower_bound(shape.skin.vertices.begin(), shape.skin.vertices.end(),
-                                     place.low.front().a);
-    const auto vertex = static_cast<std::uint32_t>(at - shape.skin.vertices.begin());
-    if (regions.is(vertex, "mouth")) wider.push_back(after[i] - before[i]);
-  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) wider.push_back(after[i] - before[i]);
   if (const auto by = median(wider, 1); by && *by > kOpenMouthMm) {
     faults.push_back(concat("the mouth seems to be open: lips are ", format_fixed(*by, 1),
                             " mm farther apart than the template's; scans need a closed mouth"));

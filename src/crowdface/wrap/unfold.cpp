@@ -6,11 +6,11 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/wrap/growing_patch.h"
 
 namespace crowdface {
 namespace {
 
-constexpr int kMostRings = 16;
 constexpr double kLeastArea = 0.025;  // validity counts those below 0.02
 
 bool is_folded(const Positions& rest, const Positions& positions, const Triangle& t) {
@@ -18,72 +18,6 @@ bool is_folded(const Positions& rest, const Positions& positions, const Triangle
   if (was.isZero()) return false;
   return dot3(was, is) <= 0 || length3(is) < kLeastArea * length3(was);
 }
-
-class Unfolding {
- public:
-  Unfolding(const SkinMesh& skin, const Positions& rest, Positions& positions)
-      : skin_(skin),
-        around_(topology_of(skin.triangles, skin.vertex_count())),
-        rest_(rest),
-        positions_(positions) {}
-
-  /// Lays a patch around a triangle as the template is, less and less towards its rim: the smallest that leaves
-  /// fewer folded.
-  void lay(const Triangle& triangle) {
-    std::vector<std::uint32_t> patch(triangle.begin(), triangle.end());
-    std::vector<int> rings(patch.size(), 0);
-    std::vector<bool> is_in(skin_.vertices.size(), false);
-    for (const std::uint32_t v : patch) is_in[v] = true;
-    for (int ring = 1; ring <= kMostRings; ++ring) {
-      for (std::size_t i = 0, known = patch.size(); i < known; ++i) {
-        for (const std::uint32_t n : skin_.adjacency.of(patch[i])) {
-          if (is_in[n]) continue;
-          is_in[n] = true;
-          patch.push_back(n);
-          rings.push_back(ring);
-        }
-      }
-      if (lay(patch, rings, ring)) return;
-    }
-  }
-
- private:
-  bool lay(std::span<const std::uint32_t> patch, std::span<const int> rings, int ring) {
-    Positions from(static_cast<Index>(patch.size()), 3), to(from.rows(), 3);
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      from.row(static_cast<Index>(i)) = rest_.row(patch[i]);
-      to.row(static_cast<Index>(i)) = positions_.row(patch[i]);
-    }
-    const Positions laid = fit_similarity(from, to, ScaleFit::kUniform).apply(from);
-    const std::size_t before = count_folded(patch);
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const auto row = static_cast<Index>(i);
-      positions_.row(patch[i]) += (1 - rings[i] / (ring + 1.0)) * (laid.row(row) - to.row(row));
-    }
-    if (count_folded(patch) < before) return true;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      positions_.row(patch[i]) = to.row(static_cast<Index>(i));
-    }
-    return false;
-  }
-
-  /// Of triangles at these vertices.
-  std::size_t count_folded(std::span<const std::uint32_t> vertices) const {
-    std::vector<std::uint32_t> folded;
-    for (const std::uint32_t v : vertices) {
-      for (const std::uint32_t i : around_.of(v)) {
-        if (is_folded(rest_, positions_, skin_.triangles[i])) folded.push_back(i);
-      }
-    }
-    std::ranges::sort(folded);
-    return static_cast<std::size_t>(std::unique(folded.begin(), folded.end()) - folded.begin());
-  }
-
-  const SkinMesh& skin_;
-  FacesAround around_;
-  const Positions& rest_;
-  Positions& positions_;
-};
 
 }  // namespace
 
@@ -97,14 +31,36 @@ std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Position
 }
 
 Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) {
-  const std::vector<std::uint32_t> folded = folded_triangles(skin, rest, positions);
+  std::vector<std::uint32_t> folded = folded_triangles(skin, rest, positions);
   if (folded.empty()) return 0;
-  Unfolding unfolding(skin, rest, positions);
-  for (const std::uint32_t i : folded) {
-    throw_if_interrupted();
-    if (is_folded(rest, positions, skin.triangles[i])) unfolding.lay(skin.triangles[i]);
+  const FacesAround around(topology_of(skin.triangles, skin.vertex_count()));
+  const auto is_bad = [&](const Triangle& t) { return is_folded(rest, positions, t); };
+  Positions as_it_was;
+  const PatchChange lay{
+      .make =
+          [&](const GrowingPatch& patch) {
+            const auto rows = patch.vertices();
+            as_it_was = positions(rows, Eigen::all);
+            const Positions of_rest = rest(rows, Eigen::all);
+            const Positions laid =
+                fit_similarity(of_rest, as_it_was, ScaleFit::kUniform).apply(of_rest);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+              const auto row = static_cast<Index>(i);
+              positions.row(rows[i]) += patch.share(i) * (laid.row(row) - as_it_was.row(row));
+            }
+          },
+      .undo =
+          [&](const GrowingPatch& patch) { positions(patch.vertices(), Eigen::all) = as_it_was; }};
+  for (std::size_t before = folded.size() + 1; folded.size() < before && !folded.empty();) {
+    before = folded.size();
+    for (const std::uint32_t i : folded) {
+      throw_if_interrupted();
+      const Triangle& triangle = skin.triangles[i];
+      if (is_bad(triangle)) mend_patch(skin, around, triangle, is_bad, lay);
+    }
+    folded = folded_triangles(skin, rest, positions);
   }
-  return static_cast<Index>(folded_triangles(skin, rest, positions).size());
+  return static_cast<Index>(folded.size());
 }
 
 }  // namespace crowdface

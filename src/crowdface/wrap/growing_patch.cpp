@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/growing_patch.h"
+
+#include <algorithm>
+
+namespace crowdface {
+namespace {
+
+constexpr int kMostRings = 40;
+
+}  // namespace
+
+GrowingPatch::GrowingPatch(const SkinMesh& skin, const Triangle& triangle)
+    : skin_(skin),
+      vertices_(triangle.begin(), triangle.end()),
+      rings_(vertices_.size(), 0),
+      is_in_(skin.vertices.size(), false) {
+  for (const std::uint32_t v : vertices_) is_in_[v] = true;
+}
+
+void GrowingPatch::grow() {
+  ++ring_;
+  for (std::size_t i = 0, known = vertices_.size(); i < known; ++i) {
+    if (rings_[i] < ring_ - 1) continue;
+    for (const std::uint32_t n : skin_.adjacency.of(vertices_[i])) {
+      if (is_in_[n]) continue;
+      is_in_[n] = true;
+      vertices_.push_back(n);
+      rings_.push_back(ring_);
+    }
+  }
+}
+
+void mend_patch(const SkinMesh& skin, const FacesAround& around, const Triangle& triangle,
+                const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) {
+  GrowingPatch patch(skin, triangle);
+  const auto count_bad = [&] {
+    std::vector<std::uint32_t> bad;
+    for (const std::uint32_t v : patch.vertices()) {
+      for (const std::uint32_t t : around.of(v)) {
+        if (is_bad(skin.triangles[t])) bad.push_back(t);
+      }
+    }
+    std::ranges::sort(bad);
+    return std::unique(bad.begin(), bad.end()) - bad.begin();
+  };
+  for (int ring = 0; ring < kMostRings; ++ring) {
+    patch.grow();
+    const auto before = count_bad();
+    change.make(patch);
+    if (count_bad() < before) return;
+    change.undo(patch);
+  }
+}
+
+}  // namespace crowdface

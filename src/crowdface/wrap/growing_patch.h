@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/triangles.h"
+#include "crowdface/wrap/skin_mesh.h"
+
+namespace crowdface {
+
+/// Vertices around a triangle, ring by ring.
+class GrowingPatch {
+ public:
+  GrowingPatch(const SkinMesh& skin, const Triangle& triangle);
+
+  void grow();
+  std::span<const std::uint32_t> vertices() const { return vertices_; }
+  /// How much one of them has a say: 1 at the triangle, and nothing beyond the last ring.
+  double share(std::size_t i) const { return 1 - rings_[i] / (ring_ + 1.0); }
+
+ private:
+  const SkinMesh& skin_;
+  std::vector<std::uint32_t> vertices_;
+  std::vector<int> rings_;  ///< of each of them
+  std::vector<bool> is_in_;
+  int ring_ = 0;
+};
+
+/// What is done to a patch, and how it is taken back.
+struct PatchChange {
+  std::function<void(const GrowingPatch&)> make, undo;
+};
+
+/// Makes a change to the smallest patch around a triangle, of up to forty rings, in which that leaves fewer bad triangles
+/// than there were; none if there is none.
+/// \param around  triangles at each vertex of the skin
+void mend_patch(const SkinMesh& skin, const FacesAround& around, const Triangle& triangle,
+                const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change);
+
+}  // namespace crowdface
