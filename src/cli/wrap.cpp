@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/wrap.h"
 
+#include <algorithm>
 #include <map>
 
 #include "crowdface/core/error.h"
@@ -12,6 +13,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/pick/found_landmarks.h"
 #include "crowdface/pick/suggested_places.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/scan_file.h"
@@ -90,6 +92,27 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
   return file;
 }
 
+/// Those of the files, or where they are too few, and it is known how the scan stands, those that shapes tell as well.
+std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task,
+                                       const Scan& scan) {
+  std::vector<WrapLandmark> landmarks =
+      match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
+  if (landmarks.size() >= kFewestLandmarks || !shared.hint) return landmarks;
+  std::vector<std::string> found;
+  for (WrapLandmark& landmark : find_landmarks(shared.shape, scan, *shared.hint)) {
+    if (std::ranges::any_of(landmarks, [&](const auto& l) { return l.name == landmark.name; })) {
+      continue;
+    }
+    found.push_back(landmark.name);
+    landmarks.push_back(std::move(landmark));
+  }
+  if (!found.empty()) {
+    log_info(concat(task.scan.string(), ": ", found.size(),
+                    " landmarks found by its shape: ", join(found)));
+  }
+  return landmarks;
+}
+
 /// The factor that gives the head the scan's size; without the scan's unit heads have the template's.
 double output_scale(const WrapOptions& options, const Similarity& pose) {
   if (options.scan_units.empty()) return 1;
@@ -121,9 +144,8 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
 
 void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
               const Digest& inputs) {
-  const Scan scan = read_scan(task.scan);
-  const std::vector<WrapLandmark> landmarks =
-      match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
+  const Scan scan = without_shells(read_scan(task.scan));
+  const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan);
   const WrapResult result = [&] {
     try {
       WrapResult wrapped =
@@ -156,8 +178,8 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
 }
 
 void check_one(const WrapInputs& shared, const Task& task) {
-  const Scan scan = read_scan(task.scan);
-  const auto landmarks = match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
+  const Scan scan = without_shells(read_scan(task.scan));
+  const auto landmarks = landmarks_on(shared, task, scan);
   log_info(concat(task.scan.string(), ": ", scan.triangles.size(), " triangles, ", landmarks.size(),
                   " landmarks; would become ", task.head.string()));
 }

@@ -17,25 +17,6 @@
 namespace crowdface {
 namespace {
 
-/// What stands in front of the skin and is none: eyes, teeth.
-std::vector<Triangle> solid_parts(const WrapTemplate& shape) {
-  std::vector<Triangle> parts;
-  for (const Triangle& t : solid_triangles(shape)) {
-    if (shape.parts.classes[shape.components.of_vertex[t[0]]] != PartClass::kSkin) {
-      parts.push_back(t);
-    }
-  }
-  return parts;
-}
-
-std::vector<Triangle> skin_triangles(const WrapTemplate& shape) {
-  std::vector<Triangle> triangles = shape.skin.triangles;
-  for (Triangle& t : triangles) {
-    for (std::uint32_t& v : t) v = shape.skin.vertices[v];
-  }
-  return triangles;
-}
-
 /// Tries the axes; a scan that stands slanted is turned by hand, or by its first landmarks.
 PoseHint guess_bearing(const Scan& scan) {
   constexpr std::size_t kEnough = 30000;
@@ -84,7 +65,7 @@ std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInp
 
 PickSession::PickSession(PickInputs inputs)
     : inputs_(std::move(inputs)),
-      template_(inputs_.positions, skin_triangles(inputs_.shape), solid_parts(inputs_.shape)),
+      template_(pickable(inputs_.shape, inputs_.positions)),
       scan_(inputs_.scan.positions, inputs_.scan.triangles),
       plane_(middle_plane(inputs_.shape, inputs_.positions)),
       proposals_(propose_landmarks(inputs_.shape, template_)),

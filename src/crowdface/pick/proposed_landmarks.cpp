@@ -183,6 +183,18 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape
   return proposals;
 }
 
+PickableMesh pickable(const WrapTemplate& shape, const Positions& positions) {
+  std::vector<Triangle> skin = shape.skin.triangles, others;
+  for (Triangle& t : skin) {
+    for (std::uint32_t& v : t) v = shape.skin.vertices[v];
+  }
+  for (const Triangle& t : solid_triangles(shape)) {
+    const PartClass of_part = shape.parts.classes[shape.components.of_vertex[t[0]]];
+    if (of_part != PartClass::kSkin) others.push_back(t);
+  }
+  return {positions, std::move(skin), others};
+}
+
 SkinRegions face_regions(const WrapTemplate& shape) {
   const HeadShape head = head_of(shape, shape.positions);
   const auto marks = find_face_marks(shape.topology, head, shape.axes);

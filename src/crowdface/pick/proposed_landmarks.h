@@ -19,6 +19,9 @@ namespace crowdface {
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape,
                                                        const PickableMesh& mesh);
 
+/// The skin of a head, with its eyes and teeth before it. \param positions  #V by 3
+PickableMesh pickable(const WrapTemplate& shape, const Positions& positions);
+
 /// Brow, nose and mouth, and ears and neck where they are found; nothing where no face is.
 SkinRegions face_regions(const WrapTemplate& shape);
 

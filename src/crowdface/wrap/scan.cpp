@@ -2,10 +2,13 @@
 #include "crowdface/wrap/scan.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "crowdface/mesh/grouping.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/part_list.h"
 
 namespace crowdface {
 namespace {
@@ -29,6 +32,25 @@ std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
 
 bool degenerate(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+/// Of each triangle, twice the area of all that hang together with it.
+std::vector<double> areas_of_pieces(const Scan& scan) {
+  Grouping groups(static_cast<std::size_t>(scan.positions.rows()));
+  for (const Triangle& t : scan.triangles) {
+    groups.join(t[0], t[1]);
+    groups.join(t[1], t[2]);
+  }
+  std::vector<double> of_group(static_cast<std::size_t>(scan.positions.rows()), 0.0), areas;
+  for (const Triangle& t : scan.triangles) {
+    of_group[groups.root(t[0])] += length3(area_vector(scan.positions, t));
+  }
+  for (const Triangle& t : scan.triangles) areas.push_back(of_group[groups.root(t[0])]);
+  return areas;
+}
+
+double largest(const std::vector<double>& areas) {
+  return areas.empty() ? 0 : *std::max_element(areas.begin(), areas.end());
 }
 
 }  // namespace
@@ -60,20 +82,27 @@ std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
 }
 
 Scan without_small_pieces(const Scan& scan, double least_share) {
-  Grouping groups(static_cast<std::size_t>(scan.positions.rows()));
-  for (const Triangle& t : scan.triangles) {
-    groups.join(t[0], t[1]);
-    groups.join(t[1], t[2]);
-  }
-  std::vector<double> area(static_cast<std::size_t>(scan.positions.rows()), 0.0);
-  for (const Triangle& t : scan.triangles) {
-    area[groups.root(t[0])] += length3(area_vector(scan.positions, t));
-  }
-  const double least = area.empty() ? 0 : least_share * *std::max_element(area.begin(), area.end());
+  const std::vector<double> areas = areas_of_pieces(scan);
+  const double least = least_share * largest(areas);
   Scan kept{scan.positions, {}};
-  for (const Triangle& t : scan.triangles) {
-    if (!degenerate(t) && area[groups.root(t[0])] >= least) kept.triangles.push_back(t);
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    if (!degenerate(scan.triangles[i]) && areas[i] >= least) {
+      kept.triangles.push_back(scan.triangles[i]);
+    }
   }
+  return kept;
+}
+
+Scan without_shells(const Scan& scan) {
+  const Topology topology = topology_of(scan.triangles, scan.positions.rows());
+  const Adjacency adjacency = build_adjacency(topology);
+  const Components components = find_components(adjacency);
+  const PartList parts = find_parts(topology, adjacency, components, scan.positions);
+  if (std::ranges::none_of(parts.parts, [](const Part& part) { return part.eyeball; })) return scan;
+  Scan kept{scan.positions, {}};
+  std::ranges::copy_if(scan.triangles, std::back_inserter(kept.triangles), [&](const Triangle& t) {
+    return parts.classes[components.of_vertex[t[0]]] != PartClass::kBound;
+  });
   return kept;
 }
 
@@ -92,9 +121,13 @@ void weld(Scan& scan) {
     first[order[i]] =
         i > 0 && place(order[i]) == place(order[i - 1]) ? first[order[i - 1]] : order[i];
   }
-  for (Triangle& t : scan.triangles) {
+  Scan welded = scan;
+  for (Triangle& t : welded.triangles) {
     for (std::uint32_t& v : t) v = first[v];
   }
+  constexpr double kGrows = 1.1;
+  if (largest(areas_of_pieces(welded)) <= kGrows * largest(areas_of_pieces(scan))) return;
+  scan = std::move(welded);
 }
 
 }  // namespace crowdface

@@ -24,8 +24,13 @@ std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
 /// that name a vertex twice. Vertices stay, so that their numbers do.
 Scan without_small_pieces(const Scan& scan, double least_share);
 
+/// Of a modelled head, one with eyeballs, without what lies over skin and eyes: lashes, tear lines, shells for shadows.
+/// Other scans as they are.
+Scan without_shells(const Scan& scan);
+
 /// One vertex for all that stand in one place: STL files repeat each corner, others do along the
-/// borders of textures. The first of each place is kept; the others lose their triangles to it.
+/// borders of textures. The first of each place is kept; the others lose their triangles to it. A surface that hangs
+/// together without that stays as it is: lashes and eyes that touch its vertices are none of it.
 void weld(Scan& scan);
 
 }  // namespace crowdface

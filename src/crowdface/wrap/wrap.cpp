@@ -16,7 +16,6 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kFewestLandmarks = 4;
 constexpr double kMirroredShare = 0.9;  ///< of the vertices: with fewer a head is no mirror image
 constexpr double kLeastOutlierMm = 4, kOutlier = 3.5;  ///< the latter in medians
 

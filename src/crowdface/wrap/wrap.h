@@ -53,11 +53,13 @@ struct WrapResult {
 /// mirror image, with the heads' mirror images.
 ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
 
+inline constexpr std::size_t kFewestLandmarks = 4;  ///< that tell how a scan stands
+
 /// Bends the template's skin onto the scan; eyes, teeth and lashes follow.
 /// \param model      of the template's skin, in its frame and in millimetres; or nullptr.
 /// \param landmarks  rows of the whole template, places in the scan's frame; those beyond the skin are
 ///                   left out.
-/// \throws InvalidInput if there are fewer than four landmarks and no hint, or nothing of the scan is
+/// \throws InvalidInput if there are fewer than kFewestLandmarks and no hint, or nothing of the scan is
 /// where the landmarks say.
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint,

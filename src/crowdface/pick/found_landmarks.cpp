@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pick/found_landmarks.h"
+
+#include <array>
+#include <utility>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/pick/pickable_mesh.h"
+#include "crowdface/pick/proposed_landmarks.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kFarMm = 25;  ///< off where the guessed pose has them: faces differ by less
+
+/// Landmarks of a scan that stands along some axes.
+std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
+                                                const HeadAxes& axes) {
+  const WrapTemplate head =
+      make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes);
+  return propose_landmarks(head, pickable(head, in_mm));
+}
+
+}  // namespace
+
+std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape, const Scan& scan,
+                                         const PoseHint& hint) {
+  const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
+  Positions rest = shape.skin.of(shape.positions);
+  if (shape.reduced) rest = bent.of(rest);
+  const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint);
+  const Positions placed = inverse(pose).apply(scan.positions);
+  const auto here = propose_landmarks(shape, pickable(shape, shape.positions));
+  // Scans that differ much from the template are turned a little too far by the fit, others stand a little slanted.
+  const std::array ways = {
+      propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}),
+      propose_on(scan, placed, shape.axes)};
+  std::vector<WrapLandmark> most;
+  for (const auto& of_scan : ways) {
+    std::vector<WrapLandmark> landmarks;
+    for (const auto& [name, vertex] : here) {
+      const auto found = of_scan.find(name);
+      if (found == of_scan.end()) continue;
+      const std::uint32_t there = found->second;
+      if (length3(row3(placed, there) - row3(shape.positions, vertex)) > kFarMm) continue;
+      landmarks.push_back({name, vertex, row3(scan.positions, there)});
+    }
+    if (landmarks.size() > most.size()) most = std::move(landmarks);
+  }
+  return most;
+}
+
+}  // namespace crowdface
