@@ -4,7 +4,7 @@
 # scans, and are wrapped by one other head, by the mean of all others and by a model of all others. Errors
 # against the heads' own vertices in mm, median / 95 %.
 #
-#   scripts/measure_wrap.sh HEADS_DIR [HEAD …] [--templates one,mean,model]
+#   scripts/measure_wrap.sh HEADS_DIR [HEAD …] [--templates one,mean,model] [--estimate]
 #
 # HEADS_DIR holds OBJ files in centimetres in the model's topology; HEAD counts from 0 (default: 0 4 5 9 10).
 set -euo pipefail

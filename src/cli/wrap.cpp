@@ -17,6 +17,7 @@
 #include "crowdface/pick/suggested_places.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/scan_file.h"
+#include "crowdface/wrap/unseen_landmarks.h"
 
 #include "cli/commands.h"
 #include "cli/pick.h"
@@ -165,9 +166,14 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
     write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
                                           task.scan.filename().string()));
   }
-  write_file(task.report, format_wrap_report({options.shape, task.scan.string(), inputs.hex(),
-                                              mesh.hex(), scale, left_out(shared, landmarks)},
-                                             shared.shape, result, shared.regions, warnings));
+  WrapFacts facts{options.shape, task.scan.string(),         inputs.hex(), mesh.hex(),
+                  scale,         left_out(shared, landmarks)};
+  if (options.estimate) {
+    facts.unseen_mm = unseen_landmarks(shared.shape, shared.model ? &*shared.model : nullptr, scan,
+                                       landmarks, shared.hint);
+  }
+  write_file(task.report,
+             format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
   for (const std::string& warning : warnings) {
     log_warning(concat(task.scan.string(), ": ", warning));
   }
@@ -265,6 +271,10 @@ void declare(CLI::App& command, WrapOptions& options) {
              "With --pick: the port on 127.0.0.1 to serve at; 0: any that is free");
   add_flag(command, "--no-browser", options.no_browser,
            "With --pick: open no browser, print the address only");
+  add_flag(command, "--estimate", options.estimate,
+           "Wrap some times more, each without some landmarks: how far those then end from where "
+           "they were picked "
+           "(unseen_mm and correspondence_mm in the report)");
   add_flag(command, "--no-pictures", options.no_pictures, "Write no picture beside the report");
   add_flag(command, "--force", options.force, "Wrap again what is there already");
   add_flag(command, "--dry-run", options.dry_run, "Read and check everything, write nothing");

@@ -153,6 +153,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
                                   options.scan_up, options.scan_front}) {
     digest.add(text);
   }
+  if (options.estimate) digest.add("--estimate");
   inputs.digest = digest.digest();
   log_info(concat(options.shape, ": ", inputs.shape.skin.vertex_count(), " of ",
                   inputs.file.topology.vertex_count, " vertices are skin; one unit is taken for 1 ",

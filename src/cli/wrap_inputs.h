@@ -22,6 +22,7 @@ struct WrapOptions : CommonOptions {
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string port = "0";  ///< of the page of --pick
   bool no_pictures = false, force = false, dry_run = false, pick = false, no_browser = false;
+  bool estimate = false;
 };
 
 /// What all scans of a run share.

@@ -42,6 +42,17 @@ TEST_F(Wrap, GivesTheTemplatesFileWithOtherPositionsAReportAndAPicture) {
   EXPECT_THAT(report, ::testing::ContainsRegex(
                           "\"regions_mm\": [{]\n *\"brow\": [{]\n *\"median\": [0-9]"));
   EXPECT_THAT(report, ::testing::HasSubstr("\"left_out_mm\": "));
+  EXPECT_THAT(report, ::testing::Not(::testing::HasSubstr("unseen_mm")));
+}
+
+TEST_F(Wrap, EstimatesHowWellPlacesCorrespondWhereAskedTo) {
+  const fs::path out = folder_ / "head.obj";
+  auto command = single(landmarks_, out);
+  command.emplace_back("--estimate");
+  crowdface(0, command, {"7 landmarks"});
+  const std::string report = read_file(folder_ / "head.wrap.json");
+  EXPECT_THAT(report, ::testing::ContainsRegex("\"correspondence_mm\": [{]\n *\"median\": [0-9]"));
+  EXPECT_THAT(report, ::testing::HasSubstr("\"unseen_mm\": "));
 }
 
 TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {

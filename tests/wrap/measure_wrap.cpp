@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well `wrap` finds heads again: each becomes a scan, is wrapped by a template that does not know
 // it, and is compared with its own vertices. scripts/measure_wrap.sh runs this.
-//   crowdface_measure_wrap HEADS_DIR [HEAD …] [--templates one,mean,model]
+//   crowdface_measure_wrap HEADS_DIR [HEAD …] [--templates one,mean,model] [--estimate]
 // Heads are numbered from 0 in the order of their names; seconds are of processor time.
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +16,7 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/validity/triangles.h"
+#include "crowdface/wrap/unseen_landmarks.h"
 #include "crowdface/wrap/wrap.h"
 
 #include "wrap/truth_scan.h"
@@ -143,7 +144,9 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: crowdface_measure_wrap HEADS_DIR [HEAD …] [--templates LIST]\n");
+    std::fprintf(
+        stderr,
+        "usage: crowdface_measure_wrap HEADS_DIR [HEAD …] [--templates LIST] [--estimate]\n");
     return 64;
   }
   std::vector<fs::path> files;
@@ -153,9 +156,12 @@ int main(int argc, char** argv) {
   std::sort(files.begin(), files.end());
   std::vector<std::size_t> chosen;
   std::string templates = "one,mean,model";
+  bool estimate = false;
   for (int i = 2; i < argc; ++i) {
     if (std::strcmp(argv[i], "--templates") == 0 && i + 1 < argc) {
       templates = argv[++i];
+    } else if (std::strcmp(argv[i], "--estimate") == 0) {
+      estimate = true;
     } else if (const auto number = parse_unsigned(argv[i]); number && *number < files.size()) {
       chosen.push_back(*number);
     }
@@ -182,6 +188,16 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < heads.size(); ++i) {
       if (i != h) others.push_back(heads[i]);
     }
+    const auto print_estimate = [&](const WrapTemplate& shape, const ShapeModel& model) {
+      std::vector<double> off;
+      for (const auto& [name, mm] :
+           unseen_landmarks(shape, &model, truth.scan, truth.landmarks, std::nullopt)) {
+        off.push_back(mm);
+      }
+      std::printf(
+          "  landmarks that it does not know end %.2f / %.2f mm from where they were picked\n",
+          percentile(off, 0.5), percentile(off, 0.95));
+    };
     const auto run = [&](const char* name, const WrapTemplate& shape, const ShapeModel* model) {
       if (templates.find(name) == std::string::npos) return;
       const Measured m = measure(shape, model, head, truth, regions);
@@ -201,6 +217,7 @@ int main(int argc, char** argv) {
     run("mean", mean, nullptr);
     const ShapeModel of_skin = skin_model(whole, mean);
     run("model", mean, &of_skin);
+    if (estimate) print_estimate(mean, of_skin);
   }
   for (const auto& [name, m] : all) print_row(concat(name, ", all"), m);
 }

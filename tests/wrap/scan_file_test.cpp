@@ -2,12 +2,15 @@
 #include "crowdface/wrap/scan_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/synth/synthetic_head.h"
+#include "crowdface/wrap/wrap_template.h"
 
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -126,6 +129,53 @@ TEST(ScanFile, CornersInOnePlaceAreWelded) {
   const std::vector<bool> rim =
       build_adjacency(topology_of(scan.triangles, scan.positions.rows())).boundary;
   EXPECT_EQ(std::count(rim.begin(), rim.end(), true), 0) << "a cube is closed";
+}
+
+TEST(ScanFile, WhatTouchesASurfaceThatHangsTogetherIsNoneOfIt) {
+  Scan scan = cube();
+  const auto first = static_cast<std::uint32_t>(scan.positions.rows());
+  Positions more(first + 3, 3);
+  more << scan.positions, scan.positions.row(0), scan.positions.row(1),
+      0.5 * (scan.positions.row(0) + scan.positions.row(1)) + Eigen::RowVector3d(0, 0, 0.3);
+  scan.positions = more;
+  scan.triangles.push_back({first, first + 1, first + 2});
+  const Scan before = scan;
+  weld(scan);
+  EXPECT_EQ(scan.triangles, before.triangles);
+}
+
+TEST(ScanFile, LashesOfAHeadWithEyesAreLeftOut) {
+  const SyntheticHeads heads(8000, SyntheticHeads::Parts::kEyesAndTeeth);
+  const Scan head{heads.positions(1, 0), triangles_of(heads.topology())};
+  const WrapTemplate shape = make_template(heads.topology(), 10 * head.positions, {});
+  const Part* eye = nullptr;
+  for (const Part& part : shape.parts.parts) eye = part.eyeball ? &part : eye;
+  ASSERT_NE(eye, nullptr);
+  const Eigen::Vector3d centre = shape.parts.shapes[eye->ball].centre / 10;
+  // A strip of the skin above the eye, a third of a millimetre off it.
+  Scan dressed = head;
+  std::vector<Triangle> strip;
+  for (const Triangle& t : shape.skin.triangles) {
+    const Eigen::Vector3d at = row3(head.positions, shape.skin.vertices[t[0]]) - centre;
+    if (std::abs(at.x()) > 1.2 || at.y() < 0.4 || at.y() > 1.4 || at.z() < 0) continue;
+    strip.push_back(
+        {shape.skin.vertices[t[0]], shape.skin.vertices[t[1]], shape.skin.vertices[t[2]]});
+  }
+  ASSERT_GT(strip.size(), 8U);
+  const auto rows = head.positions.rows();
+  dressed.positions.resize(2 * rows, 3);
+  dressed.positions << head.positions, head.positions.rowwise() + Eigen::RowVector3d(0, 0, 0.03);
+  for (Triangle t : strip) {
+    for (std::uint32_t& v : t) v += static_cast<std::uint32_t>(rows);
+    dressed.triangles.push_back(t);
+  }
+  EXPECT_EQ(without_shells(dressed).triangles, head.triangles);
+  std::erase_if(dressed.triangles, [&](const Triangle& t) {
+    return std::ranges::any_of(shape.parts.parts, [&](const Part& part) {
+      return part.eyeball && std::ranges::binary_search(part.vertices, t[0]);
+    });
+  });
+  EXPECT_EQ(without_shells(dressed).triangles, dressed.triangles) << "a scan in pieces";
 }
 
 TEST(ScanFile, GlbNodesStandWhereTheirParentsPutThem) {

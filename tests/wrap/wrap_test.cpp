@@ -11,6 +11,7 @@
 #include "crowdface/synth/synthetic_head.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/unfold.h"
+#include "crowdface/wrap/unseen_landmarks.h"
 
 #include "support/expect_error.h"
 #include "wrap/truth_scan.h"
@@ -199,6 +200,28 @@ TEST(Wrap, AMisplacedLandmarkIsNamed) {
     EXPECT_EQ(result.landmarks[i].outlier, i == 5)
         << result.landmarks[i].name << ' ' << result.landmarks[i].final_mm;
   }
+}
+
+TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
+  const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
+  const TruthOptions options{.triangles = 20000, .landmark_error_mm = 0, .seed = 5};
+  TruthScan truth = make_truth_scan(head, spread_landmarks(head, 13), options);
+  const auto unseen = unseen_landmarks(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
+  ASSERT_EQ(unseen.size(), truth.landmarks.size());
+  // The same by hand, of a landmark of the second fold.
+  std::vector<WrapLandmark> others;
+  for (std::size_t i = 0; i < truth.landmarks.size(); ++i) {
+    if (i % 4 != 1) others.push_back(truth.landmarks[i]);
+  }
+  const WrapResult result = wrap(shape, nullptr, truth.scan, others, std::nullopt);
+  const WrapLandmark& left_out = truth.landmarks[5];
+  Positions place(1, 3);
+  place << left_out.place.transpose();
+  const Positions picked = inverse(result.pose).apply(place);
+  EXPECT_NEAR(unseen.at(left_out.name),
+              (result.positions.row(left_out.vertex) - picked.row(0)).norm(), 1e-9);
+  truth.landmarks.resize(kFewestLandmarks);
+  EXPECT_TRUE(unseen_landmarks(shape, nullptr, truth.scan, truth.landmarks, std::nullopt).empty());
 }
 
 TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {

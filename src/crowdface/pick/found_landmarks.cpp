@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "crowdface/core/error.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/pick/pickable_mesh.h"
 #include "crowdface/pick/proposed_landmarks.h"
@@ -11,14 +12,37 @@
 namespace crowdface {
 namespace {
 
-constexpr double kFarMm = 25;  ///< off where the guessed pose has them: faces differ by less
+constexpr double kFarMm = 25;  ///< off where the guessed pose has them
+constexpr double kOffMm = 14;  ///< off where the others have them: faces differ by less
+constexpr std::size_t kFewest = 5;
 
-/// Landmarks of a scan that stands along some axes.
+/// Landmarks of a scan that stands along some axes; none of one that is too small for a head.
 std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
                                                 const HeadAxes& axes) {
-  const WrapTemplate head =
-      make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes);
-  return propose_landmarks(head, pickable(head, in_mm));
+  if (!in_mm.allFinite()) return {};
+  try {
+    const WrapTemplate head =
+        make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes);
+    return propose_landmarks(head, pickable(head, in_mm));
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
+/// Leaves out, one by one, what lies far from where a similarity of all has it.
+void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmarks) {
+  while (landmarks.size() >= kFewest) {
+    Positions from(static_cast<Index>(landmarks.size()), 3), to(from.rows(), 3);
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+      from.row(static_cast<Index>(i)) = shape.positions.row(landmarks[i].vertex);
+      to.row(static_cast<Index>(i)) = landmarks[i].place.transpose();
+    }
+    const Similarity pose = fit_similarity(from, to, ScaleFit::kUniform);
+    Index worst = 0;
+    const double off = (pose.apply(from) - to).rowwise().norm().maxCoeff(&worst) / pose.scale;
+    if (off <= kOffMm) return;
+    landmarks.erase(landmarks.begin() + worst);
+  }
 }
 
 }  // namespace
@@ -45,6 +69,7 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape, const Scan& 
       if (length3(row3(placed, there) - row3(shape.positions, vertex)) > kFarMm) continue;
       landmarks.push_back({name, vertex, row3(scan.positions, there)});
     }
+    drop_outliers(shape, landmarks);
     if (landmarks.size() > most.size()) most = std::move(landmarks);
   }
   return most;

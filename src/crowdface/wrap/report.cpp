@@ -175,6 +175,16 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
     if (left_out != facts.left_out_mm.end()) {
       report["landmarks"].back()["left_out_mm"] = rounded(left_out->second);
     }
+    const auto unseen = facts.unseen_mm.find(landmark.name);
+    if (unseen != facts.unseen_mm.end()) {
+      report["landmarks"].back()["unseen_mm"] = rounded(unseen->second);
+    }
+  }
+  if (!facts.unseen_mm.empty()) {
+    std::vector<double> all;
+    for (const auto& [name, mm] : facts.unseen_mm) all.push_back(mm);
+    report["correspondence_mm"] = {{"median", rounded(percentile(all, 0.5))},
+                                   {"95 %", rounded(percentile(all, 0.95))}};
   }
   report["warnings"] = warnings;
   return report.dump(2) + "\n";

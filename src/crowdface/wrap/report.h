@@ -34,6 +34,8 @@ struct WrapFacts {
   double output_scale = 1;  ///< what the head was multiplied with, so that it has the scan's size
   /// How far landmarks lie from where a similarity of all others puts them, mm; those without are not told.
   std::map<std::string, double> left_out_mm;
+  /// See unseen_landmarks; of none: not asked for.
+  std::map<std::string, double> unseen_mm = {};
 };
 
 /// The report as JSON.
