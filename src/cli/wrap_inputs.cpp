@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever a change of the code gives other heads: finished ones are then made anew.
-constexpr int kWrapVersion = 4;
+constexpr int kWrapVersion = 5;
 
 Axis axis_of(const std::string& option, const std::string& text) {
   const auto axis = parse_axis(text);

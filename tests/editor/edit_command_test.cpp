@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -54,15 +55,17 @@ class EditCommandTest : public ::testing::Test {
   }
 
   httplib::Result get(const std::string& what) const {
-    return httplib::Client(host_).Get(path_ + what);
+    return answered([&](httplib::Client& client) { return client.Get(path_ + what); });
   }
   httplib::Result post(const std::string& what, const Json& body) const {
-    return httplib::Client(host_).Post(path_ + what, {{"Origin", host_}}, body.dump(),
-                                       "application/json");
+    return answered([&](httplib::Client& client) {
+      return client.Post(path_ + what, {{"Origin", host_}}, body.dump(), "application/json");
+    });
   }
   int put(const std::string& what, const std::string& body) const {
-    return httplib::Client(host_)
-        .Put(path_ + what, {{"Origin", host_}}, body, "application/json")
+    return answered([&](httplib::Client& client) {
+             return client.Put(path_ + what, {{"Origin", host_}}, body, "application/json");
+           })
         ->status;
   }
   Json start() const {
@@ -77,6 +80,14 @@ class EditCommandTest : public ::testing::Test {
   std::string address_, host_, path_;
 
  private:
+  /// A machine with much other work may be slow to answer.
+  httplib::Result answered(const std::function<httplib::Result(httplib::Client&)>& ask) const {
+    httplib::Client client(host_);
+    client.set_read_timeout(std::chrono::seconds(60));
+    httplib::Result result = ask(client);
+    if (!result) throw std::runtime_error("no answer: " + httplib::to_string(result.error()));
+    return result;
+  }
   void wait_for_address() {
     for (int i = 0; i < 600 && !std::filesystem::exists(edited(".address")); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -11,14 +11,14 @@
 namespace crowdface {
 
 struct RegressionOptions {
-  double local_share = 0.4;  ///< of the heads' variance: only places near each other share it
-  double reach_mm = 45;      ///< how near
+  double local_share = 0.15;  ///< of the heads' variance: only places near each other share it
+  double reach_mm = 45;       ///< how near
   /// What heads differ by besides, smooth over the same reach: a few heads span too little. Standard
   /// deviation along each axis.
   double smooth_mm = 1.8;
-  double noise_mm = 1, landmark_mm = 1.5;            ///< of what the scan and the landmarks say
-  std::size_t places = 800;                          ///< of the skin that are asked for
-  std::vector<double> search_mm = {10, 8, 6, 5, 4};  ///< one round each
+  double noise_mm = 1, landmark_mm = 3;  ///< of what the scan and the landmarks say
+  std::size_t places = 800;              ///< of the skin that are asked for
+  std::vector<double> search_mm = {10, 8, 6, 5, 4, 4, 4};  ///< one round each
 };
 
 /// The most likely head, given the model and that places all over the skin lie on the scan: Gaussian
