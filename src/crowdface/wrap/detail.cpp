@@ -143,6 +143,7 @@ void hold_back(const SkinMesh& skin, const Positions& rest, const Positions& bef
                const Positions& normals, std::span<const std::uint32_t> turned,
                Eigen::VectorXd& along) {
   const FacesAround around(topology_of(skin.triangles, skin.vertex_count()));
+  const int rings = most_rings(skin, rest);
   const auto is_bad = [&](const Triangle& t) {
     return turns_over(rest, before, normals, along, t);
   };
@@ -158,7 +159,7 @@ void hold_back(const SkinMesh& skin, const Positions& rest, const Positions& bef
   for (const std::uint32_t i : turned) {
     throw_if_interrupted();
     const Triangle& triangle = skin.triangles[i];
-    if (is_bad(triangle)) mend_patch(skin, around, triangle, is_bad, change);
+    if (is_bad(triangle)) mend_patch(skin, around, triangle, rings, is_bad, change);
   }
 }
 

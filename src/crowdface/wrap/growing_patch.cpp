@@ -2,11 +2,15 @@
 #include "crowdface/wrap/growing_patch.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
-constexpr int kMostRings = 40;
+constexpr int kMostRings = 12;
+constexpr double kMostMm = 15;
 
 }  // namespace
 
@@ -31,8 +35,16 @@ void GrowingPatch::grow() {
   }
 }
 
+int most_rings(const SkinMesh& skin, const Positions& rest) {
+  double area = 0;
+  for (const Triangle& t : skin.triangles) area += length3(area_vector(rest, t));
+  const double edge = std::sqrt(area / static_cast<double>(skin.triangles.size()));
+  return std::max(kMostRings, static_cast<int>(kMostMm / edge));
+}
+
 void mend_patch(const SkinMesh& skin, const FacesAround& around, const Triangle& triangle,
-                const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) {
+                int most_rings, const std::function<bool(const Triangle&)>& is_bad,
+                const PatchChange& change) {
   GrowingPatch patch(skin, triangle);
   const auto count_bad = [&] {
     std::vector<std::uint32_t> bad;
@@ -44,12 +56,15 @@ void mend_patch(const SkinMesh& skin, const FacesAround& around, const Triangle&
     std::ranges::sort(bad);
     return std::unique(bad.begin(), bad.end()) - bad.begin();
   };
-  for (int ring = 0; ring < kMostRings; ++ring) {
+  for (int ring = 0; ring < most_rings; ++ring) {
     patch.grow();
     const auto before = count_bad();
-    change.make(patch);
-    if (count_bad() < before) return;
-    change.undo(patch);
+    for (const double steepness : {1.0, 2.0, 4.0}) {
+      patch.set_steepness(steepness);
+      change.make(patch);
+      if (count_bad() < before) return;
+      change.undo(patch);
+    }
   }
 }
 

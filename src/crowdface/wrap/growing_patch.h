@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -19,7 +20,10 @@ class GrowingPatch {
   void grow();
   std::span<const std::uint32_t> vertices() const { return vertices_; }
   /// How much one of them has a say: 1 at the triangle, and nothing beyond the last ring.
-  double share(std::size_t i) const { return 1 - rings_[i] / (ring_ + 1.0); }
+  double share(std::size_t i) const {
+    return std::min(1.0, steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
+  }
+  void set_steepness(double steepness) { steepness_ = steepness; }
 
  private:
   const SkinMesh& skin_;
@@ -27,6 +31,7 @@ class GrowingPatch {
   std::vector<int> rings_;  ///< of each of them
   std::vector<bool> is_in_;
   int ring_ = 0;
+  double steepness_ = 1;
 };
 
 /// What is done to a patch, and how it is taken back.
@@ -34,10 +39,14 @@ struct PatchChange {
   std::function<void(const GrowingPatch&)> make, undo;
 };
 
-/// Makes a change to the smallest patch around a triangle, of up to forty rings, in which that leaves fewer bad triangles
-/// than there were; none if there is none.
-/// \param around  triangles at each vertex of the skin
+/// How many rings a patch may have: twelve, or some 15 mm.
+/// \param rest  #skin by 3, in millimetres
+int most_rings(const SkinMesh& skin, const Positions& rest);
+
+/// Makes a change to the smallest patch around a triangle in which that leaves fewer bad triangles than there were; none
+/// if there is none. \param around  triangles at each vertex of the skin
 void mend_patch(const SkinMesh& skin, const FacesAround& around, const Triangle& triangle,
-                const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change);
+                int most_rings, const std::function<bool(const Triangle&)>& is_bad,
+                const PatchChange& change);
 
 }  // namespace crowdface
