@@ -42,12 +42,17 @@ class SkinOverPartsTest : public ::testing::Test {
     positions.row(kInner) << 0.7, 0.4, -depth;
     return positions;
   }
-  Displacements kept(const SkinOverParts& over, const Positions& face) const {
+  Displacements kept(const SkinOverParts& over, const Positions& face,
+                     const RigidMotion& whole = {}) const {
     Displacements shape = back(2);
+    turn(whole, shape.moves);
     Positions mesh = face;
-    over.keep(face, 1, rows_, mesh, shape);
+    over.keep(face, whole, rows_, mesh, shape);
     EXPECT_EQ(mesh, face);
     return shape;
+  }
+  static void turn(const RigidMotion& by, Positions& rows) {
+    for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = by.turn(row3(rows, i)).transpose();
   }
   /// All of the skin goes back.
   Displacements back(double by) const {
@@ -74,6 +79,17 @@ TEST_F(SkinOverPartsTest, StaysOverThemOnAnotherFace) {
   EXPECT_EQ(shape.moves.row(0), back(2).moves.row(0)) << "far from it";
   EXPECT_GT(shape.moves(middle + 1, 2), -2) << "skin around goes along";
   EXPECT_LT(shape.moves(middle + 1, 2), shape.moves(middle, 2));
+}
+
+TEST_F(SkinOverPartsTest, StaysOverThemOnAFaceThatIsTurned) {
+  RigidMotion whole;
+  whole.rotation = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+  Positions face = sheet(1);
+  turn(whole, face);
+  Displacements expected = kept(over_template(), sheet(1));
+  turn(whole, expected.moves);
+  EXPECT_LT((kept(over_template(), face, whole).moves - expected.moves).cwiseAbs().maxCoeff(),
+            1e-9);
 }
 
 TEST_F(SkinOverPartsTest, NothingMovesWhereNothingIsInTheWay) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "crowdface/mesh/topology.h"
+#include "crowdface/parts/head_axes.h"
 
 namespace crowdface {
 
@@ -22,6 +23,11 @@ struct RigidMotion {
   /// Of a direction: without the translations.
   Eigen::Vector3d turn(const Eigen::Vector3d& direction) const;
 };
+
+/// Which way a head looks that was moved so.
+inline HeadAxes moved(const HeadAxes& axes, const RigidMotion& by) {
+  return {.front = by.turn(axes.front) / by.scale, .up = by.turn(axes.up) / by.scale};
+}
 
 /// A motion after which a part is still shifted, turned and stretched a little about a place.
 /// \param pivot   where the part is after the motion

@@ -59,7 +59,7 @@ class CarriedShape {
     const Positions carried = before_lids();
     fit_lids();
     if (shape_.moves_contacts) keep_contacts();
-    shape_.over_parts.keep(rest_, carrier_.frames.whole.scale, shape_.watched.rows, mesh_, result_);
+    shape_.over_parts.keep(rest_, carrier_.frames.whole, shape_.watched.rows, mesh_, result_);
     take_skin_apart();
     hang(carried);
   }

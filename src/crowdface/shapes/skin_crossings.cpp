@@ -62,7 +62,12 @@ class SkinCrossings::Mending {
  public:
   Mending(const SkinCrossings& skin, const Face& face, const Watched& watched, Positions& mesh,
           Displacements& shape)
-      : skin_(skin), face_(face), watched_(watched), mesh_(mesh), shape_(shape) {
+      : skin_(skin),
+        face_(face),
+        axes_(moved(skin.axes_, face.whole)),
+        watched_(watched),
+        mesh_(mesh),
+        shape_(shape) {
     shape_.add_to(mesh_);
     boxes_ = watched_.search.boxes_of(mesh_);
     look();
@@ -179,7 +184,7 @@ class SkinCrossings::Mending {
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       if (field.hears(here)) samples.push_back({i, here, row3(shape_.moves, row.row)});
     }
-    const Eigen::Vector3d& up = skin_.axes_.up;
+    const Eigen::Vector3d& up = axes_.up;
     for (auto [number, by] : field.changes(samples)) {
       const ShapeRow& row = watched_.rows[number];
       if (side(row.vertex) != 0) by -= (1 - kClosing) * dot3(by, up) * up;
@@ -213,7 +218,7 @@ class SkinCrossings::Mending {
   /// The upper lid forward over the lower one: pushed up it would open, and the lower one pushed back would go into the
   /// eyeball.
   void push_lids(const std::vector<Pair>& lids, double grown) {
-    const Eigen::Vector3d &up = skin_.axes_.up, &front = skin_.axes_.front;
+    const Eigen::Vector3d &up = axes_.up, &front = axes_.front;
     std::map<std::uint32_t, Eigen::Vector3d> wanted;
     for (const Pair& pair : lids) {
       std::array<Eigen::Vector3d, 2> middle;
@@ -253,6 +258,7 @@ class SkinCrossings::Mending {
 
   const SkinCrossings& skin_;
   const Face& face_;
+  HeadAxes axes_;  ///< of the face
   const Watched& watched_;
   Positions& mesh_;
   Displacements& shape_;

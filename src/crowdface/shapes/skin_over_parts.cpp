@@ -24,7 +24,9 @@ constexpr double kPushed = 0.02;   // around
 constexpr double kCell = 0.0025;   // in which one vertex stands for others
 constexpr double kTooNear = 0.25;  // of that depth: what lies less deep is not left there
 constexpr double kFacing = 0.5;    // how much skin looks to the front: rims of lips do not
-constexpr int kRings = 2;          // of triangles around, one of which is in front on a face
+/// Of triangles around, one of which is in front on a face: so many, or so far.
+constexpr int kRings = 2, kMostRings = 12;
+constexpr double kSlides = 0.007;
 constexpr int kRounds = 6;
 
 double square(double x) {
@@ -129,6 +131,11 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
     numbers.push_back(t);
     around.push_back(skin.triangles[t]);
   }
+  double area = 0;
+  for (const Triangle& t : around) area += length3(area_vector(shaped, t));
+  const double edge =
+      std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, around.size())));
+  const int rings = std::clamp(static_cast<int>(kSlides * extent / edge), kRings, kMostRings);
   const FrontView view(shaped, around, axes, kReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
   for (const std::uint32_t v : inner) {
@@ -150,7 +157,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
     }
     taken.insert(at);
     std::vector<std::uint32_t> near = {numbers[hit->triangle]};
-    for (int ring = 0; ring < kRings; ++ring) {
+    for (int ring = 0; ring < rings; ++ring) {
       std::vector<std::uint32_t> wider;
       for (const std::uint32_t t : near) {
         for (const std::uint32_t corner : skin.triangles[t]) {
@@ -168,8 +175,9 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
   }
 }
 
-void SkinOverParts::keep(const Positions& rest, double scale, std::span<const ShapeRow> rows,
-                         Positions& mesh, Displacements& shape) const {
+void SkinOverParts::keep(const Positions& rest, const RigidMotion& whole,
+                         std::span<const ShapeRow> rows, Positions& mesh,
+                         Displacements& shape) const {
   shape.add_to(mesh);
   std::vector<double> most;  // what the shape itself moves
   for (const Covered& covered : covered_) {
@@ -180,19 +188,22 @@ void SkinOverParts::keep(const Positions& rest, double scale, std::span<const Sh
     most.push_back(least);
   }
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<Push> pushes = pushes_in(mesh, scale, most);
+    const std::vector<Push> pushes = pushes_in(mesh, whole, most);
     if (pushes.empty()) break;
-    push(pushes, scale, rows, mesh, shape);
+    push(pushes, whole.scale, rows, mesh, shape);
   }
   for (const std::uint32_t v : shape.vertices) mesh.row(v) = rest.row(v);
 }
 
-std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh, double scale,
+std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
+                                                          const RigidMotion& whole,
                                                           std::span<double> most) const {
   const auto corners_of = [&](const Triangle& triangle) {
     return std::array{row3(mesh, triangle[0]), row3(mesh, triangle[1]), row3(mesh, triangle[2])};
   };
-  const Eigen::Vector3d side = axes_.side();
+  const double scale = whole.scale;
+  const HeadAxes axes = moved(axes_, whole);
+  const Eigen::Vector3d side = axes.side();
   std::vector<Push> pushes;
   for (std::size_t i = 0; i < covered_.size(); ++i) {
     const Covered& covered = covered_[i];
@@ -204,18 +215,18 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const Triangle& triangle : covered.near) {
       const auto corners = corners_of(triangle);
-      const auto ahead = ahead_of(point, corners, axes_, side);
+      const auto ahead = ahead_of(point, corners, axes, side);
       if (!ahead || (foremost && *ahead <= *foremost)) continue;
       foremost = ahead;
       normal = normal_of(corners);
     }
-    const double facing = dot3(axes_.front, normal);
+    const double facing = dot3(axes.front, normal);
     if (!foremost || facing < kFacing) continue;
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
     const double by = std::min(missing, most[i]);
     most[i] -= by;
-    pushes.push_back({point + *foremost * axes_.front, by * normal});
+    pushes.push_back({point + *foremost * axes.front, by * normal});
   }
   return pushes;
 }

@@ -7,6 +7,7 @@
 
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/parts/head_axes.h"
+#include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/meeting_skin.h"
 
 namespace crowdface {
@@ -30,11 +31,11 @@ class SkinOverParts {
 
   /// Moves skin outwards until what lies under it on the template does so on a face.
   /// \param rest   what the shape is added to, #V by 3
-  /// \param scale  of the face against the template
+  /// \param whole  from the template
   /// \param rows   of the shape that are skin
   /// \param mesh   the same as rest; changed while it works
-  void keep(const Positions& rest, double scale, std::span<const ShapeRow> rows, Positions& mesh,
-            Displacements& shape) const;
+  void keep(const Positions& rest, const RigidMotion& whole, std::span<const ShapeRow> rows,
+            Positions& mesh, Displacements& shape) const;
 
  private:
   /// A vertex under the skin, and the triangle that is in front of it on the template in the shape.
@@ -49,7 +50,8 @@ class SkinOverParts {
     Eigen::Vector3d at, by;
   };
   /// \param most  #covered: how far each may still be pushed
-  std::vector<Push> pushes_in(const Positions& mesh, double scale, std::span<double> most) const;
+  std::vector<Push> pushes_in(const Positions& mesh, const RigidMotion& whole,
+                              std::span<double> most) const;
   void push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
             Positions& mesh, Displacements& shape) const;
 
