@@ -100,7 +100,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
       match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
   if (landmarks.size() >= kFewestLandmarks || !shared.hint) return landmarks;
   std::vector<std::string> found;
-  for (WrapLandmark& landmark : find_landmarks(shared.shape, scan, *shared.hint)) {
+  for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *shared.hint)) {
     if (std::ranges::any_of(landmarks, [&](const auto& l) { return l.name == landmark.name; })) {
       continue;
     }
@@ -145,7 +145,7 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
 
 void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
               const Digest& inputs) {
-  const Scan scan = without_shells(read_scan(task.scan));
+  const Scan scan = read_scan(task.scan);
   const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan);
   const WrapResult result = [&] {
     try {
@@ -184,7 +184,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
 }
 
 void check_one(const WrapInputs& shared, const Task& task) {
-  const Scan scan = without_shells(read_scan(task.scan));
+  const Scan scan = read_scan(task.scan);
   const auto landmarks = landmarks_on(shared, task, scan);
   log_info(concat(task.scan.string(), ": ", scan.triangles.size(), " triangles, ", landmarks.size(),
                   " landmarks; would become ", task.head.string()));

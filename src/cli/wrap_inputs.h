@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +38,8 @@ struct WrapInputs {
   std::optional<ShapeModel> model;  ///< of the template's skin
   std::size_t model_heads = 0;
   LandmarkFile landmarks;
-  Digest digest;  ///< of all of this
+  std::map<std::string, std::uint32_t> proposed;  ///< of the template, if there is a hint
+  Digest digest;                                  ///< of all of this
 };
 
 /// \throws Error naming the file or option that is wrong.

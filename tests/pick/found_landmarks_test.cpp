@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/pick/proposed_landmarks.h"
 
 #include "pick/some_template.h"
 
@@ -16,9 +17,6 @@ namespace {
 class FoundLandmarksTest : public ::testing::Test {
  protected:
   FoundLandmarksTest() {
-    truth_.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-    truth_.scale = 0.001;
-    truth_.translation = {5, -3, 8};
     const SyntheticHeads heads(12000, SyntheticHeads::Parts::kEyesAndTeeth);
     scan_ = {truth_.apply(10 * heads.positions(1, 1)), triangles_of(heads.topology())};
   }
@@ -27,13 +25,15 @@ class FoundLandmarksTest : public ::testing::Test {
             .front = truth_.rotation * Eigen::Vector3d::UnitZ()};
   }
 
-  Similarity truth_;
+  Similarity truth_ = some_place();
   Scan scan_;
   WrapTemplate shape_ = some_template();
+  std::map<std::string, std::uint32_t> here_ =
+      propose_landmarks(shape_, pickable(shape_, shape_.positions));
 };
 
 TEST_F(FoundLandmarksTest, LieWhereTheTemplatesOwnVerticesWouldOnThatHead) {
-  const std::vector<WrapLandmark> found = find_landmarks(shape_, scan_, standing());
+  const std::vector<WrapLandmark> found = find_landmarks(shape_, here_, scan_, standing());
   ASSERT_GE(found.size(), 12U);
   const Positions same_head = truth_.apply(10 * some_head(1));
   std::vector<double> off;
@@ -53,7 +53,8 @@ TEST_F(FoundLandmarksTest, AScanWithoutAFaceHasNone) {
   }
   const Scan scan{round, triangles_of(ball.topology)};
   EXPECT_TRUE(
-      find_landmarks(shape_, scan, {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}).empty());
+      find_landmarks(shape_, here_, scan, {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()})
+          .empty());
 }
 
 }  // namespace

@@ -16,4 +16,13 @@ inline WrapTemplate some_template() {
   return make_template(heads.topology(), 10 * some_head(0), {});
 }
 
+/// From a head in millimetres to a scan of it: turned, in metres, elsewhere.
+inline Similarity some_place() {
+  Similarity place;
+  place.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  place.scale = 0.001;
+  place.translation = {5, -3, 8};
+  return place;
+}
+
 }  // namespace crowdface::testing

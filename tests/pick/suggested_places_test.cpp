@@ -35,11 +35,6 @@ std::vector<Triangle> eyes_of(const WrapTemplate& shape) {
 /// A scan of another head in the template's topology: turned, in metres, elsewhere.
 class SuggestedPlacesTest : public ::testing::Test {
  protected:
-  SuggestedPlacesTest() {
-    truth_.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-    truth_.scale = 0.001;
-    truth_.translation = {5, -3, 8};
-  }
   PickedLandmark pair(const std::string& name) const {
     const std::uint32_t v = proposals_.at(name);
     return {name, v, row3(scan_.positions(), v), std::nullopt};
@@ -53,17 +48,10 @@ class SuggestedPlacesTest : public ::testing::Test {
     return length3(place.point - row3(scan_.positions(), vertex)) / truth_.scale;
   }
 
-  Similarity truth_;
+  Similarity truth_ = some_place();
   WrapTemplate shape_ = some_template();
   PickableMesh template_{shape_.positions, skin_of(shape_), eyes_of(shape_)};
-  PickableMesh scan_{[this] {
-                       Similarity truth;
-                       truth.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-                       truth.scale = 0.001;
-                       truth.translation = {5, -3, 8};
-                       return truth.apply(10 * some_head(1));
-                     }(),
-                     skin_of(shape_)};
+  PickableMesh scan_{truth_.apply(10 * some_head(1)), skin_of(shape_)};
   MirrorPlane plane_ = middle_plane(shape_, shape_.positions);
   std::map<std::string, std::uint32_t> proposals_ = propose_landmarks(shape_, template_);
 };

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kFarMm = 25;  ///< off where the guessed pose has them
 constexpr double kOffMm = 14;  ///< off where the others have them: faces differ by less
-constexpr std::size_t kFewest = 5;
 
 /// Landmarks of a scan that stands along some axes; none of one that is too small for a head.
 std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
@@ -31,7 +30,7 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
 
 /// Leaves out, one by one, what lies far from where a similarity of all has it.
 void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmarks) {
-  while (landmarks.size() >= kFewest) {
+  while (landmarks.size() > kFewestLandmarks) {
     Positions from(static_cast<Index>(landmarks.size()), 3), to(from.rows(), 3);
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
       from.row(static_cast<Index>(i)) = shape.positions.row(landmarks[i].vertex);
@@ -47,14 +46,14 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
 
 }  // namespace
 
-std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape, const Scan& scan,
-                                         const PoseHint& hint) {
+std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
+                                         const std::map<std::string, std::uint32_t>& here,
+                                         const Scan& scan, const PoseHint& hint) {
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
   Positions rest = shape.skin.of(shape.positions);
   if (shape.reduced) rest = bent.of(rest);
   const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint);
   const Positions placed = inverse(pose).apply(scan.positions);
-  const auto here = propose_landmarks(shape, pickable(shape, shape.positions));
   // Scans that differ much from the template are turned a little too far by the fit, others stand a little slanted.
   const std::array ways = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}),

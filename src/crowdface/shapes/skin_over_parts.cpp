@@ -131,6 +131,11 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
     numbers.push_back(t);
     around.push_back(skin.triangles[t]);
   }
+  const auto is_moved = [&](std::uint32_t v) { return std::ranges::binary_search(moved, v); };
+  if (std::ranges::none_of(around,
+                           [&](const Triangle& t) { return std::ranges::any_of(t, is_moved); })) {
+    return;
+  }
   double area = 0;
   for (const Triangle& t : around) area += length3(area_vector(shaped, t));
   const double edge =
@@ -150,11 +155,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
     const double facing = dot3(axes.front, normal_of(view.corners_of(hit->triangle)));
     const double depth = hit->ahead * facing;
     if (facing < kFacing || depth > kReach * extent) continue;
-    if (std::ranges::none_of(around[hit->triangle], [&](std::uint32_t corner) {
-          return std::ranges::binary_search(moved, corner);
-        })) {
-      continue;
-    }
+    if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
     taken.insert(at);
     std::vector<std::uint32_t> near = {numbers[hit->triangle]};
     for (int ring = 0; ring < rings; ++ring) {

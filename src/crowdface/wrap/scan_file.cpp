@@ -55,7 +55,7 @@ Scan read_scan(const std::filesystem::path& path) {
     throw InvalidInput(concat(name, ": expected a surface, found triangles without area"));
   }
   weld(scan);
-  return scan;
+  return without_shells(scan);
 }
 
 std::string encode_scan(const Scan& scan) {
