@@ -25,7 +25,7 @@ constexpr double kCell = 0.0025;   // in which one vertex stands for others
 constexpr double kTooNear = 0.25;  // of that depth: what lies less deep is not left there
 constexpr double kFacing = 0.5;    // how much skin looks to the front: rims of lips do not
 /// Of triangles around, one of which is in front on a face: so many, or so far.
-constexpr int kRings = 2, kMostRings = 12;
+constexpr double kRings = 2, kMostRings = 12;
 constexpr double kSlides = 0.007;
 constexpr int kRounds = 6;
 
@@ -140,7 +140,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
   for (const Triangle& t : around) area += length3(area_vector(shaped, t));
   const double edge =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, around.size())));
-  const int rings = std::clamp(static_cast<int>(kSlides * extent / edge), kRings, kMostRings);
+  const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kRings, kMostRings));
   const FrontView view(shaped, around, axes, kReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
   for (const std::uint32_t v : inner) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -141,9 +143,7 @@ std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& re
 /// Around triangles that offsets turn over less is asked: nothing at them, all of it where a patch ends.
 void hold_back(const SkinMesh& skin, const Positions& rest, const Positions& before,
                const Positions& normals, std::span<const std::uint32_t> turned,
-               Eigen::VectorXd& along) {
-  const FacesAround around(topology_of(skin.triangles, skin.vertex_count()));
-  const int rings = most_rings(skin, rest);
+               const PatchMender& mender, Eigen::VectorXd& along) {
   const auto is_bad = [&](const Triangle& t) {
     return turns_over(rest, before, normals, along, t);
   };
@@ -159,14 +159,16 @@ void hold_back(const SkinMesh& skin, const Positions& rest, const Positions& bef
   for (const std::uint32_t i : turned) {
     throw_if_interrupted();
     const Triangle& triangle = skin.triangles[i];
-    if (is_bad(triangle)) mend_patch(skin, around, triangle, rings, is_bad, change);
+    if (is_bad(triangle)) mender.mend(triangle, is_bad, change);
   }
 }
 
 /// Neighbours that found different sheets of the scan would turn the triangles between them over: there,
 /// and as far around as it takes, offsets go between those beside.
+/// \param mender  of the skin; made when it is first needed
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
-                    const Positions& normals, Eigen::VectorXd& along) {
+                    const Positions& normals, std::optional<PatchMender>& mender,
+                    Eigen::VectorXd& along) {
   std::vector<char> uneven(skin.vertices.size(), 1);
   const auto find = [&] { return turned_over(skin, rest, before, normals, along, uneven); };
   std::vector<std::uint32_t> turned = find();
@@ -196,7 +198,9 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
     }
     turned = find();
   }
-  if (!turned.empty()) hold_back(skin, rest, before, normals, turned, along);
+  if (turned.empty()) return;
+  if (!mender) mender.emplace(skin, rest);
+  hold_back(skin, rest, before, normals, turned, *mender, along);
 }
 
 void move_along(const Positions& normals, const Eigen::VectorXd& along, Positions& positions) {
@@ -207,6 +211,7 @@ void move_along(const Positions& normals, const Eigen::VectorXd& along, Position
 
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
                         const ScanSurface& scan, const DetailOptions& options) {
+  std::optional<PatchMender> mender;
   Positions result = positions;
   Positions normals = vertex_normals(skin.triangles, result);
   if (options.smoothings > 0) {
@@ -219,7 +224,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;
     sums = iterate(lazy, sums, times);
     Eigen::VectorXd along = sums.col(0).cwiseQuotient(sums.col(1));
-    even_out_folds(skin, rest, result, normals, along);
+    even_out_folds(skin, rest, result, normals, mender, along);
     move_along(normals, along, result);
   }
   // On a regular mesh of edges h the mean of the neighbours is h²/4 times the Laplacian away.
@@ -228,7 +233,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     if (options.smoothings == 0) normals = vertex_normals(skin.triangles, result);
     const Asked asked = ask_scan(skin, result, normals, scan, options.reach_mm);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
-    even_out_folds(skin, rest, result, normals, along);
+    even_out_folds(skin, rest, result, normals, mender, along);
     move_along(normals, along, result);
   }
   return result;

@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-constexpr int kMostRings = 12;
 constexpr double kMostMm = 15;
+constexpr double kLeastRings = 12, kMostRings = 100;
 
 }  // namespace
 
@@ -35,28 +35,28 @@ void GrowingPatch::grow() {
   }
 }
 
-int most_rings(const SkinMesh& skin, const Positions& rest) {
+PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest)
+    : skin_(skin), around_(topology_of(skin.triangles, skin.vertex_count())) {
   double area = 0;
   for (const Triangle& t : skin.triangles) area += length3(area_vector(rest, t));
   const double edge = std::sqrt(area / static_cast<double>(skin.triangles.size()));
-  return std::max(kMostRings, static_cast<int>(kMostMm / edge));
+  most_rings_ = static_cast<int>(std::clamp(kMostMm / edge, kLeastRings, kMostRings));
 }
 
-void mend_patch(const SkinMesh& skin, const FacesAround& around, const Triangle& triangle,
-                int most_rings, const std::function<bool(const Triangle&)>& is_bad,
-                const PatchChange& change) {
-  GrowingPatch patch(skin, triangle);
+void PatchMender::mend(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,
+                       const PatchChange& change) const {
+  GrowingPatch patch(skin_, triangle);
   const auto count_bad = [&] {
     std::vector<std::uint32_t> bad;
     for (const std::uint32_t v : patch.vertices()) {
-      for (const std::uint32_t t : around.of(v)) {
-        if (is_bad(skin.triangles[t])) bad.push_back(t);
+      for (const std::uint32_t t : around_.of(v)) {
+        if (is_bad(skin_.triangles[t])) bad.push_back(t);
       }
     }
     std::ranges::sort(bad);
     return std::unique(bad.begin(), bad.end()) - bad.begin();
   };
-  for (int ring = 0; ring < most_rings; ++ring) {
+  for (int ring = 0; ring < most_rings_; ++ring) {
     patch.grow();
     const auto before = count_bad();
     for (const double steepness : {1.0, 2.0, 4.0}) {

@@ -39,14 +39,21 @@ struct PatchChange {
   std::function<void(const GrowingPatch&)> make, undo;
 };
 
-/// How many rings a patch may have: twelve, or some 15 mm.
-/// \param rest  #skin by 3, in millimetres
-int most_rings(const SkinMesh& skin, const Positions& rest);
+/// Mends triangles of a skin by changes to patches around them.
+class PatchMender {
+ public:
+  /// \param rest  #skin by 3, in millimetres: patches have up to twelve rings, or reach some 15 mm of it.
+  PatchMender(const SkinMesh& skin, const Positions& rest);
 
-/// Makes a change to the smallest patch around a triangle in which that leaves fewer bad triangles than there were; none
-/// if there is none. \param around  triangles at each vertex of the skin
-void mend_patch(const SkinMesh& skin, const FacesAround& around, const Triangle& triangle,
-                int most_rings, const std::function<bool(const Triangle&)>& is_bad,
-                const PatchChange& change);
+  /// Makes a change to the smallest patch around a triangle in which that leaves fewer bad triangles than there were;
+  /// none if there is none.
+  void mend(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,
+            const PatchChange& change) const;
+
+ private:
+  const SkinMesh& skin_;
+  FacesAround around_;  ///< of its triangles
+  int most_rings_ = 0;
+};
 
 }  // namespace crowdface

@@ -33,8 +33,7 @@ std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Position
 Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) {
   std::vector<std::uint32_t> folded = folded_triangles(skin, rest, positions);
   if (folded.empty()) return 0;
-  const FacesAround around(topology_of(skin.triangles, skin.vertex_count()));
-  const int rings = most_rings(skin, rest);
+  const PatchMender mender(skin, rest);
   const auto is_bad = [&](const Triangle& t) { return is_folded(rest, positions, t); };
   Positions as_it_was;
   const PatchChange lay{
@@ -57,7 +56,7 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
     for (const std::uint32_t i : folded) {
       throw_if_interrupted();
       const Triangle& triangle = skin.triangles[i];
-      if (is_bad(triangle)) mend_patch(skin, around, triangle, rings, is_bad, lay);
+      if (is_bad(triangle)) mender.mend(triangle, is_bad, lay);
     }
     folded = folded_triangles(skin, rest, positions);
   }
