@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/pick/found_landmarks.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -31,16 +32,13 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
 /// Leaves out, one by one, what lies far from where a similarity of all has it.
 void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmarks) {
   while (landmarks.size() > kFewestLandmarks) {
-    Positions from(static_cast<Index>(landmarks.size()), 3), to(from.rows(), 3);
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      from.row(static_cast<Index>(i)) = shape.positions.row(landmarks[i].vertex);
-      to.row(static_cast<Index>(i)) = landmarks[i].place.transpose();
-    }
-    const Similarity pose = fit_similarity(from, to, ScaleFit::kUniform);
-    Index worst = 0;
-    const double off = (pose.apply(from) - to).rowwise().norm().maxCoeff(&worst) / pose.scale;
-    if (off <= kOffMm) return;
-    landmarks.erase(landmarks.begin() + worst);
+    const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));
+    const auto off = [&](const WrapLandmark& landmark) {
+      return length3(carried(back, landmark.place) - row3(shape.positions, landmark.vertex));
+    };
+    const auto worst = std::ranges::max_element(landmarks, {}, off);
+    if (off(*worst) <= kOffMm) return;
+    landmarks.erase(worst);
   }
 }
 

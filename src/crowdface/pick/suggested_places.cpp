@@ -8,6 +8,7 @@
 
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/pick/landmark_names.h"
+#include "crowdface/wrap/shape_fit.h"
 
 namespace crowdface {
 namespace {
@@ -56,16 +57,12 @@ std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<
   return fit_similarity(from, to, ScaleFit::kUniform);
 }
 
-Eigen::Vector3d placed(const Similarity& pose, const Eigen::Vector3d& point) {
-  return pose.scale * (pose.rotation * point) + pose.translation;
-}
-
 std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vector<bool>& used,
                                  const Similarity& whole) {
   std::vector<double> residuals;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Similarity pose = fit(pairs, used, i).value_or(whole);
-    residuals.push_back(length3(placed(pose, pairs[i].from) - pairs[i].to) / pose.scale);
+    residuals.push_back(length3(carried(pose, pairs[i].from) - pairs[i].to) / pose.scale);
   }
   return residuals;
 }
@@ -97,7 +94,7 @@ Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& p
   for (const Pair& pair : pairs) {
     if (pose.residuals.at(pair.name).outlier) continue;
     const double weight = std::exp(-(pair.from - place).squaredNorm() / (2 * kReachMm * kReachMm));
-    sum += weight * (pair.to - placed(pose.pose, pair.from));
+    sum += weight * (pair.to - carried(pose.pose, pair.from));
     weights += weight;
   }
   return sum / weights;
@@ -174,7 +171,7 @@ SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
   const Similarity& pose = suggested.pose->pose;
   for (const auto& [name, place] : wanted) {
     const Eigen::Vector3d point =
-        placed(pose, place.point) + correction(pairs, *suggested.pose, place.point);
+        carried(pose, place.point) + correction(pairs, *suggested.pose, place.point);
     const auto near = outermost(
         of_scan,
         of_scan.nearest(point, pose.rotation * place.normal, kLeastCosine, kReachMm * pose.scale),

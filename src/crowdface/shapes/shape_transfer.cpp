@@ -196,23 +196,21 @@ void CarriedShape::take_skin_apart() {
   const SkinCrossings::Face face{rest_, carrier_.at_rest, carrier_.frames.whole};
   double best = HUGE_VAL;
   Positions kept;
-  Index crossing = 0;
   for (int round = 0; round < kMends; ++round) {
     if (round > 0) close_lids();
-    crossing_ = prepared_.crossings.mend(face, shape_.watched, mesh_, result_, harm);
+    Index crossing = prepared_.crossings.mend(face, shape_.watched, mesh_, result_, harm);
     const bool are_out = keep_lids_out();
-    if (harm) crossing_ = prepared_.crossings.count(face, shape_.watched, result_, mesh_);
+    if (harm) crossing = prepared_.crossings.count(face, shape_.watched, result_, mesh_);
     const double open = harm ? harm(result_.moves) : 0;
-    const double bad = static_cast<double>(crossing_) + open;
+    const double bad = static_cast<double>(crossing) + open;
     if (bad < best) {
       best = bad;
       kept = result_.moves;
-      crossing = crossing_;
+      crossing_ = crossing;
     }
     if (are_out && open == 0) break;
   }
   result_.moves = std::move(kept);
-  crossing_ = crossing;
 }
 
 bool CarriedShape::closes_lids() const {

@@ -183,6 +183,21 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
 
 }  // namespace
 
+Similarity pose_of_landmarks(const Positions& positions,
+                             const std::vector<WrapLandmark>& landmarks) {
+  Positions from(static_cast<Index>(landmarks.size()), 3), to(from.rows(), 3);
+  for (Index i = 0; i < from.rows(); ++i) {
+    const WrapLandmark& landmark = landmarks[static_cast<std::size_t>(i)];
+    from.row(i) = positions.row(landmark.vertex);
+    to.row(i) = landmark.place.transpose();
+  }
+  return fit_similarity(from, to, ScaleFit::kUniform);
+}
+
+Eigen::Vector3d carried(const Similarity& by, const Eigen::Vector3d& point) {
+  return by.scale * (by.rotation * point) + by.translation;
+}
+
 ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,
                    const std::vector<WrapLandmark>& landmarks, const ShapeFit& start,
                    const ShapeFitOptions& options) {

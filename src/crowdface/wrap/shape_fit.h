@@ -18,6 +18,14 @@ struct WrapLandmark {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< on the scan
 };
 
+/// The similarity that carries a template's landmarks nearest to the scan's.
+/// \param positions  of what the landmarks' rows are of; at least three landmarks
+Similarity pose_of_landmarks(const Positions& positions,
+                             const std::vector<WrapLandmark>& landmarks);
+
+/// A point after a similarity.
+Eigen::Vector3d carried(const Similarity& by, const Eigen::Vector3d& point);
+
 /// Where a head stands on a scan, and which of the model's heads it is.
 struct ShapeFit {
   Similarity pose;               ///< from the template to the scan

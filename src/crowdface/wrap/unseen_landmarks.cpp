@@ -26,9 +26,8 @@ std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const 
     const WrapResult result = wrap(shape, model, scan, known, hint, options);
     const Similarity back = inverse(result.pose);
     for (const WrapLandmark& landmark : left_out) {
-      const Eigen::Vector3d picked =
-          back.scale * (back.rotation * landmark.place) + back.translation;
-      unseen[landmark.name] = length3(row3(result.positions, landmark.vertex) - picked);
+      unseen[landmark.name] =
+          length3(row3(result.positions, landmark.vertex) - carried(back, landmark.place));
     }
   }
   return unseen;

@@ -32,24 +32,13 @@ std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
   return result;
 }
 
-Similarity pose_of_landmarks(const Positions& skin, const std::vector<WrapLandmark>& landmarks) {
-  Positions from(static_cast<Index>(landmarks.size()), 3), to(from.rows(), 3);
-  for (Index i = 0; i < from.rows(); ++i) {
-    const WrapLandmark& landmark = landmarks[static_cast<std::size_t>(i)];
-    from.row(i) = skin.row(landmark.vertex);
-    to.row(i) = landmark.place.transpose();
-  }
-  return fit_similarity(from, to, ScaleFit::kUniform);
-}
-
 /// How far the landmarks are off after a similarity.
 std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similarity& pose,
                                            const std::vector<WrapLandmark>& landmarks) {
   std::vector<LandmarkResidual> result;
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = skin.row(landmark.vertex).transpose();
-    const Eigen::Vector3d placed = pose.scale * (pose.rotation * point) + pose.translation;
-    result.push_back({landmark.name, length3(placed - landmark.place) / pose.scale});
+    result.push_back({landmark.name, length3(carried(pose, point) - landmark.place) / pose.scale});
   }
   return result;
 }
@@ -72,7 +61,7 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
 
 void move(std::vector<WrapLandmark>& landmarks, const Similarity& motion) {
   for (WrapLandmark& landmark : landmarks) {
-    landmark.place = motion.scale * (motion.rotation * landmark.place) + motion.translation;
+    landmark.place = carried(motion, landmark.place);
   }
 }
 
