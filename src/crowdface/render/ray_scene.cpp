@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include <embree3/rtcore.h>
@@ -25,6 +26,10 @@ constexpr std::size_t kTogether = 16;
 /// \param valid  -1 for each of the packet's rays that is one, 0 for the rest.
 void fill(std::span<const Ray> rays, RTCRay16& packet, std::array<int, kTogether>& valid) {
   valid.fill(0);
+  // Where Embree has no packets as wide as these it looks at all lanes: those without a ray must be numbers, and inactive.
+  packet = {};
+  std::fill_n(packet.tnear, kTogether, std::numeric_limits<float>::infinity());
+  std::fill_n(packet.tfar, kTogether, -std::numeric_limits<float>::infinity());
   for (std::size_t r = 0; r < rays.size(); ++r) {
     const Ray& ray = rays[r];
     valid[r] = -1;

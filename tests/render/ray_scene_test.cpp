@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/ray_scene.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace crowdface {
+namespace {
+
+/// Leaves numbers that no scene reaches to where the next function's variables will be.
+[[gnu::noinline]] int litter_the_stack() {
+  volatile unsigned char litter[16384];
+  for (volatile unsigned char& byte : litter) byte = 0x7e;
+  return litter[100];
+}
+
+// Rays go in packets of sixteen. What stood in the lanes of a packet that had no ray was taken for rays, on processors
+// without vectors of sixteen, and ended the program.
+TEST(RayScene, AnyNumberOfRaysMeetsASquare) {
+  const RayDevice device;
+  const std::vector<Quad> quads = {{0, 1, 2, 3}};
+  const RayScene scene(device, {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, quads);
+  for (std::size_t count = 0; count <= 33; ++count) {
+    SCOPED_TRACE(count);
+    std::vector<Ray> rays;
+    for (std::size_t r = 0; r < count; ++r) {  // every third passes beside it
+      const float x = r % 3 == 2 ? 1.5F : static_cast<float>(r) / 40;
+      rays.push_back({{x, 0.25F, 2}, {0, 0, -1}});
+    }
+    EXPECT_EQ(litter_the_stack(), 0x7e);
+    const std::vector<bool> blocked = scene.occluded(rays);
+    EXPECT_EQ(litter_the_stack(), 0x7e);
+    const auto hits = scene.nearest_hits(rays);
+    ASSERT_EQ(blocked.size(), count);
+    ASSERT_EQ(hits.size(), count);
+    for (std::size_t r = 0; r < count; ++r) {
+      EXPECT_EQ(blocked[r], r % 3 != 2) << r;
+      ASSERT_EQ(hits[r].has_value(), r % 3 != 2) << r;
+      if (hits[r]) EXPECT_FLOAT_EQ(hits[r]->distance, 2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crowdface
