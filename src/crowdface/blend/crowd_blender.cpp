@@ -14,6 +14,7 @@ namespace crowdface {
 namespace {
 
 constexpr Index kBlocksATask = 8;
+constexpr std::size_t kRegionsAtOnce = 2;  ///< that `add_fields` takes
 
 bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
   return a.weights == b.weights && a.iterations == b.iterations &&
@@ -252,30 +253,43 @@ void CrowdBlender::displacement(const Block& block, const std::vector<BlockValue
                                 const std::vector<std::vector<float>>& of_region,
                                 BlockValues& result) const {
   result.fill(0);
-  BlockValues sums;
-  std::vector<float> in_steps;
-  for (std::size_t k = 0; k < block.regions.size(); ++k) {
-    sums.fill(0);
+  std::array<BlockValues, kRegionsAtOnce> sums;
+  std::array<std::vector<float>, kRegionsAtOnce> in_steps;
+  for (std::size_t first = 0; first < block.regions.size(); first += kRegionsAtOnce) {
+    const std::size_t regions = std::min(kRegionsAtOnce, block.regions.size() - first);
+    for (std::size_t k = 0; k < regions; ++k) sums[k].fill(0);
     for (std::size_t h = 0; h < levels_.size(); ++h) {
       const LevelFields& fields = levels_[h].fields;
-      const float* coefficients = of_region[block.regions[k]].data() + first_field_[h];
-      if (std::all_of(coefficients, coefficients + fields.rank, [](float c) { return c == 0; })) {
-        continue;
+      std::array<const float*, kRegionsAtOnce> coefficients{};
+      bool lends = false;
+      for (std::size_t k = 0; k < regions; ++k) {
+        coefficients[k] = of_region[block.regions[first + k]].data() + first_field_[h];
+        lends |= std::any_of(coefficients[k], coefficients[k] + fields.rank,
+                             [](float c) { return c != 0; });
       }
+      if (!lends) continue;
       std::size_t to = 0;
       for (const Run& run : block.runs) {
         const std::size_t values = std::size_t{3} * run.count;
         const std::size_t count = count_at(fields, run.first);
-        in_steps.resize(count);
-        for (std::size_t p = 0; p < count; ++p) {
-          in_steps[p] = coefficients[p] * field_at(fields, p, run.first).step;
+        std::array<RegionSums, kRegionsAtOnce> at{};
+        for (std::size_t k = 0; k < regions; ++k) {
+          in_steps[k].resize(count);
+          for (std::size_t p = 0; p < count; ++p) {
+            in_steps[k][p] = coefficients[k][p] * field_at(fields, p, run.first).step;
+          }
+          at[k] = {in_steps[k].data(), sums[k].data() + to};
         }
-        add_fields(field_at(fields, 0, run.first).numbers, values, kTileValues, in_steps.data(),
-                   count, sums.data() + to);
+        add_fields(field_at(fields, 0, run.first).numbers, values, kTileValues, count,
+                   std::span(at).first(regions));
         to += values;
       }
     }
-    for (std::size_t i = 0; i < 3 * block.count; ++i) result[i] += alpha[k][i] * sums[i];
+    for (std::size_t k = 0; k < regions; ++k) {
+      for (std::size_t i = 0; i < 3 * block.count; ++i) {
+        result[i] += alpha[first + k][i] * sums[k][i];
+      }
+    }
   }
 }
 

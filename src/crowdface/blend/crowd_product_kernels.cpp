@@ -43,44 +43,69 @@ void unpack(const std::int16_t* numbers, std::size_t count, float step, std::siz
   }
 }
 
-/// The sums of kVectors vectors stay in registers.
-template <std::size_t kVectors>
-void add_vectors(const std::int16_t* numbers, std::size_t stride, const float* coefficients,
-                 std::size_t fields, float* sums) {
+/// The sums of kVectors vectors in kRegions regions stay in registers.
+template <std::size_t kVectors, std::size_t kRegions>
+void add_vectors(const std::int16_t* numbers, std::size_t stride, std::size_t fields,
+                 const RegionSums* regions, std::size_t begin) {
   const hn::CappedTag<float, kChunkValues / 2> lanes;
   const std::size_t width = hn::Lanes(lanes);
-  hn::VFromD<decltype(lanes)> sum[kVectors];
-  for (std::size_t v = 0; v < kVectors; ++v) sum[v] = hn::LoadU(lanes, sums + v * width);
+  using V = hn::VFromD<decltype(lanes)>;
+  numbers += begin;
+  V sums[kRegions][kVectors];
+  for (std::size_t k = 0; k < kRegions; ++k) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      sums[k][v] = hn::LoadU(lanes, regions[k].sums + begin + v * width);
+    }
+  }
   for (std::size_t f = 0; f < fields; ++f, numbers += stride) {
-    if (coefficients[f] == 0) continue;
-    const auto factor = hn::Set(lanes, coefficients[f]);
+    V factors[kRegions];
+    for (std::size_t k = 0; k < kRegions; ++k) {
+      factors[k] = hn::Set(lanes, regions[k].coefficients[f]);
+    }
     for (std::size_t v = 0; v < kVectors; v += 2) {  // of the next tile
       hwy::Prefetch(numbers + fields * stride + v * width);
     }
     for (std::size_t v = 0; v < kVectors; ++v) {
-      sum[v] = fused(factor, widened(lanes, numbers + v * width), sum[v]);
+      const V values = widened(lanes, numbers + v * width);
+      for (std::size_t k = 0; k < kRegions; ++k) {
+        sums[k][v] = fused(factors[k], values, sums[k][v]);
+      }
     }
   }
-  for (std::size_t v = 0; v < kVectors; ++v) hn::StoreU(sum[v], lanes, sums + v * width);
+  for (std::size_t k = 0; k < kRegions; ++k) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      hn::StoreU(sums[k][v], lanes, regions[k].sums + begin + v * width);
+    }
+  }
 }
 
-void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
-                const float* coefficients, std::size_t fields, float* sums) {
+template <std::size_t kRegions>
+void add_in_regions(const std::int16_t* numbers, std::size_t count, std::size_t stride,
+                    std::size_t fields, const RegionSums* regions) {
   const hn::CappedTag<float, kChunkValues / 2> lanes;
   const std::size_t width = hn::Lanes(lanes);
   std::size_t i = 0;
   for (; i + 6 * width <= count; i += 6 * width) {
-    add_vectors<6>(numbers + i, stride, coefficients, fields, sums + i);
+    add_vectors<6, kRegions>(numbers, stride, fields, regions, i);
   }
   for (; i + width <= count; i += width) {
-    add_vectors<1>(numbers + i, stride, coefficients, fields, sums + i);
+    add_vectors<1, kRegions>(numbers, stride, fields, regions, i);
   }
   for (; i < count; ++i) {
     for (std::size_t f = 0; f < fields; ++f) {
-      if (coefficients[f] == 0) continue;
-      sums[i] = std::fma(coefficients[f], static_cast<float>(numbers[f * stride + i]), sums[i]);
+      const auto value = static_cast<float>(numbers[f * stride + i]);
+      for (std::size_t k = 0; k < kRegions; ++k) {
+        float& sum = regions[k].sums[i];
+        sum = std::fma(regions[k].coefficients[f], value, sum);
+      }
     }
   }
+}
+
+void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
+                std::size_t fields, const RegionSums* regions, std::size_t region_count) {
+  const auto add = region_count == 1 ? add_in_regions<1> : add_in_regions<2>;
+  add(numbers, count, stride, fields, regions);
 }
 
 /// Two vectors of values times six faces: twelve sums stay in registers.
@@ -156,8 +181,9 @@ void unpack(const std::int16_t* numbers, std::size_t count, float step, std::siz
 }
 
 void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
-                const float* coefficients, std::size_t fields, float* sums) {
-  HWY_DYNAMIC_DISPATCH(add_fields)(numbers, count, stride, coefficients, fields, sums);
+                std::size_t fields, std::span<const RegionSums> regions) {
+  HWY_DYNAMIC_DISPATCH(add_fields)
+  (numbers, count, stride, fields, regions.data(), regions.size());
 }
 
 void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace crowdface {
 
@@ -16,10 +17,18 @@ inline constexpr std::size_t kChunkFaces = 6;
 void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
             float* row, std::size_t stride);
 
-/// sums[i] += Σ_f coefficients[f]·numbers[f][i], for one face, in the order and rounding of `add_product`.
+/// What a face has of its fields in one region.
+struct RegionSums {
+  const float* coefficients;  ///< of each field
+  float* sums;                ///< of each value
+};
+
+/// sums[i] += Σ_f coefficients[f]·numbers[f][i] in each region, for one face, in the order and rounding of
+/// `add_product`.
 /// \param numbers  `fields` rows of `count`, `stride` apart
+/// \param regions  one or two: numbers are read once for both
 void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
-                const float* coefficients, std::size_t fields, float* sums);
+                std::size_t fields, std::span<const RegionSums> regions);
 
 /// sums[face][i] += alpha[i]·Σ_f coefficients[fields[f]][face]·chunk[fields[f]][i] (Eq. 7), the products added
 /// in the order of f with one rounding a term.
