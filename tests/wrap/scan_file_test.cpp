@@ -236,6 +236,39 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   }
 }
 
+// Its slivers lie in each other's boxes: wrapping it took minutes.
+TEST(ScanFile, AFanIsNoSurfaceButACapMayBeOne) {
+  const auto fan = [](std::size_t triangles) {
+    Scan scan;
+    const auto rim = static_cast<Index>(triangles) + 1;
+    scan.positions.resize(rim + 1, 3);
+    scan.positions.row(0) << 1, 2, 3;
+    for (Index i = 0; i < rim; ++i) {
+      const double angle = static_cast<double>(i) / static_cast<double>(rim);
+      scan.positions.row(i + 1) << 1 + std::cos(angle), 2 + std::sin(angle), 4;
+    }
+    for (std::uint32_t t = 0; t < triangles; ++t) scan.triangles.push_back({0, t + 1, t + 2});
+    return scan;
+  };
+  const TemporaryFolder folder;
+  const auto path = folder.write("fan.ply", encode_scan(fan(5000)));
+  expect_error(ExitCode::kBadData,
+               {path.string(), "5000 of its 5000 triangles at one vertex, at (1, 2, 3)"},
+               [&] { read_scan(path); });
+  Scan with_cap = fan(5000);
+  const Scan strip = fan(4000);
+  for (int part = 0; part < 2; ++part) {  // each has less than half
+    Positions positions(with_cap.positions.rows() + strip.positions.rows(), 3);
+    positions << with_cap.positions, strip.positions.array() + 5 * (part + 1);
+    const auto offset = static_cast<std::uint32_t>(with_cap.positions.rows());
+    with_cap.positions = positions;
+    for (const auto& [a, b, c] : strip.triangles) {
+      with_cap.triangles.push_back({a + offset, b + offset, c + offset});
+    }
+  }
+  EXPECT_EQ(read_scan(folder.write("cap.ply", encode_scan(with_cap))).triangles.size(), 13000U);
+}
+
 // Half a megabyte became gigabytes.
 TEST(ScanFile, GlbPrimitivesThatNameTheSameDataTakeNoMoreThanTheFile) {
   const std::string one = R"({"attributes":{"POSITION":0},"indices":1})";

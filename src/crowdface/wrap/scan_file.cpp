@@ -25,6 +25,21 @@ bool has_area(const Scan& scan) {
   });
 }
 
+/// A fan of slivers is a surface to no search: near their vertex they all lie everywhere.
+void refuse_fan(const Scan& scan, const std::string& name) {
+  constexpr std::uint32_t kManyTriangles = 4096;
+  std::vector<std::uint32_t> triangles_at(static_cast<std::size_t>(scan.positions.rows()), 0);
+  for (const Triangle& triangle : scan.triangles) {
+    for (const std::uint32_t vertex : triangle) ++triangles_at[vertex];
+  }
+  const auto most = std::max_element(triangles_at.begin(), triangles_at.end());
+  if (*most < kManyTriangles || *most < scan.triangles.size() / 2) return;
+  const Eigen::Vector3d at = row3(scan.positions, most - triangles_at.begin());
+  throw InvalidInput(concat(name, ": expected a scanned surface, found ", *most, " of its ",
+                            scan.triangles.size(), " triangles at one vertex, at (", at.x(), ", ",
+                            at.y(), ", ", at.z(), ")"));
+}
+
 }  // namespace
 
 Scan read_scan(const std::filesystem::path& path) {
@@ -55,6 +70,7 @@ Scan read_scan(const std::filesystem::path& path) {
     throw InvalidInput(concat(name, ": expected a surface, found triangles without area"));
   }
   weld(scan);
+  refuse_fan(scan, name);
   return without_shells(scan);
 }
 
