@@ -7,6 +7,7 @@
 
 #include "crowdface/blend/crowd_product_kernels.h"
 #include "crowdface/blend/recipe_check.h"
+#include "crowdface/blend/single_face_sums.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 
@@ -14,7 +15,6 @@ namespace crowdface {
 namespace {
 
 constexpr Index kBlocksATask = 8;
-constexpr std::size_t kRegionsAtOnce = 2;  ///< that `add_fields` takes
 
 bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
   return a.weights == b.weights && a.iterations == b.iterations &&
@@ -28,24 +28,6 @@ bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
     if (!blends_alike(band_of(a, i), band_of(b, i))) return false;
   }
   return true;
-}
-
-/// A field's numbers from a vertex on to the end of its tile.
-struct TileField {
-  const std::int16_t* numbers;
-  float step;
-};
-
-TileField field_at(const LevelFields& fields, std::size_t field, std::uint32_t vertex) {
-  static constexpr std::array<std::int16_t, kTileValues> kZeros{};
-  const std::size_t tile = vertex / kFieldTile, at = fields.first[tile] + field;
-  if (at >= fields.first[tile + 1]) return {kZeros.data(), 0};
-  return {fields.numbers.data() + at * kTileValues + 3 * (vertex % kFieldTile), fields.steps[at]};
-}
-
-std::size_t count_at(const LevelFields& fields, std::uint32_t vertex) {
-  const std::size_t tile = vertex / kFieldTile;
-  return fields.first[tile + 1] - fields.first[tile];
 }
 
 }  // namespace
@@ -143,12 +125,12 @@ class CrowdBlender::FieldsAhead {
     pieces_.clear();
     std::size_t lines = 0;
     for (const HeadLevels& head : blender.levels_) {
-      for (const Run& run : block.runs) {
-        const std::size_t count = count_at(head.fields, run.first);
-        if (count == 0 || run.count < kFieldTile)
+      for (const VertexRun& run : block.runs) {
+        const TileFields tile = tile_at(head.fields, run.first);
+        if (tile.count == 0 || run.count < kFieldTile)
           continue;  // of a part of a tile most is not needed
-        pieces_.push_back({field_at(head.fields, 0, run.first).numbers, count * kTileLines});
-        lines += count * kTileLines;
+        pieces_.push_back({tile.numbers, tile.count * kTileLines});
+        lines += tile.count * kTileLines;
       }
     }
     a_time_ = times == 0 ? 0 : (lines + times - 1) / times;
@@ -179,9 +161,9 @@ class CrowdBlender::FieldsAhead {
 std::vector<std::uint8_t> CrowdBlender::fields_at(const Block& block) const {
   std::vector<std::uint8_t> present(field_count(), 0);
   for (std::size_t h = 0; h < levels_.size(); ++h) {
-    for (const Run& run : block.runs) {
+    for (const VertexRun& run : block.runs) {
       const auto first = present.begin() + static_cast<std::ptrdiff_t>(first_field_[h]);
-      std::fill_n(first, count_at(levels_[h].fields, run.first), std::uint8_t{1});
+      std::fill_n(first, tile_at(levels_[h].fields, run.first).count, std::uint8_t{1});
     }
   }
   return present;
@@ -191,17 +173,21 @@ std::vector<std::uint8_t> CrowdBlender::fields_at(const Block& block) const {
 /// much; what is past its last vertex, or of another field, is any number.
 void CrowdBlender::pack(const Block& block, const std::vector<std::uint8_t>& wanted,
                         std::vector<Chunk>& packed) const {
+  static constexpr std::array<std::int16_t, kTileValues> kZeros{};
   packed.resize(kBlockChunks * packed_rows());
   for (std::size_t h = 0; h < levels_.size(); ++h) {
     for (std::size_t field = first_field_[h]; field < first_field_[h + 1]; ++field) {
       if (!wanted[field]) continue;
       std::size_t to = 0;
-      for (const Run& run : block.runs) {
+      for (const VertexRun& run : block.runs) {
         const std::size_t count = std::size_t{3} * run.count;
-        const TileField from = field_at(levels_[h].fields, field - first_field_[h], run.first);
-        unpack(from.numbers, count, from.step, to % kChunkValues,
-               packed[to / kChunkValues * packed_rows() + field].values,
-               packed_rows() * kChunkValues);
+        const TileFields tile = tile_at(levels_[h].fields, run.first);
+        const std::size_t p = field - first_field_[h];
+        const bool there = p < tile.count;
+        unpack(
+            there ? tile.numbers + p * kTileValues + 3 * (run.first % kFieldTile) : kZeros.data(),
+            count, there ? tile.steps[p] : 0, to % kChunkValues,
+            packed[to / kChunkValues * packed_rows() + field].values, packed_rows() * kChunkValues);
         to += count;
       }
     }
@@ -213,7 +199,7 @@ void CrowdBlender::spread_alpha(const Block& block, std::vector<BlockValues>& al
   alpha.assign(block.regions.size(), BlockValues{});
   for (std::size_t k = 0; k < block.regions.size(); ++k) {
     auto to = alpha[k].begin();
-    for (const Run& run : block.runs) {
+    for (const VertexRun& run : block.runs) {
       for (std::uint32_t v = run.first; v < run.first + run.count; ++v, to += 3) {
         std::fill_n(to, 3, static_cast<float>(regions_.alpha(v, block.regions[k])));
       }
@@ -247,52 +233,6 @@ void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& p
   }
 }
 
-/// The same of one face, straight from the fields: nobody else would use what is unpacked.
-/// \param of_region  #regions by #fields
-void CrowdBlender::displacement(const Block& block, const std::vector<BlockValues>& alpha,
-                                const std::vector<std::vector<float>>& of_region,
-                                BlockValues& result) const {
-  result.fill(0);
-  std::array<BlockValues, kRegionsAtOnce> sums;
-  std::array<std::vector<float>, kRegionsAtOnce> in_steps;
-  for (std::size_t first = 0; first < block.regions.size(); first += kRegionsAtOnce) {
-    const std::size_t regions = std::min(kRegionsAtOnce, block.regions.size() - first);
-    for (std::size_t k = 0; k < regions; ++k) sums[k].fill(0);
-    for (std::size_t h = 0; h < levels_.size(); ++h) {
-      const LevelFields& fields = levels_[h].fields;
-      std::array<const float*, kRegionsAtOnce> coefficients{};
-      bool lends = false;
-      for (std::size_t k = 0; k < regions; ++k) {
-        coefficients[k] = of_region[block.regions[first + k]].data() + first_field_[h];
-        lends |= std::any_of(coefficients[k], coefficients[k] + fields.rank,
-                             [](float c) { return c != 0; });
-      }
-      if (!lends) continue;
-      std::size_t to = 0;
-      for (const Run& run : block.runs) {
-        const std::size_t values = std::size_t{3} * run.count;
-        const std::size_t count = count_at(fields, run.first);
-        std::array<RegionSums, kRegionsAtOnce> at{};
-        for (std::size_t k = 0; k < regions; ++k) {
-          in_steps[k].resize(count);
-          for (std::size_t p = 0; p < count; ++p) {
-            in_steps[k][p] = coefficients[k][p] * field_at(fields, p, run.first).step;
-          }
-          at[k] = {in_steps[k].data(), sums[k].data() + to};
-        }
-        add_fields(field_at(fields, 0, run.first).numbers, values, kTileValues, count,
-                   std::span(at).first(regions));
-        to += values;
-      }
-    }
-    for (std::size_t k = 0; k < regions; ++k) {
-      for (std::size_t i = 0; i < 3 * block.count; ++i) {
-        result[i] += alpha[first + k][i] * sums[k][i];
-      }
-    }
-  }
-}
-
 /// The face at the block's vertices: the target's positions and what is added to them.
 void CrowdBlender::write(const Block& block, const Recipe& recipe, const BlockValues& added,
                          Positions& result) const {
@@ -301,7 +241,7 @@ void CrowdBlender::write(const Block& block, const Recipe& recipe, const BlockVa
   };
   const float* more = added.data();
   std::array<double, kBlockValues> mixed;
-  for (const Run& run : block.runs) {
+  for (const VertexRun& run : block.runs) {
     const std::size_t at = std::size_t{3} * run.first, count = std::size_t{3} * run.count;
     const double* base = head(recipe.target) + at;
     if (!recipe.mixture.empty()) {
@@ -325,18 +265,32 @@ void CrowdBlender::prepare(const Recipe& recipe, Positions& result) const {
 template <class Wanted>
 void CrowdBlender::blend_one(const Recipe& recipe, const Wanted& wanted, Positions& result) const {
   prepare(recipe, result);
-  std::vector<std::vector<float>> of_region;
+  WeightedFields fields{{}, first_field_, {}};
+  for (const HeadLevels& head : levels_) fields.heads.push_back(&head.fields);
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    of_region.push_back(coefficients(recipe, k));
+    fields.coefficients.push_back(coefficients(recipe, k));
   }
   parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
+    SingleFaceSums sums(fields);
     std::vector<BlockValues> alpha;
+    std::vector<const float*> alpha_at;
     BlockValues added;
     for (Index b = begin; b < end; ++b) {
       const Block& block = blocks_[static_cast<std::size_t>(b)];
       if (!wanted(block)) continue;
       spread_alpha(block, alpha);
-      displacement(block, alpha, of_region, added);
+      sums.start(block.regions);
+      std::size_t to = 0;
+      for (std::size_t r = 0; r < block.runs.size(); ++r) {
+        alpha_at.clear();
+        for (const BlockValues& of_region : alpha) alpha_at.push_back(of_region.data() + to);
+        const bool last = r + 1 == block.runs.size();
+        const VertexRun& next = !last         ? block.runs[r + 1]
+                                : b + 1 < end ? blocks_[static_cast<std::size_t>(b) + 1].runs[0]
+                                              : block.runs[r];
+        sums.add_up(block.runs[r], next, alpha_at, added.data() + to);
+        to += std::size_t{3} * block.runs[r].count;
+      }
       write(block, recipe, added, result);
     }
     finish_writing();

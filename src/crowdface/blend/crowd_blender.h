@@ -9,6 +9,7 @@
 
 #include "crowdface/blend/crowd_product_kernels.h"
 #include "crowdface/blend/recipe.h"
+#include "crowdface/blend/single_face_sums.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/region/region_weights.h"
 #include "crowdface/smooth/level_fields.h"
@@ -56,14 +57,9 @@ class CrowdBlender {
   static constexpr std::size_t kBlockChunks = kBlockValues / kChunkValues;
   static_assert(kBlockValues % kChunkValues == 0);
 
-  /// Vertices that follow each other in the mesh, of one tile of the fields.
-  struct Run {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
   /// Up to kBlockVertices vertices that the same regions act on.
   struct Block {
-    std::vector<Run> runs;               ///< ascending
+    std::vector<VertexRun> runs;         ///< ascending
     std::size_t count = 0;               ///< of all runs
     std::vector<std::uint32_t> regions;  ///< those with a weight there
   };
@@ -97,8 +93,6 @@ class CrowdBlender {
                      const std::vector<BlockValues>& alpha, const std::vector<std::uint8_t>& wanted,
                      std::span<const Factors> of_region, FieldsAhead& ahead,
                      std::array<BlockValues, kChunkFaces>& result) const;
-  void displacement(const Block& block, const std::vector<BlockValues>& alpha,
-                    const std::vector<std::vector<float>>& of_region, BlockValues& result) const;
   void write(const Block& block, const Recipe& recipe, const BlockValues& added,
              Positions& result) const;
 

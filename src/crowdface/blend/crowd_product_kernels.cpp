@@ -7,6 +7,7 @@
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "crowdface/core/fused_lanes-inl.h"
 
@@ -43,69 +44,68 @@ void unpack(const std::int16_t* numbers, std::size_t count, float step, std::siz
   }
 }
 
+/// body(0) … body(kCount − 1), each with a constant: over arrays of vectors that a loop counts through, GCC
+/// stores them each time.
+template <std::size_t kCount, class Body>
+HWY_INLINE void for_each_index(const Body& body) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (body(std::integral_constant<std::size_t, i>()), ...);
+  }
+  (std::make_index_sequence<kCount>());
+}
+
 /// The sums of kVectors vectors in kRegions regions stay in registers.
 template <std::size_t kVectors, std::size_t kRegions>
-void add_vectors(const std::int16_t* numbers, std::size_t stride, std::size_t fields,
-                 const RegionSums* regions, std::size_t begin) {
+void add_vectors(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
+                 std::size_t begin, const std::int16_t* ahead) {
   const hn::CappedTag<float, kChunkValues / 2> lanes;
   const std::size_t width = hn::Lanes(lanes);
   using V = hn::VFromD<decltype(lanes)>;
-  numbers += begin;
-  V sums[kRegions][kVectors];
-  for (std::size_t k = 0; k < kRegions; ++k) {
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      sums[k][v] = hn::LoadU(lanes, regions[k].sums + begin + v * width);
+  // Lines of the cache that begin among these numbers.
+  constexpr std::size_t kLineNumbers = 64 / sizeof(std::int16_t);
+  const std::size_t first_line = (begin + kLineNumbers - 1) / kLineNumbers * kLineNumbers;
+  V sums[kRegions * kVectors];
+  for_each_index<kRegions * kVectors>([&](auto i) {
+    sums[i] = hn::Load(lanes, regions[i / kVectors].sums + begin + i % kVectors * width);
+  });
+  const float* coefficients[kRegions];
+  for_each_index<kRegions>([&](auto k) { coefficients[k] = regions[k].coefficients; });
+  for (std::size_t f = 0; f < fields; ++f, numbers += kTileValues, ahead += kTileValues) {
+    for (std::size_t i = first_line; i < begin + kVectors * width; i += kLineNumbers) {
+      hwy::Prefetch(ahead + i);
     }
-  }
-  for (std::size_t f = 0; f < fields; ++f, numbers += stride) {
     V factors[kRegions];
-    for (std::size_t k = 0; k < kRegions; ++k) {
-      factors[k] = hn::Set(lanes, regions[k].coefficients[f]);
-    }
-    for (std::size_t v = 0; v < kVectors; v += 2) {  // of the next tile
-      hwy::Prefetch(numbers + fields * stride + v * width);
-    }
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      const V values = widened(lanes, numbers + v * width);
-      for (std::size_t k = 0; k < kRegions; ++k) {
-        sums[k][v] = fused(factors[k], values, sums[k][v]);
-      }
-    }
+    for_each_index<kRegions>([&](auto k) { factors[k] = hn::Set(lanes, coefficients[k][f]); });
+    for_each_index<kVectors>([&](auto v) {
+      const V values = widened(lanes, numbers + begin + v * width);
+      for_each_index<kRegions>([&](auto k) {
+        V& sum = sums[k * kVectors + v];
+        sum = fused(factors[k], values, sum);
+      });
+    });
   }
-  for (std::size_t k = 0; k < kRegions; ++k) {
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      hn::StoreU(sums[k][v], lanes, regions[k].sums + begin + v * width);
-    }
-  }
+  for_each_index<kRegions * kVectors>([&](auto i) {
+    hn::Store(sums[i], lanes, regions[i / kVectors].sums + begin + i % kVectors * width);
+  });
 }
 
 template <std::size_t kRegions>
-void add_in_regions(const std::int16_t* numbers, std::size_t count, std::size_t stride,
-                    std::size_t fields, const RegionSums* regions) {
+void add_in_regions(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
+                    std::size_t begin, std::size_t end, const std::int16_t* ahead) {
   const hn::CappedTag<float, kChunkValues / 2> lanes;
   const std::size_t width = hn::Lanes(lanes);
-  std::size_t i = 0;
-  for (; i + 6 * width <= count; i += 6 * width) {
-    add_vectors<6, kRegions>(numbers, stride, fields, regions, i);
+  std::size_t i = begin / width * width;
+  for (; i + 6 * width <= end; i += 6 * width) {
+    add_vectors<6, kRegions>(numbers, fields, regions, i, ahead);
   }
-  for (; i + width <= count; i += width) {
-    add_vectors<1, kRegions>(numbers, stride, fields, regions, i);
-  }
-  for (; i < count; ++i) {
-    for (std::size_t f = 0; f < fields; ++f) {
-      const auto value = static_cast<float>(numbers[f * stride + i]);
-      for (std::size_t k = 0; k < kRegions; ++k) {
-        float& sum = regions[k].sums[i];
-        sum = std::fma(regions[k].coefficients[f], value, sum);
-      }
-    }
-  }
+  for (; i < end; i += width) add_vectors<1, kRegions>(numbers, fields, regions, i, ahead);
 }
 
-void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
-                std::size_t fields, const RegionSums* regions, std::size_t region_count) {
+void add_fields(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
+                std::size_t region_count, std::size_t begin, std::size_t end,
+                const std::int16_t* ahead) {
   const auto add = region_count == 1 ? add_in_regions<1> : add_in_regions<2>;
-  add(numbers, count, stride, fields, regions);
+  add(numbers, fields, regions, begin, end, ahead);
 }
 
 /// Two vectors of values times six faces: twelve sums stay in registers.
@@ -180,10 +180,11 @@ void unpack(const std::int16_t* numbers, std::size_t count, float step, std::siz
   HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, in_row, row, stride);
 }
 
-void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
-                std::size_t fields, std::span<const RegionSums> regions) {
+void add_fields(const std::int16_t* numbers, std::size_t fields,
+                std::span<const RegionSums> regions, std::size_t begin, std::size_t end,
+                const std::int16_t* ahead) {
   HWY_DYNAMIC_DISPATCH(add_fields)
-  (numbers, count, stride, fields, regions.data(), regions.size());
+  (numbers, fields, regions.data(), regions.size(), begin, end, ahead);
 }
 
 void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,

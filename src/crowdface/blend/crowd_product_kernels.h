@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "crowdface/smooth/field_tile.h"
+
 namespace crowdface {
 
 /// Values of a field that the product works on at a time, and faces it makes of them at a time: what
@@ -17,18 +19,20 @@ inline constexpr std::size_t kChunkFaces = 6;
 void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
             float* row, std::size_t stride);
 
-/// What a face has of its fields in one region.
+/// What a face has of a tile's fields in one region.
 struct RegionSums {
   const float* coefficients;  ///< of each field
-  float* sums;                ///< of each value
+  float* sums;                ///< kTileValues, where vector loads can take them aligned
 };
 
 /// sums[i] += Σ_f coefficients[f]·numbers[f][i] in each region, for one face, in the order and rounding of
-/// `add_product`.
-/// \param numbers  `fields` rows of `count`, `stride` apart
+/// `add_product`, for i from begin to end; some before and after are added up, too.
+/// \param numbers  a tile's: `fields` rows of kTileValues
 /// \param regions  one or two: numbers are read once for both
-void add_fields(const std::int16_t* numbers, std::size_t count, std::size_t stride,
-                std::size_t fields, std::span<const RegionSums> regions);
+/// \param ahead    of a tile whose turn comes soon: memory is asked for as many of its numbers.
+void add_fields(const std::int16_t* numbers, std::size_t fields,
+                std::span<const RegionSums> regions, std::size_t begin, std::size_t end,
+                const std::int16_t* ahead);
 
 /// sums[face][i] += alpha[i]·Σ_f coefficients[fields[f]][face]·chunk[fields[f]][i] (Eq. 7), the products added
 /// in the order of f with one rounding a term.
