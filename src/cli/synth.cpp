@@ -82,8 +82,9 @@ void synth(const Options& options) {
   }
   std::optional<SyntheticSkins> skins;
   if (!options.textures.empty()) {
-    skins.emplace(static_cast<int>(
-        whole_number("--textures", options.textures, kLeastTexture, kMostTexture)));
+    skins.emplace(
+        static_cast<int>(whole_number("--textures", options.textures, kLeastTexture, kMostTexture)),
+        painted);
     if (materials.empty()) materials.push_back({"skin", 0});
   }
   std::vector<HeadFile> files;

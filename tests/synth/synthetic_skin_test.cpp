@@ -68,6 +68,19 @@ TEST(SyntheticSkins, EveryToneOccursAndShows) {
   EXPECT_GT(lightest, 2 * darkest);
 }
 
+// A face that is mixed of haired heads may be bald.
+TEST(SyntheticSkins, UnderHairInCardsTheCrownIsSkinWithRoots) {
+  const SyntheticSkins under_hair(kSize, SyntheticHeads::Scalp::kShorn);
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const std::vector<std::uint8_t> rooted = under_hair.albedo(1, i), haired = skins().albedo(1, i);
+    const Colour skin = colour_near(haired, kForehead, 1);
+    EXPECT_EQ(colour_near(rooted, kCheek, 1).matrix(), colour_near(haired, kCheek, 1).matrix());
+    EXPECT_LT((colour_near(rooted, kCrown, 3) - skin).matrix().norm(),
+              0.6 * (colour_near(haired, kCrown, 3) - skin).matrix().norm())
+        << i;
+  }
+}
+
 TEST(SyntheticSkins, LipsAreRedderThanTheForeheadAndCheeksAreNotGrey) {
   for (std::uint64_t i = 0; i < 6; ++i) {
     const std::vector<std::uint8_t> albedo = skins().albedo(1, i);
@@ -146,7 +159,9 @@ TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
       const Colour colour(albedo[3 * t], albedo[3 * t + 1], albedo[3 * t + 2]);
       if (flat > 0.22 && flat < 0.36) in_iris += colour, ++irises;
       if (flat > 0.5 && flat < 0.7) white += colour, ++whites;
-      if (flat < 0.1) EXPECT_LT(colour.maxCoeff(), 30) << "the pupil";
+      if (flat < 0.1) {
+        EXPECT_LT(colour.maxCoeff(), 30) << "the pupil";
+      }
     }
     ASSERT_GT(irises, 10);
     EXPECT_LT((in_iris / irises - iris).abs().maxCoeff(), 25) << i;

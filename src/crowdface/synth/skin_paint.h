@@ -12,7 +12,9 @@ namespace crowdface::synth {
 /// Colours the skin of one person.
 class SkinPaint {
  public:
-  SkinPaint(std::uint64_t seed, std::uint64_t index);
+  /// \param scalp_hair  how much of the hair's colour the scalp has where it grows: 1 all, as where it is all the hair
+  ///                    that there is.
+  SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair);
 
   ScreenColour at(const SkinPlace& place) const;
   /// 0 … 1.
@@ -31,6 +33,7 @@ class SkinPaint {
   double brow_cover(const Vector& p) const;
   double beard_cover(const Vector& p, double strand) const;
   double beard_length(const Vector& p) const;
+  double scalp_cover(const Vector& p, double lock) const;
   SmoothNoise noise(std::uint64_t lane, double spacing) const;
 
   std::uint64_t seed_, index_;
@@ -39,6 +42,7 @@ class SkinPaint {
   Relief relief_;
   SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_;
   Hair hair_;
+  double scalp_hair_;
 };
 
 }  // namespace crowdface::synth

@@ -14,18 +14,23 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kBlock = 4096;
+/// Under hair in cards only its roots are in the skin. More of them would be seen on the bald crowns of faces
+/// that are mixed from haired heads.
+constexpr double kRoots = 0.3;
 
 }  // namespace
 
 struct SyntheticSkins::State {
   int size;
+  double scalp_hair;
   std::vector<synth::SkinPlace> atlas;
   double texel_cm = 0;
 };
 
-SyntheticSkins::SyntheticSkins(int size) {
+SyntheticSkins::SyntheticSkins(int size, SyntheticHeads::Scalp scalp) {
   require(size >= 64 && size <= 8192, "textures of ", size, " texels");
-  state_ = std::make_unique<State>(State{size, synth::skin_atlas(size)});
+  state_ = std::make_unique<State>(
+      State{size, scalp == SyntheticHeads::Scalp::kShorn ? kRoots : 1.0, synth::skin_atlas(size)});
   state_->texel_cm = synth::texel_cm(size, state_->atlas);
 }
 SyntheticSkins::~SyntheticSkins() = default;
@@ -37,7 +42,7 @@ int SyntheticSkins::size() const {
 }
 
 std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
-  const synth::SkinPaint paint(seed, index);
+  const synth::SkinPaint paint(seed, index, state_->scalp_hair);
   std::vector<std::uint8_t> bytes(3 * state_->atlas.size());
   parallel_for_each(state_->atlas.size(), kBlock, [&](std::size_t i) {
     const synth::ScreenColour colour = paint.at(state_->atlas[i]);
@@ -58,7 +63,7 @@ std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint6
 }
 
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
-  const synth::SkinPaint paint(seed, index);
+  const synth::SkinPaint paint(seed, index, state_->scalp_hair);
   std::vector<std::uint8_t> bytes(state_->atlas.size());
   parallel_for_each(bytes.size(), kBlock, [&](std::size_t i) {
     bytes[i] = synth::to_byte(paint.roughness_at(state_->atlas[i]));

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "crowdface/synth/synthetic_head.h"
+
 namespace crowdface {
 
 /// Textures of synthetic heads' skin, painted from who each of them is. Colours: tone, redness, brows, lips,
@@ -12,7 +14,8 @@ namespace crowdface {
 class SyntheticSkins {
  public:
   /// \param size  side of the pictures in texels, 64 … 8,192. \throws BrokenPrecondition
-  explicit SyntheticSkins(int size);
+  /// \param scalp  that of the heads
+  explicit SyntheticSkins(int size, SyntheticHeads::Scalp scalp = SyntheticHeads::Scalp::kHaired);
   ~SyntheticSkins();
   SyntheticSkins(SyntheticSkins&&) noexcept;
   SyntheticSkins& operator=(SyntheticSkins&&) noexcept;
