@@ -226,10 +226,10 @@ TEST_F(EditCommandTest, OpensTheFacesThatWereGenerated) {
 
 TEST_F(EditCommandTest, RegionsComeAndGoInTheConfig) {
   const auto names = [&] {
-    std::vector<std::string> names;
+    std::vector<std::string> found;
     const Json job = Json::parse(get("api/job")->body);
-    for (const Json& region : job["regions"]) names.push_back(region["name"]);
-    return names;
+    for (const Json& region : job["regions"]) found.push_back(region["name"]);
+    return found;
   };
   const auto error = [](const httplib::Result& answer) {
     EXPECT_EQ(answer->status, 400);

@@ -37,7 +37,9 @@ TEST(RayScene, AnyNumberOfRaysMeetsASquare) {
     for (std::size_t r = 0; r < count; ++r) {
       EXPECT_EQ(blocked[r], r % 3 != 2) << r;
       ASSERT_EQ(hits[r].has_value(), r % 3 != 2) << r;
-      if (hits[r]) EXPECT_FLOAT_EQ(hits[r]->distance, 2);
+      if (hits[r]) {
+        EXPECT_FLOAT_EQ(hits[r]->distance, 2);
+      }
     }
   }
 }

@@ -483,7 +483,9 @@ TEST(Casting, ChildrenOfAGroupAreMadeOfItsHeads) {
     }
     EXPECT_EQ(line.at("group"), female ? "women" : "men");
     // Of the women bob has most in common with dan and is nobody's parent.
-    if (family == "heads") EXPECT_TRUE(heads.contains("bob"));
+    if (family == "heads") {
+      EXPECT_TRUE(heads.contains("bob"));
+    }
   }
   EXPECT_EQ(children, (std::map<std::string, int>{{"girls", 2}, {"boys", 2}, {"heads", 1}}));
 }
