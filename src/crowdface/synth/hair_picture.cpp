@@ -12,7 +12,8 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::size_t kStrands = 13;  // a strip
+constexpr std::size_t kStrands = 13;          // a strip
+constexpr double kAcross = 4.5, kDown = 2.3;  // of short curls on the strip below the cards
 
 struct Strand {
   double place = 0;  ///< across all strips, a strip is 1
@@ -42,6 +43,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
   const std::vector<Strand> strands = draw_strands();
   const SmoothNoise bends(mix(3, curly ? 1 : 0, 8), curly ? 0.09 : 0.3);
   const double swing = curly ? 0.1 : 0.05;
+  const SmoothNoise clumps(mix(3, 1, 9), 0.11);
   const auto side = static_cast<std::size_t>(size);
   std::vector<std::uint8_t> bytes(4 * side * side);
   for (std::size_t y = 0; y < side; ++y) {
@@ -54,7 +56,13 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       const auto strip = static_cast<std::size_t>(u);
       const bool below = strip >= kCardStrips;
       double cover = below ? smooth_step(0.9, 0.72, t) : 0, light = below ? 0.8 : 0.7;
-      for (std::size_t s = strip * kStrands; s < (strip + 1) * kStrands; ++s) {
+      const bool strands_show = !below || !curly;
+      if (!strands_show) {  // short curls in the shade of the rest
+        const double clump = clumps.at({kAcross * u, kDown * t, 0});
+        light = 0.6 + 0.3 * clump;
+        cover = smooth_step(0.95, 0.7, t + 0.12 * clump);
+      }
+      for (std::size_t s = strip * kStrands; strands_show && s < (strip + 1) * kStrands; ++s) {
         const Strand& strand = strands[s];
         const double half = strand.half * (1 - 0.8 * smooth_step(0.5, 1, t / strand.end));
         const double across = (u - middles[s]) / half;
