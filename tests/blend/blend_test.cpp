@@ -389,6 +389,33 @@ TEST_F(Blend, AFaceHasTheSameBitsInCompanyWhereRegionsComeInStripes) {
   for (std::size_t f = 0; f < crowd.size(); ++f) EXPECT_EQ(together[f], blend.blend(crowd[f])) << f;
 }
 
+/// A face alone adds up two regions at a time, of the heads that lend to any of those.
+TEST_F(Blend, AFaceHasTheSameBitsAloneWhereManyRegionsOverlap) {
+  RegionWeights five = two_;
+  five.alpha.setZero(two_.alpha.rows(), 5);
+  for (Index v = 0; v < five.alpha.rows(); ++v) {
+    const Index count = 1 + v % 5;
+    for (Index k = 0; k < count; ++k)
+      five.alpha(v, (v / 7 + k) % 5) = 1.0 / static_cast<double>(count);
+  }
+  const std::vector<CubicFit> fits = cubic_fits(50);
+  const CrowdBlender blend = blender(fits, five);
+  const Recipe some = recipe(0, {region({{1, 1}}, 5, 0.9), region({{0, 1}}, 7), region({{2, 1}}, 9),
+                                 region({{0, 1}}, 7), region({{1, 0.5}, {2, 0.5}}, 30, 1.1)});
+  const Recipe other = recipe(1, {region({{1, 1}}, 5), region({{1, 1}}, 5), region({{1, 1}}, 5),
+                                  region({{1, 1}}, 5), region({{2, 1}}, 11)});
+  const std::vector<const Recipe*> both = {&some, &other};
+  std::vector<Positions> together(2);
+  blend.blend(both, together);
+  EXPECT_NE(together[0], head(0));
+  for (const std::string& name : instruction_sets()) {
+    use_instruction_set(name);
+    EXPECT_EQ(together[0], blend.blend(some)) << name;
+    EXPECT_EQ(together[1], blend.blend(other)) << name;
+  }
+  use_instruction_set(instruction_sets().front());
+}
+
 TEST_F(Blend, RimsKeepTheTargetsBitsWithFittedLevels) {
   const std::vector<CubicFit> fits = cubic_fits(50);
   const Positions face =
