@@ -3,6 +3,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -31,11 +32,20 @@ constexpr const char* kFunction = "crowdface_image_codec";
 
 constexpr unsigned kLongestStart = 60;  ///< seconds
 
+volatile std::sig_atomic_t starting = 0;
+
+/// Called by exit(), which libgfortran calls where it gets no memory to start.
+void end_if_starting() {
+  if (starting != 0) end_without_libraries(0);
+}
+
 /// While it lives, a library that ends the program because it gets no memory to start does so in our words;
 /// likewise one that waits for ever, as a logger among them does for a thread that could not start.
 class StartOfLibraries {
  public:
   StartOfLibraries() {
+    [[maybe_unused]] static const int registered = std::atexit(end_if_starting);
+    starting = 1;
     struct sigaction action {};
     action.sa_handler = end_without_libraries;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
@@ -45,6 +55,7 @@ class StartOfLibraries {
     end_before_ = std::set_terminate([] { end_without_libraries(0); });
   }
   ~StartOfLibraries() {
+    starting = 0;
     std::set_terminate(end_before_);
     ::alarm(0);
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
