@@ -14,7 +14,13 @@ std::vector<fs::path> list_files(const fs::path& folder,
                                  std::error_code* error) {
   if (error != nullptr) {
     const fs::directory_iterator opened(folder, *error);
-    if (*error) return {};
+    for (const std::errc none :
+         {std::errc::no_such_file_or_directory, std::errc::not_a_directory,
+          std::errc::filename_too_long, std::errc::too_many_symbolic_link_levels,
+          std::errc::permission_denied}) {
+      if (*error == none) return {};
+    }
+    error->clear();  // a failure of the disk is told as such
   }
   std::vector<fs::path> files = list_folder(folder);
   std::erase_if(files, [&](const fs::path& path) { return !is_wanted(path); });
