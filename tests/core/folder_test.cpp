@@ -23,6 +23,13 @@ TEST(ListFolder, NamesComeInOrderAndWhatIsNoFolderHasNone) {
   EXPECT_THAT(list_folder(in), ElementsAre(in / ".hidden", in / "a", in / "b", in / "sub"));
   EXPECT_THAT(list_folder(folder / "none"), IsEmpty());
   EXPECT_THAT(list_folder(in / "a"), IsEmpty());
+  std::error_code error;
+  EXPECT_THAT(list_folder(in / "sub", &error), ElementsAre(in / "sub/c"));
+  EXPECT_FALSE(error);
+  EXPECT_THAT(list_folder(folder / "none", &error), IsEmpty());
+  EXPECT_EQ(error, std::errc::no_such_file_or_directory);
+  EXPECT_THAT(list_folder(in / "a", &error), IsEmpty());
+  EXPECT_EQ(error, std::errc::not_a_directory);
 }
 
 TEST(FoldersFrom, LinksAreNotFollowed) {

@@ -24,13 +24,15 @@ struct CloseFolder {
 
 }  // namespace
 
-std::vector<fs::path> list_folder(const fs::path& folder) {
+std::vector<fs::path> list_folder(const fs::path& folder, std::error_code* error) {
   const std::string name = folder.empty() ? "." : folder.string();
   const std::unique_ptr<DIR, CloseFolder> opened(::opendir(name.c_str()));
   if (!opened) {
-    for (const int none : {ENOENT, ENOTDIR, ENAMETOOLONG, ELOOP}) {
-      if (errno == none) return {};
-    }
+    const int why = errno;
+    const bool missing = why == ENOENT || why == ENOTDIR || why == ENAMETOOLONG || why == ELOOP;
+    const bool told = error != nullptr && (missing || why == EACCES);
+    if (told) *error = std::error_code(why, std::generic_category());
+    if (told || missing) return {};
   }
   std::vector<fs::path> found;
   if (opened) {

@@ -3,13 +3,16 @@
 
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 namespace crowdface {
 
 /// What stands in a folder, in the order of the names; nothing if there is no such folder.
-/// \throws IoError unless all of it could be read.
-std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder);
+/// \param error  set if there is none or it may not be read.
+/// \throws IoError unless all of it could be read; without `error` if it may not be read, too.
+std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder,
+                                               std::error_code* error = nullptr);
 
 /// A folder and all folders below it, parents first; links are not followed.
 /// \throws IoError like list_folder.

@@ -56,21 +56,21 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       const auto strip = static_cast<std::size_t>(u);
       const bool below = strip >= kCardStrips;
       double cover = below ? smooth_step(0.9, 0.72, t) : 0, light = below ? 0.8 : 0.7;
-      const bool strands_show = !below || !curly;
-      if (!strands_show) {  // short curls in the shade of the rest
+      if (below && curly) {  // short curls in the shade of the rest
         const double clump = clumps.at({kAcross * u, kDown * t, 0});
         light = 0.6 + 0.3 * clump;
         cover = smooth_step(0.95, 0.7, t + 0.12 * clump);
-      }
-      for (std::size_t s = strip * kStrands; strands_show && s < (strip + 1) * kStrands; ++s) {
-        const Strand& strand = strands[s];
-        const double half = strand.half * (1 - 0.8 * smooth_step(0.5, 1, t / strand.end));
-        const double across = (u - middles[s]) / half;
-        const bool there = t < strand.end && (below || t >= strand.start);
-        const double inside = there ? smooth_step(1.2, 0.7, std::abs(across)) : 0.0;
-        if (inside <= 0) continue;
-        light += inside * (strand.light * (1 - 0.25 * std::min(1.0, across * across)) - light);
-        cover = std::max(cover, inside);
+      } else {
+        for (std::size_t s = strip * kStrands; s < (strip + 1) * kStrands; ++s) {
+          const Strand& strand = strands[s];
+          const double half = strand.half * (1 - 0.8 * smooth_step(0.5, 1, t / strand.end));
+          const double across = (u - middles[s]) / half;
+          const bool there = t < strand.end && (below || t >= strand.start);
+          const double inside = there ? smooth_step(1.2, 0.7, std::abs(across)) : 0.0;
+          if (inside <= 0) continue;
+          light += inside * (strand.light * (1 - 0.25 * std::min(1.0, across * across)) - light);
+          cover = std::max(cover, inside);
+        }
       }
       if (!below)
         light *= 0.7 + 0.3 * smooth_step(0, 0.35, t);  // roots lie in the shade of the rest
