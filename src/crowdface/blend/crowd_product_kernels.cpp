@@ -7,7 +7,6 @@
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "crowdface/core/fused_lanes-inl.h"
 
@@ -44,16 +43,6 @@ void unpack(const std::int16_t* numbers, std::size_t count, float step, std::siz
   }
 }
 
-/// body(0) … body(kCount − 1), each with a constant: over arrays of vectors that a loop counts through, GCC
-/// stores them each time.
-template <std::size_t kCount, class Body>
-HWY_INLINE void for_each_index(const Body& body) {
-  [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (body(std::integral_constant<std::size_t, i>()), ...);
-  }
-  (std::make_index_sequence<kCount>());
-}
-
 /// The sums of kVectors vectors in kRegions regions stay in registers.
 template <std::size_t kVectors, std::size_t kRegions>
 void add_vectors(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
@@ -64,29 +53,33 @@ void add_vectors(const std::int16_t* numbers, std::size_t fields, const RegionSu
   // Lines of the cache that begin among these numbers.
   constexpr std::size_t kLineNumbers = 64 / sizeof(std::int16_t);
   const std::size_t first_line = (begin + kLineNumbers - 1) / kLineNumbers * kLineNumbers;
-  V sums[kRegions * kVectors];
-  for_each_index<kRegions * kVectors>([&](auto i) {
-    sums[i] = hn::Load(lanes, regions[i / kVectors].sums + begin + i % kVectors * width);
-  });
-  const float* coefficients[kRegions];
-  for_each_index<kRegions>([&](auto k) { coefficients[k] = regions[k].coefficients; });
+  numbers += begin;
+  V sums[kRegions][kVectors];
+  for (std::size_t k = 0; k < kRegions; ++k) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      sums[k][v] = hn::Load(lanes, regions[k].sums + begin + v * width);
+    }
+  }
   for (std::size_t f = 0; f < fields; ++f, numbers += kTileValues, ahead += kTileValues) {
     for (std::size_t i = first_line; i < begin + kVectors * width; i += kLineNumbers) {
       hwy::Prefetch(ahead + i);
     }
     V factors[kRegions];
-    for_each_index<kRegions>([&](auto k) { factors[k] = hn::Set(lanes, coefficients[k][f]); });
-    for_each_index<kVectors>([&](auto v) {
-      const V values = widened(lanes, numbers + begin + v * width);
-      for_each_index<kRegions>([&](auto k) {
-        V& sum = sums[k * kVectors + v];
-        sum = fused(factors[k], values, sum);
-      });
-    });
+    for (std::size_t k = 0; k < kRegions; ++k) {
+      factors[k] = hn::Set(lanes, regions[k].coefficients[f]);
+    }
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const V values = widened(lanes, numbers + v * width);
+      for (std::size_t k = 0; k < kRegions; ++k) {
+        sums[k][v] = fused(factors[k], values, sums[k][v]);
+      }
+    }
   }
-  for_each_index<kRegions * kVectors>([&](auto i) {
-    hn::Store(sums[i], lanes, regions[i / kVectors].sums + begin + i % kVectors * width);
-  });
+  for (std::size_t k = 0; k < kRegions; ++k) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      hn::Store(sums[k][v], lanes, regions[k].sums + begin + v * width);
+    }
+  }
 }
 
 template <std::size_t kRegions>
