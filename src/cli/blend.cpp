@@ -45,13 +45,13 @@ void check_levels(const Recipe& recipe, const Job& job, const std::string& refer
   }
 }
 
-struct Options : CommonOptions {
+struct BlendOptions : CommonOptions {
   ConfigOptions config;
   std::string recipe, out;
   bool any_settings = false;
 };
 
-void declare(CLI::App& command, Options& options) {
+void declare_blend(CLI::App& command, BlendOptions& options) {
   options.config.add_to(command);
   add_option(command, "--recipe", options.recipe, "PLAN.jsonl#ID",
              "Which: the plan's file, #, the face's id")
@@ -63,7 +63,7 @@ void declare(CLI::App& command, Options& options) {
            "Blend even if heads, masks or smoothing differ from the plan's");
 }
 
-void blend(const Options& options) {
+void blend(const BlendOptions& options) {
   const auto format = mesh_format_of(options.out);
   if (!format) {
     throw UsageError(
@@ -101,7 +101,7 @@ void blend(const Options& options) {
 }  // namespace
 
 Run add_blend(CLI::App& program) {
-  return add_command(program, "blend", "One face from its recipe in a plan", declare, blend);
+  return add_command(program, "blend", "One face from its recipe in a plan", declare_blend, blend);
 }
 
 }  // namespace crowdface::cli

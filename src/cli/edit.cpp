@@ -10,13 +10,13 @@
 namespace crowdface::cli {
 namespace {
 
-struct Options : CommonOptions {
+struct EditorOptions : CommonOptions {
   ConfigOptions config;
   std::string port = "0", preview_vertices = "50000";
   bool no_browser = false, benchmark = false, hash_all = false;
 };
 
-void declare(CLI::App& command, Options& options) {
+void declare_edit(CLI::App& command, EditorOptions& options) {
   options.config.add_to(command);
   add_option(command, "--port", options.port, "N",
              "The port on 127.0.0.1 to serve at; 0: any that is free");
@@ -29,7 +29,7 @@ void declare(CLI::App& command, Options& options) {
   add_flag(command, "--no-browser", options.no_browser, "Open no browser, print the address only");
 }
 
-void edit(const Options& options) {
+void edit(const EditorOptions& options) {
   constexpr std::uint64_t kLargestPort = 65535, kMostVertices = 10'000'000;
   EditOptions edited;
   edited.cache = options.config.cache_path();
@@ -51,7 +51,7 @@ void edit(const Options& options) {
 
 Run add_edit(CLI::App& program) {
   return add_command(program, "edit", "Direct faces by hand, in a page of this machine's browser",
-                     declare, edit);
+                     declare_edit, edit);
 }
 
 }  // namespace crowdface::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -9,6 +10,10 @@
 #include "crowdface/io/encoded_file.h"
 
 namespace crowdface::cli {
+
+constexpr std::uint64_t kMostMade = 1000;  ///< heads of a command
+constexpr int kMaskSize = 1024;            ///< pixels of a side, as those of textures are
+constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
 
 /// A file of a folder of heads; the command line alone determines what it holds.
 struct HeadFile {

@@ -26,12 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostHeads = 1000;
 constexpr std::uint64_t kFewestVertices = 1000, kMostVertices = 2'000'000;
-constexpr int kMaskSize = 1024;
-constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
 
-struct Options : CommonOptions {
+struct ImportOptions : CommonOptions {
   std::string model, data, out, count = "16", seed = "1", vertices, textures;
   bool dress = false, force = false;
 };
@@ -67,7 +64,7 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
 /// Made before anything is written: a model without eyes or teeth has none.
 /// \param first  as paint_masks takes them.
 template <class Model>
-PaintedMasks masks_of(const Model& model, const Options& options,
+PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                       const std::vector<bool>& first = {}) {
   const Mesh& neutral = model.neutral();
   const FaceHeights heights = model.heights();
@@ -99,7 +96,7 @@ std::vector<bool> skin_of(const MakeHumanHeads& model) {
   return skin;
 }
 
-void import_makehuman(const Options& options, const Wanted& wanted) {
+void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
   if (!options.dress && !options.textures.empty()) {
     throw UsageError("--textures: heads without --dress have no textures");
   }
@@ -156,7 +153,7 @@ void import_makehuman(const Options& options, const Wanted& wanted) {
   }
 }
 
-void import_ict(const Options& options, const Wanted& wanted) {
+void import_ict(const ImportOptions& options, const Wanted& wanted) {
   if (options.dress || !options.textures.empty()) {
     throw UsageError("--dress and --textures: only makehuman heads can be dressed");
   }
@@ -186,8 +183,8 @@ void import_ict(const Options& options, const Wanted& wanted) {
                   wanted.directory.string(), "; the model knows no sex and no age: no tags"));
 }
 
-void import_heads(const Options& options) {
-  const Wanted wanted{options.out, whole_number("--count", options.count, 0, kMostHeads),
+void import_heads(const ImportOptions& options) {
+  const Wanted wanted{options.out, whole_number("--count", options.count, 0, kMostMade),
                       whole_number("--seed", options.seed, 0, UINT64_MAX)};
   if (options.model == "makehuman") {
     import_makehuman(options, wanted);
@@ -196,7 +193,7 @@ void import_heads(const Options& options) {
   }
 }
 
-void declare(CLI::App& command, Options& options) {
+void declare_import(CLI::App& command, ImportOptions& options) {
   add_option(command, "model", options.model, "MODEL", "makehuman or ict")
       .required()
       .one_of({"makehuman", "ict"});
@@ -221,8 +218,8 @@ void declare(CLI::App& command, Options& options) {
 
 Run add_import(CLI::App& program) {
   return add_command(program, "import",
-                     "Heads of a morphable model that you have: MakeHuman or ICT-FaceKit", declare,
-                     import_heads);
+                     "Heads of a morphable model that you have: MakeHuman or ICT-FaceKit",
+                     declare_import, import_heads);
 }
 
 }  // namespace crowdface::cli

@@ -71,12 +71,12 @@ std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
   return found;
 }
 
-struct Options : CommonOptions {
+struct InitOptions : CommonOptions {
   std::string heads, out = "crowd.yaml";
   bool force = false;
 };
 
-void declare(CLI::App& command, Options& options) {
+void declare_init(CLI::App& command, InitOptions& options) {
   add_option(command, "heads", options.heads, "HEADS_DIR", "The folder").required();
   add_option(command, "-o,--output", options.out, "CONFIG", "The config to write");
   add_flag(command, "--force", options.force, "Replace an existing file");
@@ -150,7 +150,7 @@ void refuse_existing(const fs::path& file, bool force) {
   }
 }
 
-void init(const Options& options) {
+void init(const InitOptions& options) {
   const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
   if (files.size() < kFewestHeads || files.size() > kMostHeads) {
@@ -215,7 +215,7 @@ void init(const Options& options) {
 
 Run add_init(CLI::App& program) {
   return add_command(program, "init", "Write a commented starter config for a folder of heads",
-                     declare, init);
+                     declare_init, init);
 }
 
 }  // namespace crowdface::cli

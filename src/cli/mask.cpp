@@ -22,20 +22,20 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLeastSize = 64, kMostSize = 8192;
 
-struct Options : CommonOptions {
+struct MaskOptions : CommonOptions {
   std::string heads, out, bands = "brow,nose,mouth", size, up, front;
   CacheOption cache;
   bool force = false;
 };
 
 /// Which heads, and which way a config says that they look.
-struct Wanted {
+struct WantedMask {
   Config::Faces faces;
   std::optional<Bearing> bearing;
 };
 
-Wanted heads_of_folder(const fs::path& folder) {
-  Wanted wanted;
+WantedMask heads_of_folder(const fs::path& folder) {
+  WantedMask wanted;
   wanted.faces.files = list_heads(folder);
   if (wanted.faces.files.empty()) {
     throw MissingInput(concat(folder.string(), ": expected OBJ files, found none"));
@@ -47,7 +47,7 @@ Wanted heads_of_folder(const fs::path& folder) {
 }
 
 /// Of a config no more need be right than its heads: the mask that it names may not be there yet.
-Wanted heads_of_config(const fs::path& file) {
+WantedMask heads_of_config(const fs::path& file) {
   Problems problems;
   const ConfigReading reading = read_config_parts(file, {}, problems);
   if (!reading.heads_known) problems.throw_if_any();
@@ -63,7 +63,7 @@ void read_axis(const std::string& option, const std::string& text, Axis& axis) {
   axis = *read;
 }
 
-Bearing bearing_of(const Options& options, const Wanted& wanted, const Topology& topology,
+Bearing bearing_of(const MaskOptions& options, const WantedMask& wanted, const Topology& topology,
                    const HeadShape& mean) {
   Bearing bearing = wanted.bearing.value_or(Bearing{{1, 1}, {2, 1}});
   if (options.up.empty() && options.front.empty() && !wanted.bearing) {
@@ -77,13 +77,13 @@ Bearing bearing_of(const Options& options, const Wanted& wanted, const Topology&
   return bearing;
 }
 
-void mask(const Options& options) {
+void mask(const MaskOptions& options) {
   const std::vector<Band> bands = parse_bands(options.bands);
   const fs::path out = options.out;
   if (out.extension() != ".png") {
     throw UsageError(concat("-o: expected a PNG file, found ", quoted(options.out)));
   }
-  const Wanted wanted =
+  const WantedMask wanted =
       is_folder(options.heads) ? heads_of_folder(options.heads) : heads_of_config(options.heads);
   Problems problems;
   const auto faces = load_faces(wanted.faces, options.cache.cache_path(), problems);
@@ -107,7 +107,7 @@ void mask(const Options& options) {
                   " up; crowdface check CONFIG --masks DIR draws their regions"));
 }
 
-void declare(CLI::App& command, Options& options) {
+void declare_mask(CLI::App& command, MaskOptions& options) {
   add_option(command, "heads", options.heads, "HEADS_DIR|CONFIG", "A folder of heads, or a config")
       .required();
   add_option(command, "-o,--output", options.out, "FILE.png",
@@ -128,8 +128,8 @@ void declare(CLI::App& command, Options& options) {
 
 Run add_mask(CLI::App& program) {
   return add_command(program, "mask",
-                     "Propose a region mask from the heads' own shape: brow, nose, mouth", declare,
-                     mask);
+                     "Propose a region mask from the heads' own shape: brow, nose, mouth",
+                     declare_mask, mask);
 }
 
 }  // namespace crowdface::cli

@@ -20,7 +20,7 @@
 namespace crowdface::cli {
 namespace {
 
-struct Options : CommonOptions {
+struct SmoothOptions : CommonOptions {
   std::string in, out, iterations;
   Boundary boundary = Boundary::kFixed;
   OperatorKind operator_kind = OperatorKind::kUmbrella;
@@ -40,13 +40,13 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
 }
 
 /// Where a level goes: OUT.obj itself, or OUT_500.obj beside its like if there are several.
-std::filesystem::path output_of(const Options& options, std::uint64_t level, bool alone) {
+std::filesystem::path output_of(const SmoothOptions& options, std::uint64_t level, bool alone) {
   if (alone) return options.out;
   const std::filesystem::path path = options.out;
   return path.parent_path() / concat(path.stem().string(), '_', level, path.extension().string());
 }
 
-void smooth_file(const Options& options) {
+void smooth_file(const SmoothOptions& options) {
   const std::vector<std::uint64_t> levels = levels_of(options.iterations);
   if (mesh_format_of(options.out) != MeshFormat::kObj) {
     throw UsageError(
@@ -89,7 +89,7 @@ void add_word_option(CLI::App& command, const char* name, Value& value, const ch
       .shown_default(std::string(word_of(value)));
 }
 
-void declare(CLI::App& command, Options& options) {
+void declare_smooth(CLI::App& command, SmoothOptions& options) {
   add_option(command, "input", options.in, "IN.obj", "The mesh").required();
   add_option(command, "--iterations", options.iterations, "L[,L...]",
              "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
@@ -107,7 +107,7 @@ void declare(CLI::App& command, Options& options) {
 
 Run add_smooth(CLI::App& program) {
   return add_command(program, "smooth", "Laplacian smoothing on its own: S_L of one mesh (Eq. 1)",
-                     declare, smooth_file);
+                     declare_smooth, smooth_file);
 }
 
 }  // namespace crowdface::cli

@@ -17,14 +17,14 @@
 namespace crowdface::cli {
 namespace {
 
-struct Options : CommonOptions {
+struct StatusOptions : CommonOptions {
   std::string directory;
   bool json = false;
   bool watch = false;
   std::string every = "5";
 };
 
-void declare(CLI::App& command, Options& options) {
+void declare_status(CLI::App& command, StatusOptions& options) {
   add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder").required();
   add_flag(command, "--json", options.json, "As one JSON object on one line");
   add_flag(command, "--watch", options.watch, "Look again and again until the crowd is finished");
@@ -40,7 +40,7 @@ void wait(std::uint64_t seconds) {
   }
 }
 
-void show(const Options& options) {
+void show(const StatusOptions& options) {
   constexpr std::uint64_t kMostSeconds = 86'400;
   const std::uint64_t every = whole_number("--every", options.every, 1, kMostSeconds);
   const bool renew = options.watch && !options.json && ::isatty(STDOUT_FILENO) == 1;
@@ -58,8 +58,8 @@ void show(const Options& options) {
 
 Run add_status(CLI::App& program) {
   return add_command(program, "status",
-                     "How far a crowd is that this or other machines are at work on", declare,
-                     show);
+                     "How far a crowd is that this or other machines are at work on",
+                     declare_status, show);
 }
 
 }  // namespace crowdface::cli

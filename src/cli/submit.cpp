@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : CommonOptions {
+struct SubmitOptions : CommonOptions {
   ConfigOptions config;
   std::string engine = "slurm", shards, prepares, processors = "1", memory, scratch, program;
   std::string grace = "60";
@@ -30,7 +30,7 @@ struct Options : CommonOptions {
   bool print = false;
 };
 
-void declare(CLI::App& command, Options& options) {
+void declare_submit(CLI::App& command, SubmitOptions& options) {
   options.config.add_to(command);
   options.config.add_review_to(command);
   add_option(command, "--engine", options.engine, "NAME", "slurm, parallel or openjd");
@@ -85,7 +85,7 @@ Engine engine_from(const std::string& name) {
 }
 
 /// \throws UsageError if the engine has no use for an option that was given.
-void refuse_strange_options(const Options& options, Engine engine) {
+void refuse_strange_options(const SubmitOptions& options, Engine engine) {
   const EngineOptions& of_engine = options.of_engine;
   const auto only_for = [&](const char* name, bool given, Engine wanted) {
     if (!given || engine == wanted) return;
@@ -110,7 +110,7 @@ std::uint64_t count_from(std::string_view option, const std::string& text, std::
   return text.empty() ? fitting : whole_number(option, text, 1, kMost);
 }
 
-TaskJob tasks_of(const Options& options, const Job& job) {
+TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   constexpr std::uint64_t kMostProcessors = 1024;
   TaskJob tasks;
   tasks.directory.root = full_path(job.config.output.directory);
@@ -153,7 +153,7 @@ void run_script(const fs::path& script) {
               concat(script.string(), ": ended with code ", code));
 }
 
-void submit(const Options& options) {
+void submit(const SubmitOptions& options) {
   const Engine engine = engine_from(options.engine);
   refuse_strange_options(options, engine);
   EngineOptions of_engine = options.of_engine;
@@ -179,7 +179,7 @@ void submit(const Options& options) {
 Run add_submit(CLI::App& program) {
   return add_command(program, "submit",
                      "The whole job as tasks for a farm: Slurm, GNU parallel, Open Job Description",
-                     declare, submit);
+                     declare_submit, submit);
 }
 
 }  // namespace crowdface::cli

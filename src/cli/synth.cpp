@@ -24,12 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostHeads = 1000;
-constexpr std::uint64_t kFewestVertices = 5000, kMostVertices = 1'200'000;
-constexpr int kMaskSize = 1024;
-constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
+constexpr std::uint64_t kFewestSynthetic = 5000, kMostSynthetic = 1'200'000;
 
-struct Options : CommonOptions {
+struct SynthOptions : CommonOptions {
   std::string out, count = "8", vertices = "20000", seed = "1", mask, textures;
   bool hair = false, tags = false, skin_only = false, force = false;
 };
@@ -55,10 +52,10 @@ std::string material_file(const std::vector<MaterialRange>& materials, const std
   return text;
 }
 
-void synth(const Options& options) {
-  const std::uint64_t count = whole_number("--count", options.count, 0, kMostHeads);
+void synth(const SynthOptions& options) {
+  const std::uint64_t count = whole_number("--count", options.count, 0, kMostMade);
   const std::uint64_t vertices =
-      whole_number("--vertices", options.vertices, kFewestVertices, kMostVertices);
+      whole_number("--vertices", options.vertices, kFewestSynthetic, kMostSynthetic);
   const std::uint64_t seed = whole_number("--seed", options.seed, 0, UINT64_MAX);
   const fs::path directory = options.out;
   fs::path mask = directory / "regions.png";
@@ -127,7 +124,7 @@ void synth(const Options& options) {
                   directory.string(), ", their regions in ", mask.string()));
 }
 
-void declare(CLI::App& command, Options& options) {
+void declare_synth(CLI::App& command, SynthOptions& options) {
   add_option(command, "-o,--output", options.out, "DIR", "The folder to write to").required();
   add_option(command, "--count", options.count, "N", "How many heads");
   add_option(command, "--vertices", options.vertices, "V",
@@ -152,7 +149,8 @@ void declare(CLI::App& command, Options& options) {
 
 Run add_synth(CLI::App& program) {
   return add_command(program, "synth",
-                     "Synthetic heads in one topology, with UVs and a region mask", declare, synth);
+                     "Synthetic heads in one topology, with UVs and a region mask", declare_synth,
+                     synth);
 }
 
 }  // namespace crowdface::cli

@@ -18,15 +18,15 @@ std::string count(std::size_t number, const char* what) {
   return concat(number, ' ', what);
 }
 
-struct Options : CommonOptions {
+struct VerifyOptions : CommonOptions {
   std::string directory;
 };
 
-void declare(CLI::App& command, Options& options) {
+void declare_verify(CLI::App& command, VerifyOptions& options) {
   add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder").required();
 }
 
-void verify(const Options& options) {
+void verify(const VerifyOptions& options) {
   const CrowdCheck check = verify_crowd(options.directory);
   tell("missing: ", check.missing);
   tell("altered: ", check.altered);
@@ -48,7 +48,7 @@ void verify(const Options& options) {
 Run add_verify(CLI::App& program) {
   return add_command(program, "verify",
                      "A finished crowd against its ledger: what is missing, what is altered",
-                     declare, verify);
+                     declare_verify, verify);
 }
 
 }  // namespace crowdface::cli

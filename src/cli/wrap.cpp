@@ -240,7 +240,7 @@ WrapOptions sorted(WrapOptions options) {
   return options;
 }
 
-void declare(CLI::App& command, WrapOptions& options) {
+void declare_wrap(CLI::App& command, WrapOptions& options) {
   add_option(command, "template", options.first, "TEMPLATE.obj",
              "The head whose topology the result has");
   add_option(command, "scan", options.scan, "SCAN.{obj,ply,stl,glb}",
@@ -285,7 +285,7 @@ void declare(CLI::App& command, WrapOptions& options) {
 Run add_wrap(CLI::App& program) {
   return add_command<WrapOptions>(
       program, "wrap", "Bend a template head onto raw scans, so that they share one topology",
-      declare, [](const WrapOptions& options) {
+      declare_wrap, [](const WrapOptions& options) {
         const WrapOptions known = sorted(options);
         known.pick ? pick(known) : wrap_all(known);
       });

@@ -14,12 +14,12 @@
 #include "crowdface/plane/layout.h"
 #include "crowdface/smooth/level_size.h"
 
+#include "cast/any_face.h"
+
 namespace crowdface {
 namespace {
 
-CastFace draw_any_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0) {
-  return draw_face(casting, index, attempt, kind_of_group(casting));
-}
+using testing::draw_any_face;
 
 constexpr std::uint64_t kMany = 4000;
 

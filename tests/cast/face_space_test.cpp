@@ -17,14 +17,13 @@
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/plane/layout.h"
 
+#include "cast/any_face.h"
 #include "support/meshes.h"
 
 namespace crowdface {
 namespace {
 
-CastFace draw_any_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt = 0) {
-  return draw_face(casting, index, attempt, kind_of_group(casting));
-}
+using testing::draw_any_face;
 
 constexpr std::uint64_t kMaxLevel = 120;
 constexpr double kMmPerUnit = 10;

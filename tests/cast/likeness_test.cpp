@@ -15,7 +15,7 @@ FaceSpace::Point place_at(float x, float y) {
   return {point, point};
 }
 
-std::vector<FaceSpace::Point> random_points(std::uint64_t count) {
+std::vector<FaceSpace::Point> random_places(std::uint64_t count) {
   std::vector<FaceSpace::Point> points;
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto [x, y] = random_pair({3, i, "place", 0});
@@ -35,7 +35,7 @@ TEST(Likeness, OfOneFaceIsThatFace) {
 }
 
 TEST(Likeness, NeighboursAreThoseOfASearchThroughAll) {
-  const auto points = random_points(150);
+  const auto points = random_places(150);
   const Likeness likeness = find_likeness(points, 5);
   for (std::size_t face = 0; face < points.size(); ++face) {
     std::vector<double> mm;
@@ -94,14 +94,14 @@ TEST(Likeness, OrderIsThatOfASearchThroughAll) {
 }
 
 TEST(Likeness, OrderNamesEveryFaceOnce) {
-  Likeness likeness = find_likeness(random_points(211), 1);
+  Likeness likeness = find_likeness(random_places(211), 1);
   std::sort(likeness.order.begin(), likeness.order.end());
   for (std::size_t i = 0; i < likeness.order.size(); ++i) EXPECT_EQ(likeness.order[i], i);
   EXPECT_EQ(likeness.order.size(), 211U);
 }
 
 TEST(Likeness, FacesThatAreEachOthersNearestStandSideBySide) {
-  const Likeness likeness = find_likeness(random_points(300), 1);
+  const Likeness likeness = find_likeness(random_places(300), 1);
   std::vector<std::size_t> point(300);
   for (std::size_t i = 0; i < 300; ++i) point[likeness.order[i]] = i;
   int pairs = 0;

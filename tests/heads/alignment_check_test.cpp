@@ -6,8 +6,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "crowdface/run/generate.h"
-
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -121,9 +119,7 @@ TEST(AlignmentCheck, WarningsReachTheReportOnce) {
   testing::Bowl far = crowd.bowl;
   far.per_cm = 2;
   folder.folder().write("heads/bob.obj", testing::bowl_text(far, 2));
-  ConfigOverrides overrides;
-  overrides.set = {"faces.align=check"};
-  generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+  run(folder, {"faces.align=check"});
   const auto warnings = testing::read_json(folder.out() / "report.json").at("warnings");
   ASSERT_EQ(warnings.size(), 1U) << warnings.dump();
   EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr("bob"));

@@ -22,10 +22,6 @@ using testing::differing_files;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-void run(const SmallCrowdFolder& folder, const fs::path& cache) {
-  generate(folder.config(), {}, {cache, Replace::kRefuse, false});
-}
-
 int from_cache(const SmallCrowdFolder& folder) {
   return testing::read_json(folder.out() / "timings.json").at("heads_from_cache").get<int>();
 }
@@ -78,11 +74,11 @@ TEST(HeadCache, SecondRunTakesAllHeadsFromIt) {
     SmallCrowd crowd;
     crowd.levels = levels;
     const SmallCrowdFolder folder(crowd);
-    run(folder, folder.cache());
+    run(folder);
     EXPECT_EQ(from_cache(folder), 0);
     EXPECT_EQ(list_cache(folder.cache()).entries.size(), 4U);
     const auto first = crowd_files(folder.out());
-    run(folder, folder.cache());
+    run(folder);
     EXPECT_EQ(from_cache(folder), 4);
     EXPECT_THAT(differing_files(crowd_files(folder.out()), first), ::testing::IsEmpty());
   }
@@ -91,7 +87,7 @@ TEST(HeadCache, SecondRunTakesAllHeadsFromIt) {
 TEST(HeadCache, OtherSettingsAndOtherHeadsDoNotHit) {
   SmallCrowd crowd;
   SmallCrowdFolder folder(crowd);
-  run(folder, folder.cache());
+  run(folder);
   for (const char* other : {"boundary", "operator", "limit"}) {
     SmallCrowd changed = crowd;
     if (other[0] == 'b') changed.boundary = "free";
@@ -99,7 +95,7 @@ TEST(HeadCache, OtherSettingsAndOtherHeadsDoNotHit) {
     if (other[0] == 'l') changed.smoothing_limit = "max_iterations: 61";
     folder.configure(changed);
     fs::remove_all(folder.out());
-    run(folder, folder.cache());
+    run(folder);
     EXPECT_EQ(from_cache(folder), 0) << other;
   }
 }
@@ -108,7 +104,7 @@ TEST(HeadCache, DamagedEntriesAreMadeAnewWithTheSameBytes) {
   SmallCrowd crowd;
   crowd.levels = "basis";
   const SmallCrowdFolder folder(crowd);
-  run(folder, folder.cache());
+  run(folder);
   const auto first = crowd_files(folder.out());
   const fs::path entry = list_cache(folder.cache()).entries.at(1);
   const std::string whole = testing::read_text(entry);
@@ -128,7 +124,7 @@ TEST(HeadCache, DamagedEntriesAreMadeAnewWithTheSameBytes) {
   for (const std::string& bytes : damaged) {
     folder.folder().write("cache/" + entry.filename().string(), bytes);
     fs::remove(folder.out() / "crowdface.log");
-    run(folder, folder.cache());
+    run(folder);
     EXPECT_EQ(from_cache(folder), 3) << bytes.size();
     EXPECT_THAT(log_of(folder), ::testing::HasSubstr(entry.filename().string())) << "warned";
     EXPECT_THAT(differing_files(crowd_files(folder.out()), first), ::testing::IsEmpty());
@@ -138,23 +134,23 @@ TEST(HeadCache, DamagedEntriesAreMadeAnewWithTheSameBytes) {
 
 TEST(HeadCache, EntryOfAnotherHeadIsNotTaken) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, folder.cache());
+  run(folder);
   const auto first = crowd_files(folder.out());
   const auto entries = list_cache(folder.cache()).entries;
   fs::copy_file(entries[0], entries[1], fs::copy_options::overwrite_existing);
-  run(folder, folder.cache());
+  run(folder);
   EXPECT_EQ(from_cache(folder), 3);
   EXPECT_THAT(differing_files(crowd_files(folder.out()), first), ::testing::IsEmpty());
 }
 
 TEST(HeadCache, FolderThatCannotBeWrittenOnlyWarns) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, folder.cache());
+  run(folder);
   const auto first = crowd_files(folder.out());
   folder.folder().write("taken", "a file in the place of the folder");
   for (const fs::path& cache : {folder / "taken", folder / "taken/below"}) {
     fs::remove_all(folder.out());
-    run(folder, cache);
+    generate(folder.config(), {}, {cache, Replace::kRefuse, false});
     EXPECT_THAT(differing_files(crowd_files(folder.out()), first), ::testing::IsEmpty());
     EXPECT_THAT(log_of(folder), ::testing::HasSubstr("cannot be kept"));
   }
@@ -163,7 +159,7 @@ TEST(HeadCache, FolderThatCannotBeWrittenOnlyWarns) {
   fs::remove(entry);
   fs::create_directory(entry);
   fs::remove_all(folder.out());
-  run(folder, folder.cache());
+  run(folder);
   EXPECT_THAT(differing_files(crowd_files(folder.out()), first), ::testing::IsEmpty());
 }
 
@@ -171,7 +167,7 @@ TEST(HeadCache, ItsHistoryChangesNoMesh) {
   SmallCrowd crowd;
   crowd.levels = "basis";
   const SmallCrowdFolder folder(crowd);
-  run(folder, folder.cache());
+  run(folder);
   ConfigOverrides other_order;
   other_order.set = {
       "faces={files: [heads/dan.obj, heads/bob.obj, heads/ann.obj, heads/cyd.obj], units: cm, "
@@ -189,7 +185,7 @@ TEST(HeadCache, ItsHistoryChangesNoMesh) {
 TEST(HeadCache, LeftoversOfAKilledRunAreRemoved) {
   const SmallCrowdFolder folder(SmallCrowd{});
   const fs::path leftover = folder.folder().write("cache/.crowdface-9999999-0.tmp", "half a head");
-  run(folder, folder.cache());
+  run(folder);
   EXPECT_FALSE(fs::exists(leftover));
   folder.folder().write("cache/.crowdface-9999999-0.tmp", "half a head");
   EXPECT_EQ(clear_cache(folder.cache()), 5U);
@@ -198,7 +194,7 @@ TEST(HeadCache, LeftoversOfAKilledRunAreRemoved) {
 
 TEST(HeadCache, ClearRemovesEntriesAndNothingElse) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, folder.cache());
+  run(folder);
   folder.folder().write("cache/notes.txt", "mine");
   const CacheContents contents = list_cache(folder.cache());
   std::uintmax_t bytes = 0;

@@ -45,9 +45,7 @@ std::size_t first_line(const Lines& lines, const std::string& start, std::size_t
 /// Expects the job to be refused and nothing to be written.
 void expect_refused(const SmallCrowdFolder& folder, ExitCode code,
                     std::initializer_list<std::string> phrases) {
-  testing::expect_error(code, phrases, [&] {
-    generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
-  });
+  testing::expect_error(code, phrases, [&] { run(folder); });
   EXPECT_FALSE(fs::exists(folder.out()));
   EXPECT_FALSE(fs::exists(folder.cache()));
 }
@@ -260,9 +258,7 @@ TEST(Inputs, HeadsThatCannotBeReadAreRefused) {
   fs::remove(folder.head("bob"));
   fs::create_directory(folder.head("bob"));
   testing::expect_error(ExitCode::kMissingInput, {"bob.obj"}, [&] {
-    ConfigOverrides overrides;
-    overrides.set = {concat("faces={files: [heads/ann.obj, heads/bob.obj], units: cm}")};
-    generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+    run(folder, {"faces={files: [heads/ann.obj, heads/bob.obj], units: cm}"});
   });
 }
 
@@ -272,7 +268,7 @@ TEST(Inputs, UncoveredVerticesAreCountedInAWarning) {
   const SmallCrowdFolder folder(crowd);
   reference::Picture black{4, 4, 3, std::vector<double>(48, 0.0)};
   testing::write_mask(folder / "mask_0.png", black);
-  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  run(folder);
   const auto report = testing::read_json(folder.out() / "report.json");
   // All but the loose vertex and the ball of eight, which follows the skin and needs no mask.
   EXPECT_EQ(report.at("masks").at("uncovered_vertices"), crowd.bowl.vertex_count() - 9);

@@ -10,7 +10,6 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/face_builder.h"
-#include "crowdface/run/generate.h"
 #include "crowdface/run/pipeline.h"
 
 #include "support/crowd_files.h"
@@ -32,10 +31,9 @@ SmallCrowd crowd_with(const std::string& parts, const std::string& levels = "exa
   return crowd;
 }
 
-std::string run(const SmallCrowdFolder& folder, const std::string& out) {
-  ConfigOverrides overrides;
-  overrides.out = (folder / out).string();
-  generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+/// The first face of the crowd made there.
+std::string face_in(const SmallCrowdFolder& folder, const std::string& out) {
+  run_to(folder, out);
   return testing::read_text(folder / (out + "/meshes/mob_0001.obj"));
 }
 
@@ -50,9 +48,9 @@ double distance(const reference::Obj& mesh, std::size_t a, std::size_t b) {
 
 TEST(PartsOfAJob, LeaveTheSkinAndMoveAnEyeAsAWhole) {
   SmallCrowdFolder folder(crowd_with("none"));
-  run(folder, "none");
+  run_to(folder, "none");
   folder.configure(crowd_with("auto"));
-  run(folder, "auto");
+  run_to(folder, "auto");
   const auto lines = testing::plan_lines(folder / "auto");
   ASSERT_EQ(lines.size(), 4U);
   bool moved = false;
@@ -76,10 +74,10 @@ TEST(PartsOfAJob, LeaveTheSkinAndMoveAnEyeAsAWhole) {
 TEST(PartsOfAJob, HaveTheSameBytesOnAnyThreadsAndAlone) {
   for (const char* levels : {"exact", "basis"}) {
     const SmallCrowdFolder folder(crowd_with("auto", levels));
-    const std::string many = run(folder, "many");
+    const std::string many = face_in(folder, "many");
     {
       const ThreadLimit limit(1);
-      EXPECT_EQ(run(folder, "one"), many) << levels;
+      EXPECT_EQ(face_in(folder, "one"), many) << levels;
     }
     const Job job = load_job(folder.config(), {});
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, folder.cache());

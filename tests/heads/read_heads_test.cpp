@@ -50,7 +50,7 @@ class KeptHeads : public ::testing::Test {
 
   void run() {
     fs::remove_all(folder_.out());
-    generate(folder_.config(), {}, {folder_.cache(), Replace::kRefuse, false});
+    testing::run(folder_);
   }
   std::string log() const { return read_text(folder_.out() / "crowdface.log"); }
   std::string error_of_job(const fs::path& cache) const {

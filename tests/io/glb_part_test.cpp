@@ -2,28 +2,16 @@
 #include "crowdface/io/glb_part.h"
 
 #include <gtest/gtest.h>
-#include <tiny_gltf.h>
 
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/image.h"
 #include "crowdface/mesh/normals.h"
 
+#include "io/load_glb.h"
 #include "support/meshes.h"
 
 namespace crowdface {
 namespace {
-
-tinygltf::Model load(const std::string& bytes) {
-  tinygltf::Model model;
-  tinygltf::TinyGLTF loader;
-  std::string error, warning;
-  EXPECT_TRUE(loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                          reinterpret_cast<const unsigned char*>(bytes.data()),
-                                          static_cast<unsigned int>(bytes.size())))
-      << error;
-  EXPECT_EQ(warning, "");
-  return model;
-}
 
 TEST(GlbPart, StandsBelowTheFaceWithMaterialsOfItsOwn) {
   const Topology face = testing::cube_topology();
@@ -43,7 +31,7 @@ TEST(GlbPart, StandsBelowTheFaceWithMaterialsOfItsOwn) {
   const PlacedGlbPart parts[] = {{&part, &card_points}, {&part, &card_points}};
   const Positions normals = vertex_normals(face, positions);
   const std::string bytes = form.encode(positions, normals, "face", {}, {}, {}, parts).text();
-  const tinygltf::Model model = load(bytes);
+  const tinygltf::Model model = testing::load_glb(bytes);
   ASSERT_EQ(model.nodes.size(), 3U);
   EXPECT_EQ(model.nodes[0].children, (std::vector<int>{1, 2}));
   EXPECT_EQ(model.nodes[2].name, "bob");

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Read back by tinygltf, which shares nothing with the writer.
 #include "crowdface/io/glb_template.h"
 
 #include <cstring>
@@ -7,30 +6,19 @@
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
-#include <tiny_gltf.h>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/io/image.h"
 #include "crowdface/mesh/normals.h"
 
+#include "io/load_glb.h"
 #include "support/binary_reader.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 
 namespace crowdface {
 namespace {
-
-tinygltf::Model load(const std::string& bytes) {
-  tinygltf::TinyGLTF loader;
-  tinygltf::Model model;
-  std::string error, warning;
-  EXPECT_TRUE(loader.LoadBinaryFromMemory(
-      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-      static_cast<unsigned>(bytes.size()), "", tinygltf::REQUIRE_ALL));
-  EXPECT_EQ(error + warning, "");
-  return model;
-}
 
 template <class Number>
 std::vector<Number> numbers(const tinygltf::Model& model, int accessor_index) {
@@ -72,7 +60,8 @@ TEST(GlbTemplate, ReadsBack) {
   const Positions positions = 15 * testing::random_positions(8, 1);
   const Positions normals = vertex_normals(mesh.topology, positions);
   const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
-  const tinygltf::Model model = load(form.encode(positions, normals, "mob_0001").text());
+  const tinygltf::Model model =
+      testing::load_glb(form.encode(positions, normals, "mob_0001").text());
 
   EXPECT_EQ(model.asset.version, "2.0");
   ASSERT_EQ(model.nodes.size(), 1U);
@@ -105,8 +94,8 @@ TEST(GlbTemplate, HasOnePrimitiveAMaterial) {
   const SmallMesh mesh;
   const Positions positions = testing::random_positions(8, 1);
   const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
-  const tinygltf::Model model =
-      load(form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
+  const tinygltf::Model model = testing::load_glb(
+      form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
   const auto& primitives = model.meshes[0].primitives;
   ASSERT_EQ(primitives.size(), 2U);
   EXPECT_EQ(numbers<std::uint32_t>(model, primitives[0].indices),
@@ -135,8 +124,8 @@ TEST(GlbTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
   }
   const Positions positions = testing::random_positions(8, 1);
   const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
-  const tinygltf::Model model =
-      load(form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
+  const tinygltf::Model model = testing::load_glb(
+      form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
   const auto& primitives = model.meshes[0].primitives;
   EXPECT_FALSE(primitives[0].attributes.contains("TEXCOORD_1"));
   const int places = primitives[1].attributes.at("TEXCOORD_1");
@@ -165,8 +154,8 @@ TEST(GlbTemplate, TellsTheBoundsOfWhatItHolds) {
   const SmallMesh mesh;
   const Positions positions = testing::random_positions(8, 5);
   const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
-  const tinygltf::Model model =
-      load(form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
+  const tinygltf::Model model = testing::load_glb(
+      form.encode(positions, vertex_normals(mesh.topology, positions), "m").text());
   const auto& accessor = model.accessors[static_cast<std::size_t>(
       model.meshes[0].primitives[0].attributes.at("POSITION"))];
   for (Index c = 0; c < 3; ++c) {
@@ -183,7 +172,7 @@ TEST(GlbTemplate, TurnsHeadsUprightAndForward) {
     GlbOptions options;
     options.up = *parse_axis(up);
     options.front = *parse_axis(front);
-    const tinygltf::Model model = load(
+    const tinygltf::Model model = testing::load_glb(
         GlbTemplate(cube, {}, options).encode(positions, positions / std::sqrt(3.0), "m").text());
     EXPECT_TRUE(model.nodes[0].scale.empty());
     EXPECT_TRUE(model.materials.empty());

@@ -2,7 +2,6 @@
 #include "crowdface/io/image.h"
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include <OpenImageIO/imageio.h>
@@ -13,23 +12,17 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/require.h"
 
+#include "support/temporary_folder.h"
+
 namespace crowdface {
 namespace {
 
 using std::filesystem::path;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
-class ImageFiles : public testing::Test {
+class ImageFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("crowdface_image_") + info->name() + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   template <class T>
   path write(const std::string& name, int width, int height, int channels,
              const OIIO::TypeDesc& type, const std::vector<T>& values) {
@@ -44,12 +37,10 @@ class ImageFiles : public testing::Test {
   }
 
   path write_bytes(const std::string& name, std::string_view bytes) {
-    path file = folder_ / name;
-    std::ofstream(file, std::ios::binary) << bytes;
-    return file;
+    return folder_.write(name, bytes);
   }
 
-  path folder_;
+  testing::TemporaryFolder folder_;
 };
 
 std::string message_of(const path& file, const ImageLimits& limits = {}) {
@@ -167,7 +158,7 @@ TEST_F(ImageFiles, ContentDecidesNotTheName) {
 
 TEST_F(ImageFiles, MissingFileIsMissingInput) {
   EXPECT_THROW(read_image(folder_ / "none.png"), MissingInput);
-  EXPECT_THROW(read_image(folder_), MissingInput);
+  EXPECT_THROW(read_image(folder_.path()), MissingInput);
 }
 
 TEST_F(ImageFiles, OtherContentIsRefusedByName) {

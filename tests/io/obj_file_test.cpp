@@ -17,13 +17,13 @@ namespace {
 using testing::expect_error;
 using testing::TemporaryFolder;
 
-ObjFile read_text(const std::string& text) {
+ObjFile read_obj_text(const std::string& text) {
   const TemporaryFolder folder;
   return read_obj(folder.write("head.obj", text));
 }
 
 TEST(ReadObj, KeepsQuadsNgonsOrderAndGroups) {
-  const ObjFile file = read_text(
+  const ObjFile file = read_obj_text(
       "# comment\nmtllib a.mtl\no head\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0.5 0 1.0\n"
       "vt 0 0\nvt 1 0\nvt 1 1 0\nvt 0 1\nvt 0.5\nvn 0 0 1\n"
       "g left\ns 1\nusemtl skin\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"
@@ -110,19 +110,20 @@ TEST(ReadObj, NamesBeyondAThousandBytesAreRefused) {
     return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + "\nf 1 2 3\n";
   };
   for (const std::string statement : {"usemtl ", "g ", "o ", "mtllib "}) {
-    EXPECT_NO_THROW(read_text(with(statement + std::string(1000, 'm'))));
-    EXPECT_THROW(read_text(with(statement + std::string(1001, 'm'))), InvalidInput) << statement;
+    EXPECT_NO_THROW(read_obj_text(with(statement + std::string(1000, 'm'))));
+    EXPECT_THROW(read_obj_text(with(statement + std::string(1001, 'm'))), InvalidInput)
+        << statement;
   }
 }
 
 TEST(ReadObj, RoundsNumbersCorrectly) {
   // The loader's own number reader is off in the last bits; the scan's is not.
-  const ObjFile file = read_text("v 0.1 10.635861 -1e-3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ObjFile file = read_obj_text("v 0.1 10.635861 -1e-3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(file.positions.row(0), Eigen::RowVector3d(0.1, 10.635861, -0.001));
 }
 
 TEST(ReadObj, TakesWindowsLineEndsAndNoFinalOne) {
-  const ObjFile file = read_text("v 0 0 0\r\nv 1 0 0\r\n\r\n  v 0 1 0\t\r\nf 1 2 3");
+  const ObjFile file = read_obj_text("v 0 0 0\r\nv 1 0 0\r\n\r\n  v 0 1 0\t\r\nf 1 2 3");
   EXPECT_EQ(file.topology.face_count(), 1);
   EXPECT_TRUE(file.topology.corner_uvs.empty());
   EXPECT_TRUE(file.corner_normals.empty());
@@ -201,9 +202,9 @@ TEST(ReadObj, RefusesPolygonsThatTheLoaderMiscounts) {
   std::string face = "f";
   for (int i = 1; i <= 256; ++i) face += " " + std::to_string(i);
   expect_error(ExitCode::kBadData, {":257:", "at most 255 corners, found 256"},
-               [&] { read_text(text + face + "\n"); });
+               [&] { read_obj_text(text + face + "\n"); });
   // One corner fewer is fine.
-  const ObjFile file = read_text(text + face.substr(0, face.rfind(' ')) + "\n");
+  const ObjFile file = read_obj_text(text + face.substr(0, face.rfind(' ')) + "\n");
   EXPECT_EQ(file.topology.corner_count(), 255);
 }
 

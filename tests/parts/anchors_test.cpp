@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 /// A ball of skin and a lash on it.
-struct Scene {
+struct BallWithLash {
   Mesh mesh = testing::Shapes()
                   .ball({0, 0, 0}, 10, 24)
                   .strip({1.5, 5.2, 8.7}, {3, -0.4, 0}, {0, 0.3, 0.8})
@@ -30,7 +30,7 @@ struct Scene {
 };
 
 TEST(Anchors, CarryTheBoundWithTheSkin) {
-  const Scene scene;
+  const BallWithLash scene;
   const Positions expected = testing::moved(scene.mesh.positions, 0.6, 1, {3, 4, 5});
   Positions result = expected;
   result.bottomRows(27).setZero();
@@ -39,7 +39,7 @@ TEST(Anchors, CarryTheBoundWithTheSkin) {
 }
 
 TEST(Anchors, KeepHeightsWhereTheSkinBulges) {
-  const Scene scene;
+  const BallWithLash scene;
   Positions result = 1.1 * scene.mesh.positions;
   scene.anchors.put(scene.mesh.positions, scene.anchors.places(scene.mesh.positions), result);
   for (Index v = scene.skin; v < result.rows(); ++v) {
@@ -49,7 +49,7 @@ TEST(Anchors, KeepHeightsWhereTheSkinBulges) {
 }
 
 TEST(Anchors, KeepTheTargetWhereNothingMoved) {
-  const Scene scene;
+  const BallWithLash scene;
   Positions result = scene.mesh.positions;
   result.bottomRows(27).setConstant(7);
   scene.anchors.put(scene.mesh.positions, scene.anchors.places(scene.mesh.positions), result);

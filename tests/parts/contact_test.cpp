@@ -14,7 +14,7 @@ namespace {
 constexpr double kMargin = 0.05;
 
 /// A box a millimetre behind a wall of skin, both seen from +z.
-struct Scene {
+struct BoxBehindWall {
   Mesh mesh = testing::Shapes()
                   .strip({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, 12)
                   .box({-1, -1, -1}, {1, 1, -0.1})
@@ -50,7 +50,7 @@ struct Scene {
 };
 
 TEST(Contact, KnowsHeightsWhicheverWayFacesLook) {
-  const Scene scene;
+  const BoxBehindWall scene;
   const Contact contact = scene.contact();
   ASSERT_EQ(contact.size(), 4U);
   for (std::size_t i = 0; i < contact.size(); ++i) {
@@ -62,7 +62,7 @@ TEST(Contact, KnowsHeightsWhicheverWayFacesLook) {
 }
 
 TEST(Contact, LeavesAPartThatIsClear) {
-  const Scene scene;
+  const BoxBehindWall scene;
   const RigidMotion motion =
       scene.contact().clear(scene.mesh.positions, {}, scene.pushed(0.04), kMargin);
   EXPECT_EQ(motion.to.norm(), 0);
@@ -70,7 +70,7 @@ TEST(Contact, LeavesAPartThatIsClear) {
 }
 
 TEST(Contact, ClearsAPartOfTheSkin) {
-  const Scene scene;
+  const BoxBehindWall scene;
   const RigidMotion motion =
       scene.contact().clear(scene.mesh.positions, {}, scene.pushed(0.3), kMargin);
   EXPECT_NEAR(scene.clearance(motion, 0.3), kMargin, 0.003);
@@ -78,7 +78,7 @@ TEST(Contact, ClearsAPartOfTheSkin) {
 }
 
 TEST(Contact, TurnsAPartBehindATiltedWall) {
-  const Scene scene;
+  const BoxBehindWall scene;
   const RigidMotion motion =
       scene.contact().clear(scene.mesh.positions, {}, scene.pushed(0.1, 0.15), kMargin);
   EXPECT_LT(scene.clearance({}, 0.1, 0.15), -0.1);
@@ -88,7 +88,7 @@ TEST(Contact, TurnsAPartBehindATiltedWall) {
 }
 
 TEST(Contact, AllowsWhatAHeadHas) {
-  const Scene scene;
+  const BoxBehindWall scene;
   const Positions through = scene.pushed(0.3);
   const Contact contact = scene.contact({{"ann", scene.mesh.positions}, {"bob", through}});
   EXPECT_EQ(contact.clear(through, {}, through, kMargin).to.norm(), 0);

@@ -17,11 +17,11 @@ constexpr int kLids = 40;
 constexpr double kRadius = 1.2;
 
 /// Lids all around the front of a ball, some of them inside it.
-struct Scene {
+struct LidsAroundBall {
   Mesh mesh = testing::Shapes().ball({0, 0, 0}, kRadius, 24).mesh();
   Index ball = mesh.topology.vertex_count;
   Lids lids;
-  Scene() {
+  LidsAroundBall() {
     mesh.positions.conservativeResize(ball + kLids, 3);
     mesh.topology.vertex_count = ball + kLids;
     for (int i = 0; i < kLids; ++i) {
@@ -74,20 +74,20 @@ struct Scene {
 };
 
 TEST(BallMap, KnowsGapsAndWhichWayTheyOpen) {
-  const Scene scene;
+  const LidsAroundBall scene;
   const BallMap map(scene.mesh.topology, scene.faces, scene.mesh.positions, scene.surface(),
                     {0, 0, 0}, kRadius, {});
   for (int i = 0; i < kLids; ++i) {
     const Eigen::Vector3d point = scene.mesh.positions.row(scene.ball + i).transpose();
     const BallMap::Gap gap = map.gap_at(point);
     // The mesh of the ball lies up to 0.01 inside the ball.
-    EXPECT_NEAR(gap.gap, Scene::gap(i), 0.011);
+    EXPECT_NEAR(gap.gap, LidsAroundBall::gap(i), 0.011);
     EXPECT_GT(gap.normal.dot(point.normalized()), 0.98);
   }
 }
 
 TEST(BallMap, FollowsACornea) {
-  Scene scene;
+  LidsAroundBall scene;
   for (Index v = 0; v < scene.ball; ++v) {  // a bulge at the front
     const double off = std::max(0.0, scene.mesh.positions(v, 2) - 1);
     scene.mesh.positions(v, 2) += 0.5 * off;
@@ -102,14 +102,14 @@ TEST(BallMap, FollowsACornea) {
 }
 
 TEST(EyeSocket, LeavesTheEyeballWhereNothingMoved) {
-  const Scene scene;
+  const LidsAroundBall scene;
   const RigidMotion motion = scene.socket().fit(0, {}, scene.mesh.positions);
   EXPECT_LT(motion.to.norm(), 1e-9);
   EXPECT_NEAR(motion.scale, 1, 1e-9);
 }
 
 TEST(EyeSocket, ShiftsTheEyeballUntilTheGapsAreBack) {
-  const Scene scene;
+  const LidsAroundBall scene;
   const Eigen::RowVector3d away(0.02, -0.05, 0.15);
   const RigidMotion motion = scene.socket().fit(0, {}, scene.lids_moved(away));
   // What a shift costs leaves a few per cent.
@@ -117,7 +117,7 @@ TEST(EyeSocket, ShiftsTheEyeballUntilTheGapsAreBack) {
 }
 
 TEST(EyeSocket, LetsNoLidInThatIsInsideInNoHead) {
-  const Scene scene;
+  const LidsAroundBall scene;
   Positions after = scene.mesh.positions;
   for (int i = 0; i < kLids; ++i) {  // pressed in at the corners, lifted in the middle
     const double x = after(scene.ball + i, 0);
@@ -127,7 +127,7 @@ TEST(EyeSocket, LetsNoLidInThatIsInsideInNoHead) {
     const std::vector<double> gaps = scene.gaps_after(motion, after);
     int count = 0;
     for (int i = 0; i < kLids; ++i) {
-      count += Scene::gap(i) > 0 && gaps[static_cast<std::size_t>(i)] < -0.002 ? 1 : 0;
+      count += LidsAroundBall::gap(i) > 0 && gaps[static_cast<std::size_t>(i)] < -0.002 ? 1 : 0;
     }
     return count;
   };

@@ -10,11 +10,11 @@
 namespace crowdface {
 namespace {
 
-struct Scene {
+struct TwoHeads {
   FaceSet faces;
   PartList parts;
 
-  Scene() {
+  TwoHeads() {
     const Mesh mesh = testing::simple_head();
     faces.topology = mesh.topology;
     faces.heads.push_back({"ann", mesh.positions});
@@ -35,7 +35,7 @@ struct Scene {
 };
 
 TEST(PartFollower, CarriesPartsWithTheWholeHead) {
-  const Scene scene;
+  const TwoHeads scene;
   const PartFollower follower = scene.follower();
   for (Index target = 0; target < 2; ++target) {
     const Positions& head = scene.faces.heads[static_cast<std::size_t>(target)].positions;
@@ -48,7 +48,7 @@ TEST(PartFollower, CarriesPartsWithTheWholeHead) {
 }
 
 TEST(PartFollower, KeepsTheTargetsPartsToTheBitWhereNothingMoved) {
-  const Scene scene;
+  const TwoHeads scene;
   const Positions& head = scene.faces.heads[1].positions;
   Positions result = head;
   for (const std::uint32_t v : scene.moving) result.row(v).setConstant(-9);
@@ -66,7 +66,7 @@ Positions bent(const Positions& head) {
 }
 
 TEST(PartFollower, MovesRigidPartsAsAWholeAndLeavesTheSkin) {
-  const Scene scene;
+  const TwoHeads scene;
   const Positions& head = scene.faces.heads[0].positions;
   const Positions blended = bent(head);
   Positions result = blended;
@@ -88,7 +88,7 @@ TEST(PartFollower, MovesRigidPartsAsAWholeAndLeavesTheSkin) {
 }
 
 TEST(PartFollower, BlendsShapesIfAsked) {
-  const Scene scene;
+  const TwoHeads scene;
   const Positions& head = scene.faces.heads[0].positions;
   Positions result = head;
   const Part& eye = scene.parts.parts[1];
@@ -111,7 +111,7 @@ TEST(PartFollower, BlendsShapesIfAsked) {
 }
 
 TEST(PartFollower, HasTheSameBitsOnOneThreadAsOnMany) {
-  const Scene scene;
+  const TwoHeads scene;
   const Positions blended = bent(scene.faces.heads[0].positions);
   Positions many = blended, one = blended;
   scene.follower().follow(0, many);

@@ -108,11 +108,11 @@ TEST(Parts, HaveClosednessOfAnyResolution) {
 }
 
 TEST(Parts, OfVeryManyComponentsAreFound) {
-  constexpr int kSide = 28;  // 21,952 components
+  constexpr int kAlong = 28;  // 21,952 components
   testing::Shapes shapes;
   shapes.ball({0, 0, 0}, 10, 32);
-  for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const int x = i % kSide, y = i / kSide % kSide, z = i / kSide / kSide;
+  for (int i = 0; i < kAlong * kAlong * kAlong; ++i) {
+    const int x = i % kAlong, y = i / kAlong % kAlong, z = i / kAlong / kAlong;
     const Eigen::Vector3d cell(x, y, z);
     if (i % 2 == 0) {
       shapes.tetrahedron({20 + cell.x(), cell.y(), cell.z()}, 0.01);  // by itself
@@ -122,9 +122,9 @@ TEST(Parts, OfVeryManyComponentsAreFound) {
   }
   const Mesh mesh = shapes.mesh();
   const PartList list = parts_of(mesh);
-  ASSERT_EQ(list.parts.size(), 1U + kSide * kSide * kSide / 2);
+  ASSERT_EQ(list.parts.size(), 1U + kAlong * kAlong * kAlong / 2);
   EXPECT_THAT(list.parts[0].components, ElementsAre(1));
-  EXPECT_EQ(list.parts[1].components.size(), kSide * kSide * kSide / 2U);
+  EXPECT_EQ(list.parts[1].components.size(), kAlong * kAlong * kAlong / 2U);
 }
 
 TEST(JoinSkin, MakesOneOfAllSkin) {

@@ -7,10 +7,10 @@ namespace crowdface {
 namespace {
 
 /// Two teeth 2 apart, gums between and beside them, along a line.
-struct Scene {
+struct TwoTeeth {
   Positions positions = Positions::Zero(7, 3);
   std::vector<std::uint32_t> first = {0}, second = {1}, bound = {2, 3, 4, 5, 6};
-  Scene() { positions.col(0) << 0, 2, 0, 1, 2, -0.9, -3; }
+  TwoTeeth() { positions.col(0) << 0, 2, 0, 1, 2, -0.9, -3; }
   Ties ties() const { return {positions, {first, second}, bound, 1.5}; }
 };
 
@@ -21,7 +21,7 @@ RigidMotion shift(double y) {
 }
 
 TEST(Ties, CarryWhatIsAtAPartAndLeaveWhatIsFar) {
-  const Scene scene;
+  const TwoTeeth scene;
   Positions result = scene.positions;
   const std::vector<RigidMotion> motions = {shift(1), shift(-1)};
   scene.ties().pull(scene.positions, motions, result);
@@ -34,7 +34,7 @@ TEST(Ties, CarryWhatIsAtAPartAndLeaveWhatIsFar) {
 }
 
 TEST(Ties, LeaveEverythingToTheBitWhereNothingMoved) {
-  const Scene scene;
+  const TwoTeeth scene;
   Positions head = scene.positions;
   head.array() += 0.1;
   Positions result = head;

@@ -115,10 +115,6 @@ TEST(LikenessFile, ReadsBackWhatWasWritten) {
   });
 }
 
-void run(const SmallCrowdFolder& folder) {
-  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
-}
-
 int height_of(const fs::path& picture) {
   return read_image(picture).height;
 }
@@ -342,8 +338,7 @@ TEST(Sheets, ReplacingACrowdRemovesItsPictures) {
   crowd.contact_sheet = "{columns: 1, rows: 1, cell: 48, formats: [png, exr, pdf]}";
   const SmallCrowdFolder folder(crowd);
   run(folder);
-  const ConfigOverrides overrides{{"output.contact_sheet=none"}, {}, {}, {}};
-  generate(folder.config(), overrides, {folder.cache(), Replace::kForce, false});
+  run(folder, {"output.contact_sheet=none"}, Replace::kForce);
   for (const char* left : {"sheets", "renders", "gallery", "likeness.json"}) {
     EXPECT_FALSE(fs::exists(folder.out() / left)) << left;
   }

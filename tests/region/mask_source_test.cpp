@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 TEST(MaskSource, TileNumberReplacesEveryMark) {
   const MaskSource set("a.<UDIM>/b.<UDIM>.png");

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/region/region_weights.h"
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 
+#include "support/temporary_folder.h"
+
 namespace crowdface {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 /// Vertices of one triangle strip, one texture coordinate each.
 struct Strip {
@@ -44,7 +43,8 @@ Image image_of(int width, int height, int channels, const std::vector<float>& pi
   return {width, height, channels, alpha, pixels, {}};
 }
 
-std::string message_of(const Strip& strip, const std::vector<MaskSource>& masks, Index regions) {
+std::string message_of_masks(const Strip& strip, const std::vector<MaskSource>& masks,
+                             Index regions) {
   try {
     region_weights(strip.topology, strip.uvs, masks, regions);
   } catch (const Error& error) {
@@ -161,7 +161,7 @@ TEST(RegionWeights, AlphaIsIgnored) {
   const MaskSource mask("m", image_of(1, 1, 4, {0.5F, 0.25F, 0.25F, 0}, 3));
   EXPECT_EQ(region_weights(three().topology, three().uvs, {mask}, 3).alpha.row(0),
             Eigen::RowVector3d(0.5, 0.25, 0.25));
-  EXPECT_THAT(message_of(three(), {mask}, 4), HasSubstr("4 regions, found 3"));
+  EXPECT_THAT(message_of_masks(three(), {mask}, 4), HasSubstr("4 regions, found 3"));
 }
 
 TEST(RegionWeights, ThreadCountChangesNothing) {
@@ -180,31 +180,23 @@ TEST(RegionWeights, ThreadCountChangesNothing) {
 
 TEST(RegionWeights, ChannelCountsAreChecked) {
   const MaskSource grey("grey.png", image_of(1, 1, 1, {1}));
-  EXPECT_THAT(message_of(three(), {grey}, 3),
+  EXPECT_THAT(message_of_masks(three(), {grey}, 3),
               AllOf(HasSubstr("3 regions, found 1"), HasSubstr("grey.png (1)")));
-  EXPECT_THAT(message_of(three(), {}, 2), HasSubstr("no image"));
-  EXPECT_THAT(message_of(three(), {grey, MaskSource("extra.png", image_of(1, 1, 1, {1}))}, 1),
+  EXPECT_THAT(message_of_masks(three(), {}, 2), HasSubstr("no image"));
+  EXPECT_THAT(message_of_masks(three(), {grey, MaskSource("extra.png", image_of(1, 1, 1, {1}))}, 1),
               AllOf(HasSubstr("extra.png"), HasSubstr("left over")));
-  EXPECT_THROW(message_of(three(), {grey}, 0), BrokenPrecondition);
+  EXPECT_THROW(message_of_masks(three(), {grey}, 0), BrokenPrecondition);
 }
 
-class MaskFiles : public testing::Test {
+class MaskFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("crowdface_masks_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   void write(const std::string& name, const std::vector<std::uint8_t>& pixel) const {
-    const std::string png = encode_png(1, 1, static_cast<int>(pixel.size()), pixel);
-    std::ofstream(path(name), std::ios::binary) << png;
+    folder_.write(name, encode_png(1, 1, static_cast<int>(pixel.size()), pixel));
   }
 
-  std::filesystem::path folder_;
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(MaskFiles, TilesAreTakenByPlace) {
@@ -253,16 +245,16 @@ TEST_F(MaskFiles, TilesMustAgreeInChannels) {
   write("m.1001.png", {255, 0, 0, 255});  // alpha does not count
   write("m.1002.png", {0, 255, 0});
   const Strip strip({{0.5, 0.5}, {1.5, 0.5}, {1.5, 0.7}});
-  EXPECT_EQ(message_of(strip, {MaskSource(path("m.<UDIM>.png"))}, 3), "accepted");
+  EXPECT_EQ(message_of_masks(strip, {MaskSource(path("m.<UDIM>.png"))}, 3), "accepted");
   write("m.1002.png", {255});
-  EXPECT_THAT(message_of(strip, {MaskSource(path("m.<UDIM>.png"))}, 3),
+  EXPECT_THAT(message_of_masks(strip, {MaskSource(path("m.<UDIM>.png"))}, 3),
               HasSubstr("expected 3 channels as in tile 1001, found 1 in tile 1002"));
 }
 
 TEST_F(MaskFiles, MissingImageIsMissingInput) {
   EXPECT_THROW(region_weights(three().topology, three().uvs, {MaskSource(path("none.png"))}, 1),
                Error);
-  EXPECT_THAT(message_of(three(), {MaskSource(path("none.png"))}, 1), HasSubstr("none.png"));
+  EXPECT_THAT(message_of_masks(three(), {MaskSource(path("none.png"))}, 1), HasSubstr("none.png"));
 }
 
 TEST_F(MaskFiles, SixteenBitsAreKept) {

@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// Two quads side by side, u from 0 to 2, that share the texture coordinates of their common edge.
 struct TwoTiles {
@@ -23,7 +23,7 @@ struct TwoTiles {
       (TextureCoordinates(6, 2) << 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1).finished();
 };
 
-std::string message_of(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
+std::string message_of_uvs(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
   try {
     gather_uv_samples(topology, uvs, tiles);
   } catch (const InvalidInput& error) {
@@ -87,13 +87,13 @@ TEST(UvSamples, IsolatedVertexHasNone) {
 TEST(UvSamples, MissingCoordinatesAreNamed) {
   TwoTiles mesh;
   mesh.topology.corner_uvs[5] = kNoIndex;
-  EXPECT_THAT(message_of(mesh.topology, mesh.uvs, Tiles::kUdim),
+  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kUdim),
               HasSubstr("vertex 3 of face 2 has no texture coordinate"));
   mesh.topology.corner_uvs[5] = 2;
   mesh.topology.corner_uvs[1] = kNoIndex;  // vertex 2 still has one in face 2
-  EXPECT_EQ(message_of(mesh.topology, mesh.uvs, Tiles::kUdim), "accepted");
+  EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kUdim), "accepted");
   mesh.topology.corner_uvs.clear();
-  EXPECT_THAT(message_of(mesh.topology, mesh.uvs, Tiles::kOne),
+  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kOne),
               HasSubstr("vertex 1 of face 1 has no texture coordinate"));
 }
 
@@ -102,8 +102,8 @@ TEST(UvSamples, UnusableCoordinatesAreRefused) {
   mesh.uvs(3, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne), BrokenPrecondition);
   mesh.uvs(3, 1) = -0.5;
-  EXPECT_THAT(message_of(mesh.topology, mesh.uvs, Tiles::kUdim), HasSubstr("UDIM"));
-  EXPECT_EQ(message_of(mesh.topology, mesh.uvs, Tiles::kOne), "accepted");
+  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kUdim), HasSubstr("UDIM"));
+  EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kOne), "accepted");
   mesh.topology.corner_uvs[0] = 6;
   EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne), BrokenPrecondition);
 }

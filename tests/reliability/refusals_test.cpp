@@ -283,10 +283,10 @@ TEST_F(Refusals, FoldersThatCannotBeWrittenToAreRefusedBeforeTheWork) {
 TEST_F(Refusals, AFolderThatVanishesAtAnyMomentIsTold) {
   const auto run_until = [&](std::uint64_t call) {
     return run_with_fault(folder_.out(), {Fault::Kind::kSignal, call, SIGUSR1}, [&] {
-      static std::string doomed, elsewhere;
-      doomed = folder_.out().string();
-      elsewhere = (folder_ / "elsewhere").string();
-      std::signal(SIGUSR1, [](int) { ::rename(doomed.c_str(), elsewhere.c_str()); });
+      static std::string from, to;
+      from = folder_.out().string();
+      to = (folder_ / "elsewhere").string();
+      std::signal(SIGUSR1, [](int) { ::rename(from.c_str(), to.c_str()); });
       generate(folder_.config(), {}, {folder_.cache(), Replace::kRefuse, false});
     });
   };

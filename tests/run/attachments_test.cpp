@@ -67,9 +67,7 @@ class AttachmentsOfACrowd : public ::testing::Test {
     return text;
   }
   void run(const std::vector<std::string>& set = {}, Replace replace = Replace::kRefuse) {
-    ConfigOverrides overrides;
-    overrides.set = set;
-    generate(folder_.config(), overrides, {folder_.cache(), replace, false});
+    testing::run(folder_, set, replace);
   }
   fs::path mesh(const std::string& name) const { return folder_.out() / "meshes" / name; }
   auto faces_built() const {

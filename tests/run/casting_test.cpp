@@ -40,12 +40,6 @@ SmallCrowd six_bowls() {
   return crowd;
 }
 
-void run(const SmallCrowdFolder& folder, ConfigOverrides overrides = {},
-         const std::string& out = "out") {
-  overrides.out = (folder / out).string();
-  generate(folder.config(), overrides, {folder.cache(), Replace::kForce, false});
-}
-
 /// The faces of a crowd as written, and the same recipes with every factor 1 by the plain method.
 struct Measured {
   explicit Measured(const SmallCrowdFolder& folder, const std::string& out = "out")
@@ -143,8 +137,8 @@ TEST(Casting, GrowingTheCrowdMovesNoFace) {
   ConfigOverrides few, many;
   few.count = "5";
   many.count = "24";
-  run(folder, few, "few");
-  run(folder, many, "many");
+  run_to(folder, "few", few);
+  run_to(folder, "many", many);
   const std::string small = testing::read_text(folder / "few/plan.jsonl");
   EXPECT_EQ(testing::read_text(folder / "many/plan.jsonl").substr(0, small.size()), small);
 }
@@ -266,7 +260,7 @@ TEST(Casting, ReviewsRedrawWhatTheyRejectAndNothingElse) {
                             "  mob_kin_02: {mark: reject}\n  mob_0007: {note: fine}\n");
   ConfigOverrides overrides;
   overrides.review = {review.string()};
-  run(folder, overrides);
+  run(folder, overrides, Replace::kForce);
   const auto after = plan_lines(folder.out());
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -326,7 +320,7 @@ TEST(Casting, ReviewsAddUpInRounds) {
   EXPECT_NE(second[2], first[2]);
   EXPECT_EQ(third[2], second[2]) << "the second round undoes nothing of the first";
   EXPECT_NE(third[4], second[4]);
-  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  run(folder);
   EXPECT_EQ(plan_lines(folder.out()), third) << "as the gallery's page says";
   EXPECT_TRUE(fs::exists(folder.out() / "reviews/review_002.yaml"));
 
@@ -349,9 +343,8 @@ TEST(Casting, ReviewsAddUpInRounds) {
   // A folder of another config is refused by its key; with --force its reviews are not applied.
   ConfigOverrides other;
   other.seed = "12";
-  testing::expect_error(ExitCode::kUsage, {"another config's crowd", "crowd.seed"}, [&] {
-    generate(folder.config(), other, {folder.cache(), Replace::kRefuse, false});
-  });
+  testing::expect_error(ExitCode::kUsage, {"another config's crowd", "crowd.seed"},
+                        [&] { run(folder, other); });
   plan(folder.config(), other, {folder.cache(), Replace::kForce, false});
   EXPECT_FALSE(fs::exists(folder.out() / "reviews"));
   EXPECT_FALSE(fs::exists(folder.out() / "rejected.jsonl"));
@@ -390,8 +383,8 @@ TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
   ConfigOverrides small, large;
   small.count = "11";
   large.count = "27";
-  run(folder, small, "small");
-  run(folder, large, "large");
+  run_to(folder, "small", small);
+  run_to(folder, "large", large);
   const std::string few = testing::read_text(folder / "small/plan.jsonl");
   EXPECT_EQ(testing::read_text(folder / "large/plan.jsonl").substr(0, few.size()), few);
   std::map<std::string, int> faces;
@@ -428,9 +421,7 @@ TEST(Casting, DrawnParentsStandOnHeadsOfTheirSex) {
       "  - {name: b, members: 1, parents: {mother: drawn, father: drawn}}\n";
   const SmallCrowdFolder folder(crowd);
   const auto targets = [&](const std::string& tags, const std::string& out) {
-    ConfigOverrides overrides;
-    overrides.set = {concat("faces.tags=", tags)};
-    run(folder, overrides, out);
+    run_to(folder, out, {{concat("faces.tags=", tags)}, {}, {}, {}});
     std::map<std::string, std::string> of_role;
     for (const json& line : plan_lines(folder / out)) {
       const std::string id = line.at("id");
@@ -458,12 +449,10 @@ TEST(Casting, ChildrenOfAGroupAreMadeOfItsHeads) {
       "girls_father}}\n"
       "  - {name: heads, group: women, members: 1, parents: {mother: ann, father: dan}}\n";
   const SmallCrowdFolder folder(crowd);
-  ConfigOverrides overrides;
-  overrides.set = {
-      "faces.tags={ann: [female, fair], bob: [female, fair], cyd: [female, dark], dan: [male, "
-      "fair], "
-      "eve: [male, dark], fay: [male, dark]}"};
-  run(folder, overrides);
+  run(folder,
+      {"faces.tags={ann: [female, fair], bob: [female, fair], cyd: [female, dark], dan: [male, "
+       "fair], "
+       "eve: [male, dark], fay: [male, dark]}"});
   const std::set<std::string> women = {"ann", "bob", "cyd"};
   std::map<std::string, int> children;
   for (const json& line : plan_lines(folder.out())) {
@@ -541,7 +530,7 @@ TEST(Casting, ChildrenResembleBothParentsThroughGenerations) {
   // Children stay near their parents' mean, so parents who stay make them stay when the crowd grows.
   ConfigOverrides more;
   more.count = "20";
-  run(folder, more, "more");
+  run_to(folder, "more", more);
   const std::string few = testing::read_text(folder.out() / "plan.jsonl");
   EXPECT_EQ(testing::read_text(folder / "more/plan.jsonl").substr(0, few.size()), few);
 
@@ -576,9 +565,7 @@ TEST(Casting, WhatCannotBeDoneIsToldAndLeavesNothing) {
   ASSERT_NE(at, std::string::npos) << message;
   const std::string mm =
       message.substr(at + start.size(), message.find(" mm", at) - at - start.size());
-  ConfigOverrides overrides;
-  overrides.set = {concat("diversity.min_distance=", mm, " mm")};
-  run(folder, overrides);
+  run(folder, {concat("diversity.min_distance=", mm, " mm")});
   EXPECT_EQ(plan_lines(folder.out()).size(), 60U);
   EXPECT_GE(closest_pair(Measured(folder)), *parse_double(mm) - kTolerance);
   // The last faces were hard to find, and that was said while they were looked for.
@@ -597,9 +584,7 @@ TEST(Casting, ExtrapolationThatGoesTooFarIsThrownAway) {
     unbelievable += thrown.at(reason).get<std::uint64_t>();
   }
   EXPECT_GT(unbelievable, 0U);
-  ConfigOverrides anything;
-  anything.set = {"believability=none"};
-  run(folder, anything, "anything");
+  run_to(folder, "anything", {{"believability=none"}, {}, {}, {}});
   const json let_pass = testing::read_json(folder / "anything/casting.json").at("thrown_away");
   EXPECT_FALSE(let_pass.empty());
   for (const json& count : let_pass) EXPECT_EQ(count, 0);

@@ -29,11 +29,6 @@ SmallCrowd banded() {
   return crowd;
 }
 
-void run(const SmallCrowdFolder& folder, const ConfigOverrides& overrides = {},
-         Replace replace = Replace::kRefuse) {
-  generate(folder.config(), overrides, {folder.cache(), replace, false});
-}
-
 const json& region(const json& line, int number) {
   return line.at("regions").at(concat("region_", number));
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
-#include "crowdface/run/generate.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
@@ -24,10 +23,6 @@ constexpr const char* kRecipes =
     "     all: {weights: {bob: 1}, smoothness: [0.1, 0.2], extrapolation: 1.25}}}\n"
     "  - {id: bare}\n"
     "  - {id: sized, regions: {region_2: {smoothness: 30 mm}}}\n";
-
-void run(const SmallCrowdFolder& folder) {
-  generate(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
-}
 
 TEST(GenerateRecipes, StandAsWrittenBeforeTheSampledFaces) {
   SmallCrowd crowd;

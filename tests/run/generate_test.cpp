@@ -23,15 +23,9 @@ using testing::plan_lines;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-void run(const SmallCrowdFolder& folder, const std::string& out, ConfigOverrides overrides = {},
-         Replace replace = Replace::kRefuse) {
-  overrides.out = (folder / out).string();
-  generate(folder.config(), overrides, {folder.cache(), replace, false});
-}
-
 void expect_crowd_is_right(const SmallCrowd& crowd) {
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out");
+  run(folder);
   EXPECT_EQ(plan_lines(folder.out()).size(), static_cast<std::size_t>(crowd.count));
   testing::expect_meshes_match_plan(folder, folder.out());
   testing::expect_weights_match_positions(folder, folder.out());
@@ -138,7 +132,7 @@ TEST(Generate, NormalsAreThoseOfTheNewSurface) {
   SmallCrowd crowd;
   crowd.bowl.normals = true;
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out");
+  run(folder);
   const fs::path path = folder.out() / "meshes/mob_0001.obj";
   const reference::Obj mesh = reference::read_obj(path);
   const reference::Points expected = reference::vertex_normals(mesh, mesh.vertices);
@@ -164,7 +158,7 @@ TEST(Generate, SameInputsGiveTheSameBytesOnAnyThreads) {
   crowd.count = 5;
   crowd.contact_sheet = "{columns: 3, rows: 1, cell: 32}";
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out");
+  run(folder);
   const auto first = crowd_files(folder.out());
   EXPECT_TRUE(first.contains("sheets/sheet_002.png"));
   EXPECT_TRUE(first.contains("renders/mob_0005.png"));
@@ -173,18 +167,18 @@ TEST(Generate, SameInputsGiveTheSameBytesOnAnyThreads) {
     fs::remove_all(folder.out());
     fs::remove_all(folder.cache());
     const ThreadLimit limit(threads);
-    run(folder, "out");
+    run(folder);
     EXPECT_THAT(differing_files(first, crowd_files(folder.out())), ::testing::IsEmpty()) << threads;
   }
   fs::remove_all(folder.out());
-  run(folder, "out");  // with prepared heads from the cache
+  run(folder);  // with prepared heads from the cache
   EXPECT_THAT(differing_files(first, crowd_files(folder.out())), ::testing::IsEmpty());
   EXPECT_EQ(testing::read_json(folder.out() / "timings.json").at("heads_from_cache"), 4);
 }
 
 TEST(Generate, LeavesNoTemporaryFiles) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, "out");
+  run(folder);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : crowd_files(folder.out())) names.push_back(name);
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("casting.json", "config.yaml", "crowd.csv",
@@ -199,8 +193,8 @@ TEST(Generate, LargerCountKeepsTheFirstFaces) {
     crowd.regions = 3;
     return crowd;
   }());
-  run(folder, "out");
-  run(folder, "more", {{}, "9", {}, {}});
+  run(folder);
+  run_to(folder, "more", {{}, "9", {}, {}});
   const auto few = plan_lines(folder.out()), many = plan_lines(folder / "more");
   ASSERT_EQ(many.size(), 9U);
   for (std::size_t i = 0; i < few.size(); ++i) {
@@ -212,8 +206,8 @@ TEST(Generate, LargerCountKeepsTheFirstFaces) {
 
 TEST(Generate, AnotherSeedGivesOtherFaces) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, "out");
-  run(folder, "other", {{}, {}, "12", {}});
+  run(folder);
+  run_to(folder, "other", {{}, {}, "12", {}});
   const auto a = crowd_files(folder.out()), b = crowd_files(folder / "other");
   for (const auto& [name, bytes] : a) EXPECT_NE(bytes, b.at(name)) << name;
 }
@@ -224,7 +218,7 @@ TEST(Generate, EffectiveConfigGivesTheSameCrowd) {
   crowd.more =
       "recipes: [{id: mine, target: bob, regions: {all: {weights: {ann: 1}, smoothness: 0.3}}}]\n";
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out");
+  run(folder);
   const auto first = crowd_files(folder.out());
   fs::remove_all(folder.out() / "meshes");
   fs::remove(folder.out() / "ledger.jsonl");
@@ -243,7 +237,7 @@ TEST(Generate, PositionOnTheTargetGivesTheTargetsFile) {
   for (const char* boundary : {"fixed", "free"}) {
     crowd.boundary = boundary;
     const SmallCrowdFolder folder(crowd);
-    run(folder, "out");
+    run(folder);
     EXPECT_EQ(testing::read_text(folder.out() / "meshes/mob_0001.obj"),
               testing::read_text(folder.head("bob")));
   }
@@ -254,7 +248,7 @@ TEST(Generate, CountZeroGivesAnEmptyCrowd) {
   crowd.count = 0;
   crowd.contact_sheet = "{columns: 2, rows: 1, cell: 32}";
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out");
+  run(folder);
   EXPECT_EQ(testing::read_text(folder.out() / "plan.jsonl"), "");
   EXPECT_EQ(testing::read_json(folder.out() / "report.json").at("reached").at("faces"), 0);
 }
@@ -275,7 +269,7 @@ TEST(Generate, PlanWritesNoMeshesAndTheSamePlan) {
   plan(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
   auto planned = crowd_files(folder.out());
   EXPECT_EQ(planned.size(), 5U) << "config.yaml, plan.jsonl, crowd.csv, casting.json, planned.json";
-  run(folder, "out");
+  run(folder);
   EXPECT_EQ(planned.erase("planned.json"), 1U);  // only for shards
   EXPECT_FALSE(crowd_files(folder.out()).contains("planned.json"));
   for (const auto& [name, bytes] : planned) EXPECT_EQ(bytes, crowd_files(folder.out()).at(name));
@@ -283,16 +277,16 @@ TEST(Generate, PlanWritesNoMeshesAndTheSamePlan) {
 
 TEST(Generate, AnotherConfigsCrowdIsRefusedOrReplaced) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, "out");
+  run(folder);
   const auto before = crowd_files(folder.out());
   folder.folder().write("out/notes.txt", "mine");
   folder.folder().write("out/meshes/mine.obj", "mine");
   const ConfigOverrides other = {{}, "2", "99", {}};
   testing::expect_error(ExitCode::kUsage, {folder.out().string(), "--force"},
-                        [&] { run(folder, "out", other); });
+                        [&] { run(folder, other); });
   const auto refused = crowd_files(folder.out());
   for (const auto& [name, bytes] : before) EXPECT_EQ(refused.at(name), bytes);
-  run(folder, "out", other, Replace::kForce);
+  run(folder, other, Replace::kForce);
   const auto after = crowd_files(folder.out());
   EXPECT_FALSE(after.contains("meshes/mob_0003.obj")) << "the old crowd's";
   EXPECT_EQ(after.at("notes.txt"), "mine");
@@ -303,8 +297,8 @@ TEST(Generate, AnotherConfigsCrowdIsRefusedOrReplaced) {
 TEST(Generate, OutputThatCannotBeMadeIsRefusedBeforeTheWork) {
   const SmallCrowdFolder folder(SmallCrowd{});
   folder.folder().write("taken", "a file in the place of the folder");
-  testing::expect_error(ExitCode::kCannotCreate, {"taken"}, [&] { run(folder, "taken"); });
-  testing::expect_error(ExitCode::kCannotCreate, {"taken"}, [&] { run(folder, "taken/crowd"); });
+  testing::expect_error(ExitCode::kCannotCreate, {"taken"}, [&] { run_to(folder, "taken"); });
+  testing::expect_error(ExitCode::kCannotCreate, {"taken"}, [&] { run_to(folder, "taken/crowd"); });
   EXPECT_FALSE(fs::exists(folder.cache())) << "nothing was prepared";
   EXPECT_EQ(testing::read_text(folder / "taken"), "a file in the place of the folder");
 }
@@ -313,13 +307,13 @@ TEST(Generate, MaterialFilesComeAlong) {
   SmallCrowd crowd;
   crowd.bowl.materials = true;
   const SmallCrowdFolder folder(crowd);
-  run(folder, "without");
+  run_to(folder, "without");
   EXPECT_THAT(testing::read_json(folder / "without/report.json").at("warnings").dump(),
               ::testing::HasSubstr("bowl.mtl"));
   const std::string library = "newmtl skin\nmap_Kd textures/skin.png\nnewmtl eye\nKd 1 1 1\n";
   folder.folder().write("heads/bowl.mtl", library);
   folder.folder().write("heads/textures/skin.png", "not really an image");
-  run(folder, "out");
+  run(folder);
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/bowl.mtl"), library);
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/textures/skin.png"), "not really an image");
 }
@@ -335,7 +329,7 @@ TEST(Generate, NamesOfMaterialFilesMayHoldAnyBytes) {
       "heads/bowl.mtl",
       "newmtl skin\nmap_Kd h\xe4ut.png\nmap_Ks h\xf6ren.png\nmap_Ka " + long_name + ".png\n");
   folder.folder().write("heads/h\xe4ut.png", "x");
-  run(folder, "out");
+  run(folder);
   const auto warnings = testing::read_json(folder.out() / "report.json").at("warnings");
   EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                           [](const auto& text) {
@@ -357,7 +351,7 @@ TEST(Generate, MaterialFilesOfOneNameAreWarnedOf) {
   folder.folder().write("more/fay.obj", testing::bowl_text(crowd.bowl, 6));
   const std::string faces =
       "faces={files: [heads/ann.obj, heads/bob.obj, more/fay.obj], units: cm}";
-  run(folder, "out", {{faces}, {}, {}, {}});
+  run(folder, {faces});
   EXPECT_EQ(testing::read_text(folder.out() / "meshes/bowl.mtl"), "newmtl skin\n");
   const auto warnings = testing::read_json(folder.out() / "report.json").at("warnings");
   const auto of_files = std::find_if(warnings.begin(), warnings.end(), [](const auto& text) {
@@ -370,22 +364,22 @@ TEST(Generate, MaterialFilesOfOneNameAreWarnedOf) {
 // With --force the run would first remove the old crowd's meshes, its own input.
 TEST(Generate, HeadsAmongTheMeshesAreNotWrittenOver) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, "out");
+  run(folder);
   const auto before = crowd_files(folder.out());
   const ConfigOverrides again = {{"faces={directory: out/meshes, units: cm}"}, {}, {}, {}};
   for (const Replace replace : {Replace::kRefuse, Replace::kForce}) {
     testing::expect_error(ExitCode::kUsage, {"out/meshes/mob_0001.obj", "--out"},
-                          [&] { run(folder, "out", again, replace); });
+                          [&] { run(folder, again, replace); });
     EXPECT_THAT(differing_files(crowd_files(folder.out()), before), ::testing::IsEmpty());
   }
-  run(folder, "second", again);  // a crowd of the crowd, elsewhere
+  run_to(folder, "second", again);  // a crowd of the crowd, elsewhere
   EXPECT_EQ(plan_lines(folder / "second").size(), 4U);
 }
 
 TEST(Generate, NoMeshesOnRequest) {
   SmallCrowd crowd;
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out", {{"output.meshes=[]"}, {}, {}, {}});
+  run(folder, {"output.meshes=[]"});
   EXPECT_FALSE(fs::exists(folder.out() / "meshes"));
   EXPECT_EQ(plan_lines(folder.out()).size(), 4U);
 }
@@ -394,7 +388,7 @@ TEST(Generate, SheetsAreRemadeFromTheMeshes) {
   SmallCrowd crowd;
   crowd.contact_sheet = "{columns: 3, rows: 1, cell: 48, views: [front, profile]}";
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out");
+  run(folder);
   const auto before = crowd_files(folder.out());
   fs::remove_all(folder.out() / "sheets");
   fs::remove_all(folder.out() / "renders");

@@ -40,9 +40,7 @@ class LevelsOfACrowd : public ::testing::Test {
     return crowd;
   }
   void run(const std::string& meshes, Replace replace = Replace::kRefuse) {
-    ConfigOverrides overrides;
-    overrides.set = {"output.meshes=" + meshes, "output.lods=[60 %, 25 %]"};
-    generate(folder_.config(), overrides, {folder_.cache(), replace, false});
+    testing::run(folder_, {"output.meshes=" + meshes, "output.lods=[60 %, 25 %]"}, replace);
   }
   static std::string normal_lines(const fs::path& file) {
     const std::string text = testing::read_text(file);
@@ -108,9 +106,7 @@ TEST(LevelsOfHeads, NameTheMaterialsOfTheirOwnTarget) {
     folder.folder().write(concat("heads/", name, ".obj"),
                           text.replace(at, 11, concat("usemtl ", name)));
   }
-  ConfigOverrides overrides;
-  overrides.set = {"output.meshes=[obj]", "output.lods=[60 %]"};
-  generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+  run(folder, {"output.meshes=[obj]", "output.lods=[60 %]"});
   std::set<std::string> targets;
   for (const auto& line : testing::plan_lines(folder.out())) {
     const std::string id = line.at("id"), target = line.at("target");
@@ -127,9 +123,7 @@ TEST(LevelsWithoutNormals, AreWrittenAsPly) {
   SmallCrowd crowd;
   crowd.count = 1;
   const SmallCrowdFolder folder(crowd);
-  ConfigOverrides overrides;
-  overrides.set = {"output.meshes=[ply]", "output.lods=[60 %]"};
-  generate(folder.config(), overrides, {folder.cache(), Replace::kRefuse, false});
+  run(folder, {"output.meshes=[ply]", "output.lods=[60 %]"});
   const std::string id = testing::plan_lines(folder.out()).front().at("id");
   const auto ply = testing::read_ply(folder.out() / "meshes" / (id + "+LOD1.ply"));
   EXPECT_FALSE(ply.faces.empty());
@@ -141,9 +135,7 @@ TEST(SubdivisionOfUsd, IsPartOfWhatIsDone) {
   crowd.count = 1;
   const SmallCrowdFolder folder(crowd);
   for (const char* scheme : {"none", "catmull_clark"}) {
-    ConfigOverrides overrides;
-    overrides.set = {"output.meshes=[usd]", concat("output.subdivision=", scheme)};
-    generate(folder.config(), overrides, {folder.cache(), Replace::kForce, false});
+    run(folder, {"output.meshes=[usd]", concat("output.subdivision=", scheme)}, Replace::kForce);
     EXPECT_EQ(testing::read_json(folder.out() / "timings.json").at("faces"), 1) << scheme;
   }
 }

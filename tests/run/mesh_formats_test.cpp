@@ -23,14 +23,6 @@ using testing::SmallCrowdFolder;
 
 const char* const kAll = "output.meshes=[obj, ply, glb, points]";
 
-void run(const SmallCrowdFolder& folder, const std::string& out, std::vector<std::string> set,
-         Replace replace = Replace::kRefuse) {
-  ConfigOverrides overrides;
-  overrides.set = std::move(set);
-  overrides.out = (folder / out).string();
-  generate(folder.config(), overrides, {folder.cache(), replace, false});
-}
-
 testing::Singles to_singles(const reference::Points& points) {
   testing::Singles singles;
   for (const auto& [x, y, z] : points) {
@@ -76,7 +68,7 @@ TEST(MeshFormats, HoldTheSameFace) {
     crowd.bowl.materials = true;
     crowd.count = 2;
     const SmallCrowdFolder folder(crowd);
-    run(folder, "out", {kAll});
+    run(folder, {kAll});
     const auto report = testing::read_json(folder.out() / "report.json");
     for (const auto& face : report.at("faces")) {
       const auto id = face.at("id").get<std::string>();
@@ -107,7 +99,7 @@ TEST(MeshFormats, GlbCornersHaveTheTextureCoordinatesOfTheObj) {
   SmallCrowd crowd;
   crowd.count = 1;
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out", {kAll});
+  run(folder, {kAll});
   const fs::path meshes = folder.out() / "meshes";
   const reference::Obj obj = reference::read_obj(meshes / "mob_0001.obj");
   const testing::GlbFile glb = testing::read_glb(meshes / "mob_0001.glb");
@@ -135,7 +127,7 @@ TEST(MeshFormats, GlbEyesHaveAnIrisUnlessAColourIsGiven) {
   const SmallCrowdFolder folder(crowd);
   const auto textured = [&](const std::string& out, std::vector<std::string> set) {
     set.emplace_back("output.meshes=[glb]");
-    run(folder, out, std::move(set));
+    run_to(folder, out, {std::move(set), {}, {}, {}});
     const auto scene = testing::read_glb(folder / out / "meshes/mob_0001.glb").scene;
     std::vector<std::string> names;
     for (const auto& material : scene.at("materials")) {
@@ -155,22 +147,23 @@ TEST(MeshFormats, UsdFindsTheIrisOfItsEyesOnceBeside) {
   SmallCrowd crowd;
   crowd.bowl.materials = true;
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out", {"output.meshes=[usd]"});
+  run(folder, {"output.meshes=[usd]"});
   const fs::path iris = folder.out() / "meshes/topology/iris.png";
   EXPECT_THAT(testing::read_text(folder.out() / "meshes/mob_0001.usda"),
               ::testing::HasSubstr("@./topology/iris.png@"));
   const std::string picture = testing::read_text(iris);
   EXPECT_TRUE(picture.starts_with("\x89PNG"));
   fs::remove(iris);
-  run(folder, "out", {"output.meshes=[usd]"});
+  run(folder, {"output.meshes=[usd]"});
   EXPECT_EQ(testing::read_text(iris), picture);
-  run(folder, "green", {"output.meshes=[usd]", "output.surfaces={eye: \"#20a040\"}"});
+  run_to(folder, "green",
+         {{"output.meshes=[usd]", "output.surfaces={eye: \"#20a040\"}"}, {}, {}, {}});
   EXPECT_FALSE(fs::exists(folder / "green/meshes/topology"));
 }
 
 TEST(MeshFormats, PointsHaveTheirTopologyOnceBeside) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, "out", {"output.meshes=[points]"});
+  run(folder, {"output.meshes=[points]"});
   const fs::path arrays = folder.out() / "meshes/topology";
   std::string dictionary;
   const auto corners = testing::read_npy_numbers<std::int32_t>(arrays / "corners.npy", dictionary);
@@ -206,20 +199,20 @@ TEST(MeshFormats, HaveTheSameBytesForAnyNumberOfThreads) {
   const SmallCrowdFolder folder(crowd);
   {
     const ThreadLimit limit(1);
-    run(folder, "out", {kAll});
+    run(folder, {kAll});
   }
   const auto first = testing::crowd_files(folder.out());
   fs::remove_all(folder.out());
   const ThreadLimit limit(5);
-  run(folder, "out", {kAll});
+  run(folder, {kAll});
   EXPECT_THAT(testing::differing_files(first, testing::crowd_files(folder.out())),
               ::testing::IsEmpty());
 }
 
 TEST(MeshFormats, OfAnOldCrowdAreAllRemoved) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  run(folder, "out", {kAll});
-  run(folder, "out", {"output.meshes=[]"}, Replace::kForce);
+  run(folder, {kAll});
+  run(folder, {"output.meshes=[]"}, Replace::kForce);
   for (const auto& [name, bytes] : testing::crowd_files(folder.out())) {
     EXPECT_FALSE(name.starts_with("meshes/")) << name;
   }
@@ -232,14 +225,14 @@ TEST(MeshFormats, GiveTheSameSheetsAgain) {
   const SmallCrowdFolder folder(crowd);
   std::string expected;
   for (const char* format : {"obj", "ply", "glb", "points"}) {
-    run(folder, format, {concat("output.meshes=[", format, "]")});
+    run_to(folder, format, {{concat("output.meshes=[", format, "]")}, {}, {}, {}});
     fs::remove_all(folder / concat(format, "/renders"));
     remake_sheets(folder / format, {});
     const std::string sheet = testing::read_text(folder / concat(format, "/sheets/sheet_001.png"));
     if (expected.empty()) expected = sheet;
     EXPECT_TRUE(sheet == expected) << format;
   }
-  run(folder, "none", {"output.meshes=[]"});
+  run_to(folder, "none", {{"output.meshes=[]"}, {}, {}, {}});
   remake_sheets(folder / "none", {});
   EXPECT_TRUE(testing::read_text(folder / "none/sheets/sheet_001.png") == expected);
   fs::remove_all(folder / "none/renders");
@@ -251,10 +244,10 @@ TEST(MeshFormats, RefuseFilesThatAreNotTheCrowds) {
   SmallCrowd crowd;
   crowd.contact_sheet = "{columns: 2, rows: 2, cell: 32}";
   const SmallCrowdFolder folder(crowd);
-  run(folder, "out", {kAll});
+  run(folder, {kAll});
   for (const std::string format : {"ply", "glb", "points"}) {
     const std::string config = testing::read_text(folder.out() / "config.yaml");
-    run(folder, format, {concat("output.meshes=[", format, "]")});
+    run_to(folder, format, {{concat("output.meshes=[", format, "]")}, {}, {}, {}});
     const std::string name =
         concat(format, "/meshes/mob_0002.", format == "points" ? "npy" : format);
     const std::string good = testing::read_text(folder / name);
@@ -272,11 +265,12 @@ TEST(MeshFormats, NameTheFileThatCannotBeWritten) {
   for (const std::string format : {"obj", "ply", "glb", "points"}) {
     const std::string name =
         concat(format, "/meshes/mob_0002.", format == "points" ? "npy" : format);
-    const std::vector<std::string> set = {concat("output.meshes=[", format, "]")};
-    run(folder, format, set);
+    const ConfigOverrides overrides = {{concat("output.meshes=[", format, "]")}, {}, {}, {}};
+    run_to(folder, format, overrides);
     fs::remove(folder / name);
     folder.folder().write(name + "/in_the_way", "a folder has the name");
-    testing::expect_error(ExitCode::kCannotCreate, {name}, [&] { run(folder, format, set); });
+    testing::expect_error(ExitCode::kCannotCreate, {name},
+                          [&] { run_to(folder, format, overrides); });
   }
 }
 

@@ -27,13 +27,6 @@ using testing::read_text;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-void run(const SmallCrowdFolder& folder, std::vector<std::string> set = {},
-         Replace replace = Replace::kRefuse) {
-  ConfigOverrides overrides;
-  overrides.set = std::move(set);
-  generate(folder.config(), overrides, {folder.cache(), replace, false});
-}
-
 std::string grey_png(int side, int grey) {
   return encode_png(side, side, 1,
                     std::vector<std::uint8_t>(static_cast<std::size_t>(side * side),

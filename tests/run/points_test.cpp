@@ -39,9 +39,7 @@ class PointsOfACrowd : public ::testing::Test {
     return crowd;
   }
   void run(const std::string& meshes, Replace replace = Replace::kRefuse) {
-    ConfigOverrides overrides;
-    overrides.set = {"output.meshes=" + meshes};
-    generate(folder_.config(), overrides, {folder_.cache(), replace, false});
+    testing::run(folder_, {"output.meshes=" + meshes}, replace);
   }
   void expect_refused(const std::string& text, const std::string& told) {
     folder_.folder().write("rig.yaml", text);

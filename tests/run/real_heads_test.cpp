@@ -91,9 +91,9 @@ TEST_F(RealHeads, DefaultsCastFarAndDistancesAreThoseOfTheMeshes) {
   }
   const std::vector<double> areas =
       reference::front_areas(reference::read_obj(heads / "ict_00.obj"), all);
-  constexpr double kMmPerCm = 10;
+  constexpr double kMmPerUnit = 10;
   const auto between = [&](const reference::Points& a, const reference::Points& b) {
-    return reference::distance_mm(areas, a, b, kMmPerCm);
+    return reference::distance_mm(areas, a, b, kMmPerUnit);
   };
   const auto lines = testing::plan_lines(folder / "out");
   ASSERT_EQ(lines.size(), 100U);

@@ -74,10 +74,8 @@ class RigOfACrowd : public ::testing::Test {
     return crowd;
   }
   void run(std::vector<std::string> set = {}) {
-    ConfigOverrides overrides;
-    overrides.set = std::move(set);
-    overrides.set.push_back("output.meshes=[glb]");
-    generate(folder_.config(), overrides, {folder_.cache(), Replace::kForce, false});
+    set.push_back("output.meshes=[glb]");
+    testing::run(folder_, set, Replace::kForce);
   }
   fs::path mesh(const std::string& id) const { return folder_.out() / "meshes" / (id + ".glb"); }
   fs::path rig() const { return folder_.folder() / "rig.glb"; }
@@ -165,18 +163,18 @@ TEST_F(RigOfACrowd, OfAnotherMeshIsRefused) {
 /// Each was read from beyond its memory, or for ever.
 TEST(GltfRig, BrokenScenesAreRefused) {
   const testing::TemporaryFolder folder;
-  const auto refuse = [&](std::string json, std::initializer_list<std::string> words) {
-    json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto refuse = [&](std::string gltf, std::initializer_list<std::string> words) {
+    gltf.resize((gltf.size() + 3) / 4 * 4, ' ');
     const std::array<float, 12> floats = {0, 0, 0, -1, 0, 0, 0, 1, NAN, 0, 0, 1};
     const std::uint32_t binary = sizeof floats;
     std::string bytes;
     append_number(bytes, glb::kMagic);
     append_number(bytes, glb::kVersion);
     append_number(bytes,
-                  static_cast<std::uint32_t>(glb::kBinaryHeader + json.size() + sizeof floats));
-    append_number(bytes, static_cast<std::uint32_t>(json.size()));
+                  static_cast<std::uint32_t>(glb::kBinaryHeader + gltf.size() + sizeof floats));
+    append_number(bytes, static_cast<std::uint32_t>(gltf.size()));
     append_number(bytes, glb::kJsonChunk);
-    bytes += json;
+    bytes += gltf;
     append_number(bytes, binary);
     append_number(bytes, glb::kBinaryChunk);
     for (const float number : floats) append_number(bytes, number);
@@ -224,8 +222,8 @@ TEST(GltfRig, BrokenScenesAreRefused) {
   std::string sets;
   for (int n = 1; n <= 24; ++n) sets += concat(R"(,"JOINTS_)", n, R"(":1,"WEIGHTS_)", n, R"(":1)");
   const std::string bytes = R"(,{"bufferView":1,"componentType":5121,"count":1})";
-  const auto with = [](std::string json, const std::string& after, const std::string& more) {
-    return json.insert(json.find(after) + after.size(), more);
+  const auto with = [](std::string gltf, const std::string& after, const std::string& more) {
+    return gltf.insert(gltf.find(after) + after.size(), more);
   };
   refuse(with(scene(R"({},{"mesh":0,"skin":0})", position + bytes + weights), R"("WEIGHTS_0":2)",
               sets),

@@ -42,9 +42,7 @@ class ShapesOfACrowd : public ::testing::Test {
     return crowd;
   }
   void run(const std::string& meshes, Replace replace = Replace::kRefuse) {
-    ConfigOverrides overrides;
-    overrides.set = {"output.meshes=" + meshes};
-    generate(folder_.config(), overrides, {folder_.cache(), replace, false});
+    testing::run(folder_, {"output.meshes=" + meshes}, replace);
   }
   fs::path mesh(const std::string& name) const { return folder_.out() / "meshes" / name; }
 

@@ -19,7 +19,7 @@ namespace {
 
 using testing::slotted_roller;
 
-constexpr double kGap = 0.1, kOpen = 1, kExtent = 13;
+constexpr double kGap = 0.1, kOpen = 1, kRollerExtent = 13;
 
 /// Three rollers with a slot whose lower wall `jawOpen` takes down; `mouthClose` brings both together.
 class CompanionsTest : public ::testing::Test {
@@ -74,9 +74,9 @@ TEST_F(CompanionsTest, AreFoundByHowLipsLie) {
   const KeptContacts contacts(faces_, adjacency_, skin_);
   const std::vector<std::optional<std::size_t>> expected = {std::nullopt, std::nullopt, 1,
                                                             std::nullopt};
-  EXPECT_EQ(companions_of(set_, contacts, kExtent), expected);
+  EXPECT_EQ(companions_of(set_, contacts, kRollerExtent), expected);
   set_.shapes.erase(set_.shapes.begin() + 1);
-  EXPECT_EQ(companions_of(set_, contacts, kExtent),
+  EXPECT_EQ(companions_of(set_, contacts, kRollerExtent),
             std::vector<std::optional<std::size_t>>(3, std::nullopt))
       << "none brings them back";
 }

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kExtent = 34.6;  // of a ball of 10
+constexpr double kBallExtent = 34.6;  // of a ball of 10
 
 std::vector<std::uint32_t> all_of(const Positions& positions) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(positions.rows()));
@@ -28,11 +28,11 @@ Mesh ball() {
 
 FrameField field_over(const Positions& positions) {
   const auto all = all_of(positions);
-  return {positions, all, kExtent, all};
+  return {positions, all, kBallExtent, all};
 }
 
 /// Largest difference of the frames of a face from one map.
-double farthest(const FrameField& field, const Positions& face, const Matrix3d& expected) {
+double farthest_frame(const FrameField& field, const Positions& face, const Matrix3d& expected) {
   const FrameField::Frames frames = field.frames(face);
   double most = 0;
   for (std::size_t v = 0; v < static_cast<std::size_t>(face.rows()); ++v) {
@@ -43,7 +43,8 @@ double farthest(const FrameField& field, const Positions& face, const Matrix3d& 
 
 TEST(FrameField, OfTheTemplateItselfIsTheIdentity) {
   const Mesh mesh = ball();
-  EXPECT_LT(farthest(field_over(mesh.positions), mesh.positions, Matrix3d::Identity()), 1e-12);
+  EXPECT_LT(farthest_frame(field_over(mesh.positions), mesh.positions, Matrix3d::Identity()),
+            1e-12);
 }
 
 TEST(FrameField, OfATurnedMovedAndScaledTemplateIsThatTurnAndScale) {
@@ -55,14 +56,14 @@ TEST(FrameField, OfATurnedMovedAndScaledTemplateIsThatTurnAndScale) {
   const Positions turned = testing::moved(axes, 0.4, 1.7, shift);
   Matrix3d map;
   for (Index c = 0; c < 3; ++c) map.col(c) = (turned.row(c + 1) - turned.row(0)).transpose();
-  EXPECT_LT(farthest(field_over(mesh.positions), face, map), 1e-12);
+  EXPECT_LT(farthest_frame(field_over(mesh.positions), face, map), 1e-12);
 }
 
 TEST(FrameField, OfAStretchedTemplateIsNearlyThatStretch) {
   const Mesh mesh = ball();
   const Matrix3d stretch = Vector3d(1.3, 1, 0.9).asDiagonal();
   const Positions face = mesh.positions * stretch;
-  EXPECT_LT(farthest(field_over(mesh.positions), face, stretch), 0.2);
+  EXPECT_LT(farthest_frame(field_over(mesh.positions), face, stretch), 0.2);
 }
 
 /// As the header says it, in the plainest form: each place's map by least squares over the skin
@@ -81,7 +82,7 @@ TEST(FrameField, IsThePlainLeastSquaresFit) {
   const auto bump = [](double t) { return t < 1 ? (1 - t * t) * (1 - t * t) : 0; };
   std::vector<Index> places;
   std::vector<double> nearest(static_cast<std::size_t>(x.rows()), 1e300);
-  for (Index next = 0; nearest[static_cast<std::size_t>(next)] > 0.06 * kExtent;) {
+  for (Index next = 0; nearest[static_cast<std::size_t>(next)] > 0.06 * kBallExtent;) {
     places.push_back(next);
     for (Index v = 0; v < x.rows(); ++v) {
       auto& distance = nearest[static_cast<std::size_t>(v)];
@@ -96,7 +97,7 @@ TEST(FrameField, IsThePlainLeastSquaresFit) {
     double sum = 0;
     Vector3d mean_x = Vector3d::Zero(), mean_y = Vector3d::Zero();
     const auto weight = [&](Index v) {
-      return bump((x.row(v) - x.row(place)).norm() / (0.1 * kExtent));
+      return bump((x.row(v) - x.row(place)).norm() / (0.1 * kBallExtent));
     };
     for (Index v = 0; v < x.rows(); ++v) {
       sum += weight(v);
@@ -118,7 +119,7 @@ TEST(FrameField, IsThePlainLeastSquaresFit) {
     double sum = 0;
     for (std::size_t p = 0; p < places.size(); ++p) {
       const double share =
-          bump((x.row(static_cast<Index>(v)) - x.row(places[p])).norm() / (0.1 * kExtent));
+          bump((x.row(static_cast<Index>(v)) - x.row(places[p])).norm() / (0.1 * kBallExtent));
       expected += share * maps[p];
       sum += share;
     }

@@ -11,12 +11,12 @@
 namespace crowdface {
 namespace {
 
-struct Heads {
+struct HeadsWithPoints {
   FaceSet faces;
   PartList parts;
   std::vector<std::uint32_t> skin;
 
-  Heads() {
+  HeadsWithPoints() {
     const SyntheticHeads synthetic(5000, SyntheticHeads::Parts::kEyesAndTeeth);
     faces = {synthetic.topology(), synthetic.uvs(), {}};
     for (const std::uint64_t i : {0, 1, 2}) {
@@ -59,14 +59,14 @@ struct Heads {
 };
 
 TEST(PointCarrier, LeavesPointsOfTheirOwnMesh) {
-  const Heads heads;
+  const HeadsWithPoints heads;
   const PointSet points = heads.points({0});
   const PointCarrier carrier(points, heads.parts, heads.skin);
   EXPECT_LT((carrier.carry(0, heads[0]) - points.positions[0]).norm(), 1e-9);
 }
 
 TEST(PointCarrier, MovesThemWithAFaceThatIsTurnedMovedAndScaled) {
-  const Heads heads;
+  const HeadsWithPoints heads;
   const PointSet points = heads.points({0});
   const PointCarrier carrier(points, heads.parts, heads.skin);
   RigidMotion motion;
@@ -84,7 +84,7 @@ TEST(PointCarrier, MovesThemWithAFaceThatIsTurnedMovedAndScaled) {
 }
 
 TEST(PointCarrier, KeepsPivotsInTheMiddleOfEyes) {
-  const Heads heads;
+  const HeadsWithPoints heads;
   const PointSet points = heads.points({0});
   const PointCarrier carrier(points, heads.parts, heads.skin);
   for (const std::size_t face : {1, 2}) {
@@ -97,7 +97,7 @@ TEST(PointCarrier, KeepsPivotsInTheMiddleOfEyes) {
 }
 
 TEST(PointCarrier, TakesThoseOfTheTargetWhereEachHeadHasSome) {
-  const Heads heads;
+  const HeadsWithPoints heads;
   const PointSet points = heads.points({0, 1, 2});
   const PointCarrier carrier(points, heads.parts, heads.skin);
   for (Index h = 0; h < 3; ++h) {

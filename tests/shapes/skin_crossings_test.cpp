@@ -15,7 +15,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kColumns = 21, kRows = 31;
-constexpr double kExtent = 200;
+constexpr double kFoldedExtent = 200;
 
 /// A sheet folded once, like closed lips: the lower half lies `gap` below the upper one.
 Positions folded(double gap) {
@@ -72,7 +72,7 @@ class SkinCrossingsTest : public ::testing::Test {
  protected:
   SkinCrossingsTest() : skin_(kColumns * kRows) {
     std::iota(skin_.begin(), skin_.end(), 0U);
-    crossings_ = SkinCrossings(topology_, skin_, kExtent, {});
+    crossings_ = SkinCrossings(topology_, skin_, kFoldedExtent, {});
   }
   std::size_t pairs_in(const Positions& face, const Displacements& shape) const {
     Positions mesh = face;

@@ -9,7 +9,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kSide = 21;
-constexpr double kExtent = 430, kDepth = 0.43;
+constexpr double kFlatExtent = 430, kDepth = 0.43;
 
 /// A sheet that looks to the front, four apart, and one vertex behind its middle.
 class SkinOverPartsTest : public ::testing::Test {
@@ -63,7 +63,7 @@ class SkinOverPartsTest : public ::testing::Test {
   SkinOverParts over_template() const {
     Positions shaped = sheet(4);
     back(2).add_to(shaped);
-    return {shaped, skin_, std::vector<std::uint32_t>{kInner}, skin_.vertices, {}, kExtent};
+    return {shaped, skin_, std::vector<std::uint32_t>{kInner}, skin_.vertices, {}, kFlatExtent};
   }
 
   static constexpr std::uint32_t kInner = kSide * kSide;
@@ -100,7 +100,7 @@ TEST_F(SkinOverPartsTest, WhatIsBareOnTheTemplateMayBeOnAFace) {
   Positions shaped = sheet(1);
   back(2).add_to(shaped);
   const SkinOverParts over(shaped, skin_, std::vector<std::uint32_t>{kInner}, skin_.vertices, {},
-                           kExtent);
+                           kFlatExtent);
   EXPECT_EQ(kept(over, sheet(1)).moves, back(2).moves);
 }
 

@@ -97,6 +97,20 @@ reference::Heads SmallCrowdFolder::reference_heads() const {
   return heads;
 }
 
+void run(const SmallCrowdFolder& folder, const std::vector<std::string>& set, Replace replace) {
+  run(folder, ConfigOverrides{set, {}, {}, {}}, replace);
+}
+
+void run(const SmallCrowdFolder& folder, const ConfigOverrides& overrides, Replace replace) {
+  generate(folder.config(), overrides, {folder.cache(), replace, false});
+}
+
+void run_to(const SmallCrowdFolder& folder, const std::string& out, ConfigOverrides overrides,
+            Replace replace) {
+  overrides.out = (folder / out).string();
+  run(folder, overrides, replace);
+}
+
 void expect_meshes_match_plan(const SmallCrowdFolder& folder, const std::filesystem::path& out) {
   const reference::Heads heads = folder.reference_heads();
   // Single precision; fitted levels may miss each of the two heads' worth of detail by 0.05 mm.

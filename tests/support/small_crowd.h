@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/run/generate.h"
+
 #include "support/bowl_heads.h"
 #include "support/reference.h"
 #include "support/temporary_folder.h"
@@ -62,6 +64,16 @@ class SmallCrowdFolder {
   std::vector<std::string> names_;
   std::vector<reference::Mask> masks_;
 };
+
+/// Makes the crowd of the folder's config, with what is `set` in place of its own values.
+void run(const SmallCrowdFolder& folder, const std::vector<std::string>& set = {},
+         Replace replace = Replace::kRefuse);
+void run(const SmallCrowdFolder& folder, const ConfigOverrides& overrides,
+         Replace replace = Replace::kRefuse);
+
+/// Makes it in `out`, beside the config.
+void run_to(const SmallCrowdFolder& folder, const std::string& out, ConfigOverrides overrides = {},
+            Replace replace = Replace::kRefuse);
 
 /// Expects every line of a crowd's plan to have a mesh, and each mesh to be what the plain
 /// computation makes of the line, within 2·10⁻⁵ cm.

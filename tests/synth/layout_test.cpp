@@ -49,7 +49,7 @@ int count_boundary_loops(const Topology& topology) {
   return loops;
 }
 
-class LayoutAt : public testing::TestWithParam<Index> {};
+class LayoutAt : public ::testing::TestWithParam<Index> {};
 
 TEST_P(LayoutAt, HasNearlyTheWantedSize) {
   const Index wanted = GetParam();
@@ -137,7 +137,7 @@ TEST_P(LayoutAt, UnwrapsWithoutOverlaps) {
   EXPECT_GT(used, kSize * kSize / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, LayoutAt, testing::Values(5000, 20000, 80000));
+INSTANTIATE_TEST_SUITE_P(Sizes, LayoutAt, ::testing::Values(5000, 20000, 80000));
 
 TEST(Layout, ReachesEverySizeWithinTenPercent) {
   for (double wanted = 5000; wanted <= 1200000; wanted *= 1.13) {

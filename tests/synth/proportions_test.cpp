@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kSeed = 77, kPeople = 600;
+constexpr std::uint64_t kPeopleSeed = 77, kPeople = 600;
 
 Vector3d mirrored(Vector3d point) {
   point.x() = -point.x();
@@ -41,7 +41,7 @@ struct Spread {
 std::array<Spread, 2> spread_of(const Distance& distance) {
   std::array<std::vector<double>, 2> lengths;
   for (std::uint64_t i = 0; i < kPeople; ++i) {
-    const Identity identity(kSeed, i);
+    const Identity identity(kPeopleSeed, i);
     const Vector3d between = identity.deform(distance.from) - identity.deform(distance.to);
     lengths[identity.person().male > 0 ? 1 : 0].push_back(10 * between.norm());
   }
@@ -132,7 +132,7 @@ TEST(Measures, AreManyAndEachIsDrawnForItself) {
 TEST(Person, SexesAndAgesAreAllThere) {
   int men = 0, old = 0, young = 0;
   for (std::uint64_t i = 0; i < kPeople; ++i) {
-    const Person person = draw_person(kSeed, i);
+    const Person person = draw_person(kPeopleSeed, i);
     men += person.male > 0 ? 1 : 0;
     old += person.age >= 55 ? 1 : 0;
     young += person.age < 35 ? 1 : 0;

@@ -12,18 +12,18 @@
 namespace crowdface {
 namespace {
 
-constexpr int kSize = 256;
+constexpr int kMaskSize = 256;
 
 std::array<double, 3> at(const std::vector<std::uint8_t>& mask, double u, double v) {
-  const int x = std::clamp(static_cast<int>(u * kSize), 0, kSize - 1);
-  const int y = std::clamp(static_cast<int>((1 - v) * kSize), 0, kSize - 1);
-  const std::size_t i = static_cast<std::size_t>(y * kSize + x) * 3;
+  const int x = std::clamp(static_cast<int>(u * kMaskSize), 0, kMaskSize - 1);
+  const int y = std::clamp(static_cast<int>((1 - v) * kMaskSize), 0, kMaskSize - 1);
+  const std::size_t i = static_cast<std::size_t>(y * kMaskSize + x) * 3;
   return {mask[i] / 255.0, mask[i + 1] / 255.0, mask[i + 2] / 255.0};
 }
 
 TEST(RegionMask, CoversEveryPixelOnce) {
-  const auto mask = synthetic_region_mask(kSize);
-  ASSERT_EQ(mask.size(), static_cast<std::size_t>(kSize) * kSize * 3);
+  const auto mask = synthetic_region_mask(kMaskSize);
+  ASSERT_EQ(mask.size(), static_cast<std::size_t>(kMaskSize) * kMaskSize * 3);
   for (std::size_t i = 0; i < mask.size(); i += 3) {
     ASSERT_EQ(mask[i] + mask[i + 1] + mask[i + 2], 255);
   }
@@ -31,7 +31,7 @@ TEST(RegionMask, CoversEveryPixelOnce) {
 
 TEST(RegionMask, BandsLieOneAboveTheOther) {
   const SyntheticHeads heads(5000);
-  const auto mask = synthetic_region_mask(kSize);
+  const auto mask = synthetic_region_mask(kMaskSize);
   const Positions positions = heads.positions(1, 0);
   std::array<double, 3> height{}, weight{};
   int soft = 0;
@@ -54,7 +54,7 @@ TEST(RegionMask, BandsLieOneAboveTheOther) {
 
 TEST(RegionMask, NoseIsMiddleMouthIsBottomForeheadIsTop) {
   const synth::Layout layout = synth::make_layout(5000);
-  const auto mask = synthetic_region_mask(kSize);
+  const auto mask = synthetic_region_mask(kMaskSize);
   for (std::size_t c = 0; c < layout.topology.corner_vertices.size(); ++c) {
     const synth::Address& a = layout.addresses[layout.topology.corner_vertices[c]];
     const auto uv = layout.uvs.row(layout.topology.corner_uvs[c]);

@@ -9,12 +9,12 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::uint64_t kSeed = 5;
+constexpr std::uint64_t kReliefSeed = 5;
 
 std::vector<std::uint64_t> old_heads() {
   std::vector<std::uint64_t> heads;
   for (std::uint64_t h = 0; h < 60; ++h) {
-    if (draw_person(kSeed, h).age > 62) heads.push_back(h);
+    if (draw_person(kReliefSeed, h).age > 62) heads.push_back(h);
   }
   return heads;
 }
@@ -35,7 +35,7 @@ Line deepest(const Relief& relief, double x) {
 /// On edges of 2.5 mm lines that are no wider were rows of steps, which looked like bricks.
 TEST(Relief, NarrowLinesAreLeftToFineSurfaces) {
   for (const std::uint64_t head : old_heads()) {
-    const Identity identity(kSeed, head);
+    const Identity identity(kReliefSeed, head);
     double fine = 0, coarse = 0;
     for (double x = -3; x <= 3; x += 0.25) {
       fine = std::max(fine, deepest(Relief(identity, 0.02), x).depth);
@@ -51,7 +51,7 @@ TEST(Relief, LinesOfAForeheadAreUnevenAndEachHeadsOwn) {
   const std::vector<std::uint64_t> heads = old_heads();
   Line before;
   for (const std::uint64_t head : heads) {
-    const Relief relief(Identity(kSeed, head), 0.02);
+    const Relief relief(Identity(kReliefSeed, head), 0.02);
     double least = 1e9, most = 0;
     for (double x = -2.5; x <= 2.5; x += 0.1) {
       const double depth = deepest(relief, x).depth;

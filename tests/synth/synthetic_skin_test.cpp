@@ -17,18 +17,18 @@
 namespace crowdface {
 namespace {
 
-constexpr int kSize = 256;
+constexpr int kSkinSize = 256;
 using Colour = Eigen::Array3d;
 
 const SyntheticSkins& skins() {
-  static const SyntheticSkins only(kSize);
+  static const SyntheticSkins only(kSkinSize);
   return only;
 }
 
 /// The mean colour of the texels that show the average head within `radius` cm of a place.
 Colour colour_near(const std::vector<std::uint8_t>& albedo, const Eigen::Vector3d& place,
                    double radius) {
-  static const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kSize);
+  static const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kSkinSize);
   Colour sum = Colour::Zero();
   double count = 0;
   for (std::size_t i = 0; i < atlas.size(); ++i) {
@@ -70,7 +70,7 @@ TEST(SyntheticSkins, EveryToneOccursAndShows) {
 
 // A face that is mixed of haired heads may be bald.
 TEST(SyntheticSkins, UnderHairInCardsTheCrownIsSkinWithRoots) {
-  const SyntheticSkins under_hair(kSize, SyntheticHeads::Scalp::kShorn);
+  const SyntheticSkins under_hair(kSkinSize, SyntheticHeads::Scalp::kShorn);
   for (std::uint64_t i = 0; i < 6; ++i) {
     const std::vector<std::uint8_t> rooted = under_hair.albedo(1, i), haired = skins().albedo(1, i);
     const Colour skin = colour_near(haired, kForehead, 1);
@@ -199,7 +199,7 @@ TEST(SyntheticSkins, EachSexHasEveryTone) {
 
 TEST(SkinAtlas, HoldsTheAverageHeadWhereItsVerticesLie) {
   const SyntheticHeads heads(20'000);
-  const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kSize);
+  const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kSkinSize);
   std::size_t covered = 0;
   for (const synth::SkinPlace& place : atlas) {
     covered += place.covered ? 1 : 0;
@@ -214,10 +214,11 @@ TEST(SkinAtlas, HoldsTheAverageHeadWhereItsVerticesLie) {
   for (Index c = 0; c < topology.corner_count(); ++c) {
     const auto k = static_cast<std::size_t>(c);
     const auto uv = heads.uvs().row(topology.corner_uvs[k]);
-    const auto x = static_cast<std::size_t>(std::min(uv.x() * kSize, kSize - 1.0));
-    const auto y = static_cast<std::size_t>(std::min((1 - uv.y()) * kSize, kSize - 1.0));
-    sum += (atlas[y * kSize + x].skin.position.transpose() - head.row(topology.corner_vertices[k]))
-               .norm();
+    const auto x = static_cast<std::size_t>(std::min(uv.x() * kSkinSize, kSkinSize - 1.0));
+    const auto y = static_cast<std::size_t>(std::min((1 - uv.y()) * kSkinSize, kSkinSize - 1.0));
+    sum +=
+        (atlas[y * kSkinSize + x].skin.position.transpose() - head.row(topology.corner_vertices[k]))
+            .norm();
   }
   EXPECT_LT(sum / static_cast<double>(topology.corner_count()), 1.2) << "centimetres";
 }
@@ -262,7 +263,7 @@ TEST(SyntheticSkins, NormalsHoldWhatTheMeshIsTooCoarseFor) {
 
 TEST(SyntheticSkins, LipsGleamMoreThanCheeks) {
   const std::vector<std::uint8_t> roughness = skins().roughness(1, 11);
-  EXPECT_EQ(roughness.size(), static_cast<std::size_t>(kSize) * kSize);
+  EXPECT_EQ(roughness.size(), static_cast<std::size_t>(kSkinSize) * kSkinSize);
   EXPECT_LT(mean_near(roughness, kLowerLip) + 15, mean_near(roughness, kCheek));
   EXPECT_LT(mean_near(roughness, kForehead), mean_near(roughness, kCheek));
 }

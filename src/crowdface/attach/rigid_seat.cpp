@@ -12,9 +12,9 @@ namespace crowdface {
 namespace {
 
 /// How far the skin that carries reaches beyond the part nearest to it.
-constexpr double kReachMm = 15;
-constexpr std::size_t kFewest = 12;
-constexpr int kRounds = 8;
+constexpr double kSeatReachMm = 15;
+constexpr std::size_t kFewestOfSocket = 12;
+constexpr int kSeatRounds = 8;
 /// What a nudge by so much as a missing millimetre counts, against all that is missing.
 constexpr double kStillness = 0.02;
 
@@ -34,8 +34,8 @@ RigidSeat::RigidSeat(const FittedSkin& skin, const Positions& points, const Skin
   }
   radius_ = std::max(std::sqrt(squares / static_cast<double>(all.size())), skin.mm());
   const PointGrid grid(points, all);
-  const std::size_t fewest = std::min(kFewest, skin.vertices().size());
-  for (double reach = kReachMm * skin.mm(); socket_.vertices.size() < fewest; reach *= 2) {
+  const std::size_t fewest = std::min(kFewestOfSocket, skin.vertices().size());
+  for (double reach = kSeatReachMm * skin.mm(); socket_.vertices.size() < fewest; reach *= 2) {
     socket_ = find_socket(skin.mesh(), grid, skin.vertices(), skin.areas(), reach);
     if (reach > 1e6 * skin.mm()) break;
   }
@@ -73,7 +73,7 @@ RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
 RigidMotion RigidSeat::motion(const Positions& face, const Positions& normals) const {
   if (socket_.vertices.size() < 3) return {};
   RigidMotion motion = fit_rigid_motion(skin_.mesh(), face, socket_.vertices, socket_.weights);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSeatRounds; ++round) {
     const auto missing = gaps_.missing(face, normals, moved(motion));
     if (missing.empty()) break;
     motion = nudge_off(motion, missing);

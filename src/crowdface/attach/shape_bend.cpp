@@ -20,17 +20,17 @@ namespace crowdface {
 namespace {
 
 /// How far skin is heard around a root, where its vertices lie closely enough.
-constexpr double kReachMm = 3;
+constexpr double kPatchReachMm = 3;
 /// What is farther off the skin hears more of it.
 constexpr double kOffMm = 10;
 /// How far along the skin, in a patch's reach, skin counts as near.
 constexpr double kAlong = 1.5;
 /// Fewer vertices than this tell no turn: then the whole patch is heard.
-constexpr std::size_t kFewest = 6;
+constexpr std::size_t kFewestNear = 6;
 
 /// Other skin is as near as the nearest if it is by no more than this farther, and far along the skin from so
 /// many times that distance on.
-constexpr double kBetweenMm = 2, kFar = 4;
+constexpr double kBetweenMm = 2, kFarther = 4;
 
 /// Where points have their roots on the skin, each found from that of a neighbour.
 class Roots {
@@ -73,7 +73,7 @@ class Roots {
 
   bool is_between(const Open& at, EdgeDistances& along) const {
     const double reach = at.distance + kBetweenMm * skin_.mm();
-    along.search(std::array{at.vertex}, kFar * reach);
+    along.search(std::array{at.vertex}, kFarther * reach);
     const Eigen::Vector3d point = row3(points_, at.point);
     return std::ranges::any_of(skin_.grid().about(point, reach), [&](std::uint32_t v) {
       return length3(row3(skin_.mesh(), v) - point) < reach && std::isinf(along.distance(v));
@@ -134,7 +134,7 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
     if (covered[p]) continue;
     const Eigen::Vector3d middle = row3(anchors, p);
     const auto number = static_cast<std::uint32_t>(places_.size());
-    places_.push_back(skin.patch_around(middle, kReachMm * skin.mm()));
+    places_.push_back(skin.patch_around(middle, kPatchReachMm * skin.mm()));
     FittedSkin::Patch& patch = places_.back();
     const double near = kAlong * patch.reach;
     along.search(std::array{roots[p].vertex}, near);
@@ -160,7 +160,7 @@ void ShapeBend::keep_near(const EdgeDistances& along, double limit, FittedSkin::
     near.vertices.push_back(patch.vertices[i]);
     near.weights.push_back(patch.weights[i]);
   }
-  if (near.vertices.size() >= kFewest) patch = std::move(near);
+  if (near.vertices.size() >= kFewestNear) patch = std::move(near);
 }
 
 Displacements ShapeBend::in_shape(const Positions& face, const Positions& worn,

@@ -20,17 +20,17 @@ constexpr double kCloseMm = 2, kLooseMm = 6;
 constexpr double kLeastMm = 2;
 /// How often what is pushed takes its neighbours along.
 constexpr int kRounds = 8;
-constexpr Index kPointsPerBlock = 512;
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr Index kGapsPerBlock = 512;
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Positions& points)
     : skin_(skin),
-      heights_(static_cast<std::size_t>(points.rows()), kFar),
+      heights_(static_cast<std::size_t>(points.rows()), kNowhere),
       starts_(heights_.size(), 0) {
   const Positions normals = skin.normals(skin.mesh());
-  parallel_blocks(points.rows(), kPointsPerBlock, [&](Index begin, Index end) {
+  parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
     for (Index p = begin; p < end; ++p) {
       const auto i = static_cast<std::size_t>(p);
       const Eigen::Vector3d point = row3(points, p);
@@ -55,11 +55,11 @@ double SkinGaps::least_height(std::uint32_t point) const {
 
 std::vector<double> SkinGaps::heights(const Positions& face, const Positions& normals,
                                       const Positions& points) const {
-  std::vector<double> found(heights_.size(), kFar);
-  parallel_blocks(points.rows(), kPointsPerBlock, [&](Index begin, Index end) {
+  std::vector<double> found(heights_.size(), kNowhere);
+  parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
     for (Index p = begin; p < end; ++p) {
       const auto i = static_cast<std::size_t>(p);
-      if (heights_[i] == kFar) continue;
+      if (heights_[i] == kNowhere) continue;
       found[i] = skin_.place_near(face, normals, starts_[i], row3(points, p)).height;
     }
   });
@@ -70,7 +70,7 @@ std::vector<SkinGaps::Missing> SkinGaps::missing(const Positions& face, const Po
                                                  const Positions& points) const {
   std::vector<Missing> all;
   for (std::uint32_t p = 0; p < heights_.size(); ++p) {
-    if (heights_[p] == kFar || heights_[p] < 0) continue;
+    if (heights_[p] == kNowhere || heights_[p] < 0) continue;
     const SkinPlace place = skin_.place_near(face, normals, starts_[p], row3(points, p));
     const double missing = least_height(p) - place.height;
     if (missing > 0) all.push_back({p, missing, place.outward});
@@ -80,10 +80,10 @@ std::vector<SkinGaps::Missing> SkinGaps::missing(const Positions& face, const Po
 
 void SkinGaps::restore(const Positions& face, const Positions& normals, Positions& points) const {
   Positions moves = Positions::Zero(points.rows(), 3), outward = moves;
-  parallel_blocks(points.rows(), kPointsPerBlock, [&](Index begin, Index end) {
+  parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
     for (Index p = begin; p < end; ++p) {
       const auto i = static_cast<std::uint32_t>(p);
-      if (heights_[i] == kFar) continue;
+      if (heights_[i] == kNowhere) continue;
       const SkinPlace place = skin_.place_near(face, normals, starts_[i], row3(points, p));
       const double off = std::abs(heights_[i]) / skin_.mm();
       const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
@@ -95,7 +95,7 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
   });
   for (int round = 0; round < kRounds; ++round) {
     const Positions before = moves;
-    parallel_blocks(points.rows(), kPointsPerBlock, [&](Index begin, Index end) {
+    parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
       for (Index p = begin; p < end; ++p) {
         const auto around = neighbours_.of(p);
         if (around.empty()) continue;

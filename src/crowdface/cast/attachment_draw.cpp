@@ -77,9 +77,9 @@ struct KindQuotas {
   bool of_kind(const std::string& kind) const { return contains(words, kind); }
 };
 
-class Drawing {
+class AttachmentDrawing {
  public:
-  Drawing(const AttachmentDraw& draw, const std::vector<int>& groups) : draw_(draw) {
+  AttachmentDrawing(const AttachmentDraw& draw, const std::vector<int>& groups) : draw_(draw) {
     for (const AttachmentItem& item : draw.items) {
       if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
     }
@@ -301,7 +301,7 @@ bool is_called(const AttachmentItem& item, const std::string& word) {
 
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected) {
-  Drawing drawing(draw, groups);
+  AttachmentDrawing drawing(draw, groups);
   std::map<std::string, std::vector<const CastFace*>> before;  // of a redrawn face, by its id
   for (const CastFace& face : rejected) {
     if (face.index) before[face.id].push_back(&face);

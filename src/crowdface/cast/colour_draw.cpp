@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kMostOfSecond = 0.5;
 
-class Drawing {
+class ColourDrawing {
  public:
-  explicit Drawing(const ColourDraw& draw) : draw_(draw) {
+  explicit ColourDrawing(const ColourDraw& draw) : draw_(draw) {
     for (const auto& all : draw.tags) {
       std::vector<std::string> counted = all;
       std::erase_if(counted, [&](const std::string& tag) {
@@ -90,7 +90,7 @@ class Parents {
 }  // namespace
 
 void draw_colours(const ColourDraw& draw, std::vector<CastFace>& crowd) {
-  const Drawing drawing(draw);
+  const ColourDrawing drawing(draw);
   Parents parents(draw.heads, crowd);
   for (CastFace& face : crowd) {
     const Index typical = typical_head(face.recipe, draw.tags);

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-constexpr int kHalvings = 7;
+constexpr int kCountHalvings = 7;
 /// A set is told from the pool only while the pool is many times its size.
 constexpr std::uint64_t kPoolPerFace = 5;
 
@@ -59,7 +59,7 @@ std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJud
     if (count < 2 || count > closest.size()) continue;
     EstimateRow row{count, closest[count - 1], 0};
     double works = 0, fails = 1.2 * row.spread_mm;
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < kCountHalvings; ++i) {
       throw_if_interrupted();
       const double mm = 0.5 * (works + fails);
       (first_fit_count(pool, mm, count) >= count ? works : fails) = mm;

@@ -9,7 +9,7 @@ namespace crowdface {
 namespace {
 
 /// What is farther than what was found by more than sums of floats can err is left out.
-constexpr double kRounding = 1e-4;
+constexpr double kBoundRounding = 1e-4;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ struct LikenessTree::Search {
     near.insert(std::upper_bound(near.begin(), near.end(), found, nearer), found);
     if (near.size() > count) near.pop_back();
     if (near.size() == count) {
-      bound = static_cast<float>(near.back().mm * near.back().mm * (1 + kRounding));
+      bound = static_cast<float>(near.back().mm * near.back().mm * (1 + kBoundRounding));
     }
   }
 };

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/mesh/topology.h"
+
 namespace crowdface {
 
 /// What the heads, regions, bands and attachments of recipes are called, by their indices.
@@ -14,5 +16,9 @@ struct PlanNames {
   /// What may sit on heads; none: recipes say nothing of that.
   std::vector<std::string> attachments = {};
 };
+
+inline const std::string& name_at(const std::vector<std::string>& names, Index i) {
+  return names[static_cast<std::size_t>(i)];
+}
 
 }  // namespace crowdface

@@ -12,7 +12,7 @@ using Index = Eigen::Index;
 constexpr Index kNewest = 2048;  ///< as fast one after the other as in a tree
 constexpr std::size_t kLeaf = 2 * PointBlocks::kLanes;
 /// A box is left out if it is farther than what was found by more than sums of floats can err.
-constexpr float kRounding = 1e-4F;
+constexpr float kBoxRounding = 1e-4F;
 
 }  // namespace
 
@@ -118,7 +118,7 @@ void PointTree::search(std::int32_t at, const std::vector<float>& query, Index b
   }
   if (children[1].first < children[0].first) std::swap(children[0], children[1]);
   for (const auto& [squared, child] : children) {
-    if (static_cast<double>(squared * (1 - kRounding)) > best.squared) return;
+    if (static_cast<double>(squared * (1 - kBoxRounding)) > best.squared) return;
     search(child, query, begin, end, enough, best);
     if (best.squared < enough) return;
   }

@@ -38,7 +38,7 @@ std::string write_fitted_to(const Attachments& attachments, const ConfigWriting&
   return attachments.file.empty() ? kMean : path("").write(attachments.file, writing);
 }
 
-void read_file(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
+void read_mesh_file(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
   const auto file = path("an OBJ file").read(node, draft);
   if (!file) return;
   if (!is_obj(*file)) {
@@ -49,7 +49,7 @@ void read_file(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
 }
 
 /// Some head must have all of them, or the item is for nobody.
-void read_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
+void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
   if (!tags) return;
   item.tags = *tags;
@@ -80,8 +80,8 @@ const Keys<Attachment>& item_keys() {
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
-      {"file", read_file, write_file, "an OBJ file"},
-      {"tags", read_tags, write_tags},
+      {"file", read_mesh_file, write_file, "an OBJ file"},
+      {"tags", read_item_tags, write_tags},
       word_key("moves", &Attachment::moves),
       of_item("share", &AttachmentItem::share, number(0, kMostShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
@@ -172,7 +172,7 @@ std::vector<std::string> words_of_items(const Attachments& attachments) {
   return words;
 }
 
-void read_quotas(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
   constexpr double kRounding = 1e-9;
   draft.complaints.expect_map(node,
                               "a mapping from kinds, names or colours to shares, {glasses: 0.33}");
@@ -225,7 +225,8 @@ const Keys<Attachments>& attachments_keys() {
        [](const Attachments& attachments, const ConfigWriting& writing) {
          return write_shares(attachments.none, writing);
        }},
-      {"quotas", read_quotas, [](const Attachments& attachments, const ConfigWriting& writing) {
+      {"quotas", read_item_quotas,
+       [](const Attachments& attachments, const ConfigWriting& writing) {
          return write_shares(attachments.quotas, writing);
        }}};
   return keys;

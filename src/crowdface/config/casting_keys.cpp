@@ -9,7 +9,6 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMaxDistance = 1000;  // mm
 constexpr std::uint64_t kMostCandidates = 1000;
 constexpr std::uint64_t kLargestPool = 1000;
 constexpr std::uint64_t kMostAttempts = 1'000'000;

@@ -16,6 +16,8 @@
 
 namespace crowdface {
 
+constexpr double kMaxDistance = 1000;  ///< between heads, mm
+
 /// The entries of one mapping. Unknown keys are complained of when it is made.
 class MapReader {
  public:

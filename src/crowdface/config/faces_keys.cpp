@@ -43,7 +43,7 @@ bool expect_head_count(const YamlNode& node, std::size_t count, const std::strin
   return false;
 }
 
-void read_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
+void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   const auto folder = path("a folder of OBJ files").read(node, draft);
   if (!folder) return;
   try {
@@ -104,7 +104,7 @@ std::vector<std::string> read_tags_of_head(const YamlNode& node, const Faces& fa
   return tags;
 }
 
-void read_tags(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
+void read_head_tags(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   const std::size_t complaints_before = draft.complaints.size();
   draft.complaints.expect_map(node, "a mapping from heads to tags, {head: [tag, ...]}");
   for (const YamlEntry& entry : node.entries) {
@@ -170,7 +170,7 @@ StarterLines starter_tags(const StarterFacts& facts) {
 const Keys<Faces>& faces_keys() {
   static const Keys<Faces> keys = {
       {"directory",
-       read_directory,
+       read_head_directory,
        [](const auto&...) { return ""; },
        {},
        [](const StarterFacts& facts) { return StarterLines{write_scalar(facts.heads.string())}; }},
@@ -186,7 +186,7 @@ const Keys<Faces>& faces_keys() {
       word_key("align", &Faces::align)
           .in_starter({std::string(word_of(Align::kCheck)),
                        "warn about heads that do not stand like the others; rigid moves them"}),
-      {"tags", read_tags, write_tags, {}, starter_tags}};
+      {"tags", read_head_tags, write_tags, {}, starter_tags}};
   return keys;
 }
 

@@ -9,7 +9,6 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMaxDistance = 1000;  // mm
 constexpr std::uint64_t kMostMembers = 1000;
 
 /// Whether a family before this one has a member of that id, with or without the crowd's name.

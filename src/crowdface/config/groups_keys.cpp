@@ -14,7 +14,7 @@ constexpr double kRounding = 1e-9;
 constexpr double kOpenShare = -1;
 
 /// Targets and sources are the heads that have all of these tags.
-void read_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
+void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
   if (!tags || tags->empty()) return;
   group.sampling.targets.clear();
@@ -57,7 +57,7 @@ const Keys<Group>& group_keys() {
     Keys<Group> own = {key("name", &Group::name, name(), "such as elderly"),
                        key("share", &Group::share, number(0, 1)).written_if(has_no_count),
                        key("count", &Group::count, whole(0, kMostFaces)),
-                       {"tags", read_tags, [](const auto&...) { return ""; }}};
+                       {"tags", read_group_tags, [](const auto&...) { return ""; }}};
     for (const Key<SamplingOptions>& sampled : sampling_keys()) {
       own.push_back({sampled.name,
                      [read = sampled.read](const YamlNode& node, Group& group, ConfigDraft& draft) {

@@ -10,8 +10,8 @@
 namespace crowdface {
 namespace {
 
-using Band = HandRecipe::Band;
-using Region = HandRecipe::Region;
+using HandBand = HandRecipe::Band;
+using HandRegion = HandRecipe::Region;
 using Unit = SmoothnessDistribution::Unit;
 
 void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
@@ -35,28 +35,28 @@ void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
   std::ranges::sort(weights, {}, &WeightedHead::head);
 }
 
-void read_weights(const YamlNode& node, Band& band, ConfigDraft& draft) {
+void read_band_weights(const YamlNode& node, HandBand& band, ConfigDraft& draft) {
   if (draft.config.blending.normalization == Normalization::kPrinted) {
     draft.complaints.about(node, "blending.normalization: printed takes positions, no weights");
   }
   read_head_weights(node, band.weights, draft);
 }
 
-bool in_iterations(const Band& band, const ConfigWriting&) {
+bool in_iterations(const HandBand& band, const ConfigWriting&) {
   return band.smoothness && band.smoothness->unit == Unit::kIterations;
 }
 
-const Keys<Band>& band_keys() {
-  static const Keys<Band> keys = {
-      key("position", &Band::position, point()),
-      {"weights", read_weights,
-       [](const Band& band, const ConfigWriting& writing) {
+const Keys<HandBand>& recipe_band_keys() {
+  static const Keys<HandBand> keys = {
+      key("position", &HandBand::position, point()),
+      {"weights", read_band_weights,
+       [](const HandBand& band, const ConfigWriting& writing) {
          return band.weights.empty() ? "" : write_weights(band.weights, writing);
        }},
       // Both stand in one member: its unit tells which is written.
-      key("smoothness", &Band::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
-      key("iterations", &Band::smoothness, iterations()).written_if(in_iterations),
-      key("extrapolation", &Band::extrapolation, extrapolation())};
+      key("smoothness", &HandBand::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
+      key("iterations", &HandBand::smoothness, iterations()).written_if(in_iterations),
+      key("extrapolation", &HandBand::extrapolation, extrapolation())};
   return keys;
 }
 
@@ -70,7 +70,7 @@ void read_part(const YamlNode& node, const Keys<Part>& keys, Part& part, ConfigD
   }
 }
 
-void read_bands(const YamlNode& node, Region& region, ConfigDraft& draft) {
+void read_recipe_bands(const YamlNode& node, HandRegion& region, ConfigDraft& draft) {
   const std::vector<std::string> names = draft.config.plan_names().bands;
   if (names.empty()) {
     draft.complaints.about(node, "there are no bands; sampling.bands names them");
@@ -80,32 +80,34 @@ void read_bands(const YamlNode& node, Region& region, ConfigDraft& draft) {
   region.bands.resize(names.size());
   for (std::size_t b = 0; b < names.size(); ++b) {
     if (const YamlNode* own = map.find(names[b]))
-      read_part(*own, band_keys(), region.bands[b], draft);
+      read_part(*own, recipe_band_keys(), region.bands[b], draft);
   }
 }
 
-std::string write_bands(const Region& region, const ConfigWriting& writing) {
+std::string write_recipe_bands(const HandRegion& region, const ConfigWriting& writing) {
   std::vector<std::string> entries;
   for (std::size_t b = 0; b < region.bands.size(); ++b) {
-    const std::vector<std::string> values = write_keys(band_keys(), region.bands[b], writing);
+    const std::vector<std::string> values =
+        write_keys(recipe_band_keys(), region.bands[b], writing);
     if (values.empty()) continue;
     entries.push_back(entry(write_scalar(writing.config.sampling.bands[b].name), flow_map(values)));
   }
   return entries.empty() ? "" : flow_map(entries);
 }
 
-const Keys<Region>& region_keys() {
-  static const Keys<Region> keys = [] {
-    Keys<Region> own;
-    for (const Key<Band>& key : band_keys()) own.push_back({key.name, key.read, key.write});
-    own.push_back({"bands", read_bands, write_bands});
+const Keys<HandRegion>& region_keys() {
+  static const Keys<HandRegion> keys = [] {
+    Keys<HandRegion> own;
+    for (const Key<HandBand>& key : recipe_band_keys())
+      own.push_back({key.name, key.read, key.write});
+    own.push_back({"bands", read_recipe_bands, write_recipe_bands});
     return own;
   }();
   return keys;
 }
 
-Region read_region(const YamlNode& node, ConfigDraft& draft) {
-  Region region;
+HandRegion read_region(const YamlNode& node, ConfigDraft& draft) {
+  HandRegion region;
   read_part(node, region_keys(), region, draft);
   return region;
 }

@@ -13,7 +13,7 @@ using Regions = Config::Regions;
 
 constexpr std::size_t kMostRegions = 16;
 
-void read_mask(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
+void read_mask_image(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
   const auto mask = path("an image file").read(node, draft);
   if (!mask) return;
   const std::string text = mask->string();
@@ -32,9 +32,9 @@ void read_mask(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
 }
 
 void read_masks(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
-  if (node.kind == YamlNode::Kind::kScalar) return read_mask(node, regions, draft);
+  if (node.kind == YamlNode::Kind::kScalar) return read_mask_image(node, regions, draft);
   if (node.items.empty()) draft.complaints.expected(node, "an image file or a list of them");
-  for (const YamlNode& item : node.items) read_mask(item, regions, draft);
+  for (const YamlNode& item : node.items) read_mask_image(item, regions, draft);
 }
 
 std::string write_masks(const Regions& regions, const ConfigWriting& writing) {

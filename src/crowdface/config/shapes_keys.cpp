@@ -59,7 +59,7 @@ std::vector<std::pair<std::string, fs::path>> list_shapes(const YamlNode& node,
 }
 
 /// Every OBJ file of the folder but the neutral mesh, which comes first in the section.
-void read_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
+void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder of OBJ files").read(node, draft);
   if (!folder) return;
   shapes.directory = *folder;
@@ -83,7 +83,7 @@ void add_name(const std::string& name, Shapes& shapes) {
 }
 
 /// A folder a head, of its own name. The file of a head at rest may lie among its shapes.
-void read_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
+void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder with one of OBJ files for each head").read(node, draft);
   if (!folder) return;
   shapes.heads = *folder;
@@ -120,11 +120,11 @@ const Keys<Shapes>& shapes_keys() {
        [](const Shapes& shapes, const ConfigWriting& writing) {
          return write_path(shapes.neutral, writing);
        }},
-      {"directory", read_directory,
+      {"directory", read_shape_directory,
        [](const Shapes& shapes, const ConfigWriting& writing) {
          return write_path(shapes.directory, writing);
        }},
-      {"heads", read_heads, [](const Shapes& shapes, const ConfigWriting& writing) {
+      {"heads", read_shape_heads, [](const Shapes& shapes, const ConfigWriting& writing) {
          return write_path(shapes.heads, writing);
        }}};
   return keys;

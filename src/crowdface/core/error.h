@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -40,6 +41,10 @@ struct ErrorOf : Error {
 using UsageError = ErrorOf<ExitCode::kUsage>;
 /// Unusable input data. A broken precondition of our own is no Error: core/require.h.
 using InvalidInput = ErrorOf<ExitCode::kBadData>;
+/// \throws InvalidInput "FILE: WHAT".
+[[noreturn]] inline void refuse_file(const std::filesystem::path& file, const std::string& what) {
+  throw InvalidInput(file.string() + ": " + what);
+}
 /// An input that does not exist or cannot be opened.
 using MissingInput = ErrorOf<ExitCode::kMissingInput>;
 /// The constraints of a plan cannot be met.

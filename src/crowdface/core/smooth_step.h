@@ -11,4 +11,10 @@ inline double smooth_step(double from, double to, double x) {
   return t * t * (3 - 2 * t);
 }
 
+/// 1 at 0, 0 at 1, level at both (Tukey's biweight). \param x  0 … 1
+inline double biweight(double x) {
+  const double rest = 1 - x * x;
+  return rest * rest;
+}
+
 }  // namespace crowdface

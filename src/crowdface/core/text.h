@@ -50,6 +50,9 @@ inline std::string quoted(const char* text) {
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
 
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
 /// What stands between separators, be it nothing; of a text without one, all of it.
 std::vector<std::string_view> split(std::string_view text, char separator);
 /// The lines of a text without their ends.

@@ -8,10 +8,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string& name_at(const std::vector<std::string>& names, Index i) {
-  return names[static_cast<std::size_t>(i)];
-}
-
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);

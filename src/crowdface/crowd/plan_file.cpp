@@ -21,10 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string& name_at(const std::vector<std::string>& names, Index i) {
-  return names[static_cast<std::size_t>(i)];
-}
-
 constexpr double kRounding = 1e-6;  ///< of shares written by hand
 
 /// Reads the fields of one line and says where they are wrong.

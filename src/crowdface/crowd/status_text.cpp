@@ -30,9 +30,9 @@ std::string duration(const std::optional<double>& seconds) {
   return seconds ? format_duration(*seconds) : "";
 }
 
-using Row = std::array<std::string, 7>;
+using StatusRow = std::array<std::string, 7>;
 
-Row row_of(const ShardStatus& shard) {
+StatusRow row_of(const ShardStatus& shard) {
   std::string remark = shard.reason;
   if (shard.silent_seconds.value_or(0) > kSilentSeconds) {
     remark = concat("nothing written for ", format_duration(*shard.silent_seconds));
@@ -47,13 +47,13 @@ Row row_of(const ShardStatus& shard) {
 }
 
 /// Columns as wide as their widest.
-std::string aligned(const std::vector<Row>& rows) {
-  std::array<std::size_t, std::tuple_size_v<Row>> widths = {};
-  for (const Row& row : rows) {
+std::string aligned(const std::vector<StatusRow>& rows) {
+  std::array<std::size_t, std::tuple_size_v<StatusRow>> widths = {};
+  for (const StatusRow& row : rows) {
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
   }
   std::string text;
-  for (const Row& row : rows) {
+  for (const StatusRow& row : rows) {
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
       line += row[c] + std::string(widths[c] - row[c].size() + 2, ' ');
@@ -83,7 +83,7 @@ std::string format_status_table(const CrowdStatus& status) {
   text += "\n";
   for (const std::string& failure : status.failures) text += failure + "\n";
   if (status.shards.empty()) return text;
-  std::vector<Row> rows = {{"shard", "state", "faces", "pace", "left", "machine", ""}};
+  std::vector<StatusRow> rows = {{"shard", "state", "faces", "pace", "left", "machine", ""}};
   for (const ShardStatus& shard : status.shards) rows.push_back(row_of(shard));
   return text + aligned(rows);
 }

@@ -155,7 +155,7 @@ TextureMap map_of(const Image& image, const NeededMap& needed) {
   throw BrokenPrecondition("map_of: an unknown content");
 }
 
-std::uint64_t bytes_of(const NeededMap& needed) {
+std::uint64_t map_bytes(const NeededMap& needed) {
   return sizeof(Density) * static_cast<std::uint64_t>(needed.width) *
          static_cast<std::uint64_t>(needed.height) * static_cast<std::uint64_t>(needed.channels);
 }
@@ -167,7 +167,7 @@ std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::pa
     TextureMap map;
   };
   throw_if_interrupted();
-  Kept read{take_image_memory(needed.path, bytes_of(needed)),
+  Kept read{take_image_memory(needed.path, map_bytes(needed)),
             map_of(read_image(needed.path, {.jpeg = true}), needed)};
   if (!scratch.empty()) {
     move_to_disk(read.map, scratch);
@@ -210,7 +210,7 @@ std::shared_ptr<const TextureMap> compose(
       for (int c = 0; c < coding.channels; ++c) {
         std::transform(from.row(c, y) + span.begin, from.row(c, y) + span.end,
                        composed->row(c, y) + span.begin,
-                       [&](Density stored) { return coding.stored(from.number(stored)); });
+                       [&](Density number) { return coding.stored(from.number(number)); });
       }
     }
   }
@@ -320,7 +320,7 @@ HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& ma
     }
   }
   std::uint64_t bytes = 0;
-  for (const auto& [map, unread] : maps) bytes += bytes_of(map);
+  for (const auto& [map, unread] : maps) bytes += map_bytes(map);
   const fs::path out_of_memory = bytes > free_image_memory() / 2 ? scratch : fs::path();
   read_maps(maps, out_of_memory);
 

@@ -109,7 +109,7 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
 }
 
 /// The mean head, of whose parts those that follow are no skin.
-HeadShape shape_of(const Inputs& inputs) {
+HeadShape mean_shape(const Inputs& inputs) {
   HeadShape head{inputs.mean, {}, {}};
   for (const std::uint32_t c : inputs.skin.of_vertex) {
     head.skin.push_back(c == inputs.skin.largest());
@@ -121,7 +121,7 @@ HeadShape shape_of(const Inputs& inputs) {
 /// heads have: then everything that is measured would be wrong.
 void check_stance(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return;
-  const HeadShape head = shape_of(inputs);
+  const HeadShape head = mean_shape(inputs);
   const Topology& topology = inputs.faces.topology;
   const Bearing asked{config.faces.up, config.faces.front};
   auto marks = find_face_marks(topology, head, axes_of(asked));

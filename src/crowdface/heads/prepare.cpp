@@ -20,7 +20,7 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kSamples = 2500;
+constexpr Index kSampleCount = 2500;
 
 Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& samples,
               std::size_t head) {
@@ -135,9 +135,9 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
   const auto chosen = [&](Index count) { return choose_samples(config, inputs, count); };
   if (inputs.mirror == nullptr) {
-    prepared.traced = prepared.samples = chosen(kSamples);
+    prepared.traced = prepared.samples = chosen(kSampleCount);
   } else {
-    prepared.samples = with_partners(chosen(kSamples / 2), *inputs.mirror);
+    prepared.samples = with_partners(chosen(kSampleCount / 2), *inputs.mirror);
     prepared.traced = with_corners(prepared.samples, *inputs.mirror);
   }
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
@@ -145,7 +145,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   return prepared;
 }
 
-HeadCacheShape shape_of(const Config& config, const Inputs& inputs, const Prepared& prepared) {
+HeadCacheShape cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   return {inputs.faces.topology.vertex_count,
           static_cast<Index>(prepared.traced.size()),
           static_cast<Index>(trajectory_levels(inputs.max_level).size()),
@@ -160,7 +160,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
                   const std::filesystem::path& cache,
                   const std::function<bool(std::size_t)>& is_wanted) {
   Prepared prepared = shared_by_heads(config, inputs);
-  const HeadCacheShape shape = shape_of(config, inputs, prepared);
+  const HeadCacheShape shape = cache_shape(config, inputs, prepared);
   clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
@@ -175,7 +175,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                  const std::filesystem::path& cache) {
   Prepared prepared = shared_by_heads(config, inputs);
-  const HeadCacheShape shape = shape_of(config, inputs, prepared);
+  const HeadCacheShape shape = cache_shape(config, inputs, prepared);
   clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;

@@ -17,8 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace gltf;
 
-constexpr std::size_t kVectorSize = 3 * sizeof(float);
-
 Json bounds_json(const Eigen::RowVector3d& vector) {
   Json json = Json::array();
   for (const double part : vector) json.push_back(static_cast<double>(to_single(part)));

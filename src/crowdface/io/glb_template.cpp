@@ -28,9 +28,6 @@ using Json = nlohmann::ordered_json;
 using namespace gltf;
 using namespace glb;
 
-constexpr std::size_t kVectorSize = 3 * sizeof(float);
-constexpr Index kRowsPerBlock = 1 << 15;
-
 /// The triangles of one material, in the faces' order.
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 

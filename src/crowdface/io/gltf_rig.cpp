@@ -22,8 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kLongestName = 1000;  ///< of a joint, bytes
-constexpr double kFarthest = 1e6;           ///< of what a matrix holds: a thousand kilometres
+constexpr std::size_t kLongestJointName = 1000;  ///< of a joint, bytes
+constexpr double kFarthest = 1e6;                ///< of what a matrix holds: a thousand kilometres
 
 /// A glTF scene and its buffer, with messages that name the file.
 class GltfFile {
@@ -206,8 +206,9 @@ class RigReader {
  private:
   std::string joint_name(const Json& node, std::uint32_t number) const {
     std::string name = node.value("name", concat("joint_", number));
-    if (name.size() > kLongestName) {
-      file_.fail(concat("expected names of at most ", kLongestName, " bytes, found ", name.size()));
+    if (name.size() > kLongestJointName) {
+      file_.fail(
+          concat("expected names of at most ", kLongestJointName, " bytes, found ", name.size()));
     }
     return name;
   }

@@ -18,22 +18,19 @@ namespace {
 
 using std::filesystem::path;
 
-[[noreturn]] void refuse(const path& file, const std::string& what) {
-  throw InvalidInput(concat(file.string(), ": ", what));
-}
-
 /// \return the format's name in OpenImageIO; files that no decoder should see are refused.
 std::string checked_format(const path& file, std::string_view bytes, const ImageLimits& limits) {
   std::string format = image_format(bytes);
   if (limits.jpeg && bytes.starts_with("\xFF\xD8\xFF")) format = "jpeg";
   if (format.empty()) {
-    refuse(file, concat("expected a PNG, TIFF or OpenEXR image, found ",
-                        bytes.empty() ? "an empty file"
-                                      : "a file that begins with " + quoted(bytes.substr(0, 8))));
+    refuse_file(file,
+                concat("expected a PNG, TIFF or OpenEXR image, found ",
+                       bytes.empty() ? "an empty file"
+                                     : "a file that begins with " + quoted(bytes.substr(0, 8))));
   }
   if (const std::string defect = container_defect(format, bytes, limits.max_side, limits.jpeg);
       !defect.empty()) {
-    refuse(file, defect);
+    refuse_file(file, defect);
   }
   return format;
 }
@@ -49,7 +46,7 @@ OpenPicture open(const path& file, const std::string& format, std::string_view b
   OpenPicture opened{{}, {nullptr, codec.close}};
   std::string error;
   opened.picture.reset(codec.open(format, file.string(), bytes, opened.facts, error));
-  if (!opened.picture) refuse(file, error);
+  if (!opened.picture) refuse_file(file, error);
   return opened;
 }
 
@@ -57,24 +54,25 @@ void check_size(const path& file, const PictureFacts& spec, const ImageLimits& l
   const auto size =
       concat(spec.width, " x ", spec.height, " pixels of ", spec.channels, " channels");
   if (spec.width < 1 || spec.height < 1 || spec.channels < 1) {
-    refuse(file, concat("expected at least one pixel and channel, found ", size));
+    refuse_file(file, concat("expected at least one pixel and channel, found ", size));
   }
   if (spec.width > limits.max_side || spec.height > limits.max_side) {
-    refuse(file, concat("expected at most ", limits.max_side, " pixels a side, found ", size));
+    refuse_file(file, concat("expected at most ", limits.max_side, " pixels a side, found ", size));
   }
   const auto most = static_cast<std::int64_t>(input_limits().image_pixels);
   if (!limits.ours && std::int64_t{spec.width} * spec.height > most) {
-    refuse(file, concat("expected at most ", most, " pixels (--limit), found ", size));
+    refuse_file(file, concat("expected at most ", most, " pixels (--limit), found ", size));
   }
   if (spec.channels > limits.max_channels) {
-    refuse(file, concat("expected at most ", limits.max_channels, " channels, found ", size));
+    refuse_file(file, concat("expected at most ", limits.max_channels, " channels, found ", size));
   }
   if (spec.tile_width > limits.max_side || spec.tile_height > limits.max_side) {
-    refuse(file, concat("expected tiles of at most ", limits.max_side, " pixels a side, found ",
-                        spec.tile_width, " x ", spec.tile_height));
+    refuse_file(file, concat("expected tiles of at most ", limits.max_side,
+                             " pixels a side, found ", spec.tile_width, " x ", spec.tile_height));
   }
   if (std::int64_t{spec.width} * spec.height * spec.channels > limits.max_values) {
-    refuse(file, concat("expected at most ", limits.max_values, " values in all, found ", size));
+    refuse_file(file,
+                concat("expected at most ", limits.max_values, " values in all, found ", size));
   }
 }
 
@@ -94,20 +92,21 @@ void check_png_claim(const path& file, std::string_view bytes, const PictureFact
   const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
   const std::uint64_t claimed = row * static_cast<std::uint64_t>(spec.height);
   if (claimed <= kMostOfOneByte * bytes.size() + row) return;
-  refuse(file, concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
-                      " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
-                      " bytes, found ", bytes.size(), " (cut short?)"));
+  refuse_file(file,
+              concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
+                     " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
+                     " bytes, found ", bytes.size(), " (cut short?)"));
 }
 
 void check_kind(const path& file, std::string_view format, const PictureFacts& spec) {
-  if (spec.deep || spec.depth > 1) refuse(file, "expected a flat image, found a deep one");
+  if (spec.deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
   // Only OpenEXR has a window to lie in; the offsets of others say where the picture was cut from.
   const bool moved = format == "openexr" && (spec.x != spec.full_x || spec.y != spec.full_y);
   if (moved || spec.width != spec.full_width || spec.height != spec.full_height) {
-    refuse(file,
-           concat("expected all of the picture, found ", spec.width, " x ", spec.height,
-                  " pixels at ", spec.x, ", ", spec.y, " of a display window of ", spec.full_width,
-                  " x ", spec.full_height, " at ", spec.full_x, ", ", spec.full_y));
+    refuse_file(file, concat("expected all of the picture, found ", spec.width, " x ", spec.height,
+                             " pixels at ", spec.x, ", ", spec.y, " of a display window of ",
+                             spec.full_width, " x ", spec.full_height, " at ", spec.full_x, ", ",
+                             spec.full_y));
   }
 }
 
@@ -135,7 +134,7 @@ void* make_room(const path& file, const PictureFacts& facts, Image& image) {
     case PictureFacts::Values::kOthers:
       break;
   }
-  refuse(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type));
+  refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type));
 }
 
 /// Bytes that the pixels take, those of integers in their own type.

@@ -16,8 +16,6 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kRowsPerBlock = 1 << 15;
-
 /// The header as NumPy writes it: padded, so that the numbers begin at a multiple of 64 bytes.
 /// \param type  as Python has it: "'<f4'".
 std::string npy_header(std::string_view type, const std::string& shape) {

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kMostCorners = 255;  // the loader counts corners in a byte
 constexpr std::uint64_t kMostPerVertex = 8;
-constexpr std::size_t kLongestName = 1000;  // of a material, a group, a list of material files
-constexpr double kLargestCoordinate = 1e7;  // beyond, single precision keeps no tenth of a unit
+constexpr std::size_t kLongestObjName = 1000;  // of a material, a group, a list of material files
+constexpr double kLargestCoordinate = 1e7;     // beyond, single precision keeps no tenth of a unit
 
 /// Statements that carry no geometry we blend; they are copied through.
 constexpr std::array<std::string_view, 31> kOtherStatements = {
@@ -23,10 +23,6 @@ constexpr std::array<std::string_view, 31> kOtherStatements = {
     "cstype",   "deg",      "bmat", "step",   "curv",   "curv2",      "surf",     "parm",
     "trim",     "hole",     "scrv", "sp",     "end",    "con",        "mg",       "bevel",
     "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj", "trace_obj"};
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
 
 /// Splits a line into its words without copying.
 void split(std::string_view line, std::vector<std::string_view>& words) {
@@ -206,8 +202,8 @@ class Scanner {
 
   std::string name_after(std::string_view line, std::string_view statement) const {
     const std::string_view name = rest_after(line, statement);
-    if (name.size() > kLongestName) {
-      fail(concat("expected a name of at most ", kLongestName, " bytes, found ", name.size()));
+    if (name.size() > kLongestObjName) {
+      fail(concat("expected a name of at most ", kLongestObjName, " bytes, found ", name.size()));
     }
     return std::string(name);
   }

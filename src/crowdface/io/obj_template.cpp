@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::size_t kPlacesPerBlock = 8192;
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
-
 char* copy(std::string_view text, char* out) {
   std::memcpy(out, text.data(), text.size());
   return out + text.size();
@@ -36,12 +32,12 @@ bool has_single_spaces(std::string_view numbers) {
 }
 
 /// The x y z of a `v` or `vn` line.
-struct Numbers {
+struct Coordinates {
   std::string_view text;  ///< empty if the line is another
   bool is_normal = false;
 };
 
-Numbers numbers_of(std::string_view line) {
+Coordinates coordinates_of(std::string_view line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   std::size_t at = 0;
   const auto skip = [&](bool blanks) {
@@ -126,7 +122,7 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology)
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     const std::string_view line = text_.substr(begin, end - begin);
     begin = end + 1;
-    const auto [numbers, is_normal] = numbers_of(line);
+    const auto [numbers, is_normal] = coordinates_of(line);
     if (numbers.empty() || (is_normal && !has_normals)) continue;
     const bool ends_run = !places.empty() && places.back().is_normal != is_normal &&
                           places.size() > kPlacesPerBlock / 2;

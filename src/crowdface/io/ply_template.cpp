@@ -13,8 +13,6 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kRowsPerBlock = 1 << 15;
-
 std::string ply_header(Index vertices, Index faces, bool with_normals) {
   return concat("ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
                 "\nproperty float x\nproperty float y\nproperty float z\n",

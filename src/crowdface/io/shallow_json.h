@@ -13,21 +13,21 @@ namespace crowdface {
 /// \return what `is_discarded()` if the text is no JSON, or has an object of more keys than any of ours:
 /// the library compares each with all before it.
 inline nlohmann::ordered_json parse_shallow_json(std::string_view text) {
-  using Json = nlohmann::ordered_json;
+  using Value = nlohmann::ordered_json;
   constexpr int kDeepest = 64, kMostKeys = 1024;
   struct TooManyKeys {};
   std::array<int, kDeepest + 1> keys{};  // of the object that is open at each depth
-  const auto keep = [&](int depth, Json::parse_event_t event, Json&) {
+  const auto keep = [&](int depth, Value::parse_event_t event, Value&) {
     if (depth >= kDeepest) return false;
     const auto at = static_cast<std::size_t>(depth);
-    if (event == Json::parse_event_t::object_start) keys[at + 1] = 0;
-    if (event == Json::parse_event_t::key && ++keys[at] > kMostKeys) throw TooManyKeys();
+    if (event == Value::parse_event_t::object_start) keys[at + 1] = 0;
+    if (event == Value::parse_event_t::key && ++keys[at] > kMostKeys) throw TooManyKeys();
     return true;
   };
   try {
-    return Json::parse(text, keep, false);
+    return Value::parse(text, keep, false);
   } catch (const TooManyKeys&) {
-    return Json(Json::value_t::discarded);
+    return Value(Value::value_t::discarded);
   }
 }
 

@@ -31,7 +31,6 @@ Positions read_singles(const char* bytes, Index rows, std::size_t stride) {
 void require_finite(const Positions& positions, Index vertices, const std::string& what) {
   require(positions.rows() == vertices, what, ": ", positions.rows(), " positions for ", vertices,
           " vertices");
-  constexpr Index kRowsPerBlock = 1 << 16;
   std::atomic<bool> finite = true;
   parallel_blocks(vertices, kRowsPerBlock, [&](Index begin, Index end) {
     bool all = true;

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-std::vector<float> numbers_of(std::string_view text) {
+std::vector<float> leading_numbers(std::string_view text) {
   std::vector<float> numbers;
   for (const std::string& word : words_of(text)) {
     const auto number = parse_double(word);
@@ -29,7 +29,7 @@ std::filesystem::path texture_at_end(std::string rest, const std::filesystem::pa
   for (const MaterialFile& file : files.files) {
     if (file.is_library) continue;
     for (std::size_t begin = 0; begin < rest.size(); ++begin) {
-      const bool is_word = begin == 0 || rest[begin - 1] == ' ' || rest[begin - 1] == '\t';
+      const bool is_word = begin == 0 || is_blank(rest[begin - 1]);
       if (!is_word || rest.size() - begin <= longest) continue;
       if ((folder / rest.substr(begin)).lexically_normal() != file.relative) continue;
       longest = rest.size() - begin;
@@ -41,7 +41,7 @@ std::filesystem::path texture_at_end(std::string rest, const std::filesystem::pa
 
 void take(const MaterialStatement& statement, const std::filesystem::path& folder,
           const MaterialFiles& files, SurfaceMaterial& material) {
-  const std::vector<float> numbers = numbers_of(statement.rest);
+  const std::vector<float> numbers = leading_numbers(statement.rest);
   if (statement.word == "Kd" && numbers.size() == 3) {
     material.colour = {numbers[0], numbers[1], numbers[2]};
   } else if (statement.word == "d" && numbers.size() == 1) {
@@ -80,7 +80,7 @@ std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>
   std::vector<SurfaceMaterial> materials;
   for (const std::string& name : names) {
     const auto found = std::ranges::find(known, name, &SurfaceMaterial::name);
-    materials.push_back(found != known.end() ? *found : SurfaceMaterial{.name = name});
+    materials.push_back(found != known.end() ? *found : SurfaceMaterial{name});
   }
   return materials;
 }

@@ -14,10 +14,10 @@ namespace crowdface {
 /// What a material file says of how a surface looks.
 struct SurfaceMaterial {
   std::string name;
-  std::optional<std::array<float, 3>> colour;  ///< `Kd`, linear
-  float opacity = 1;                           ///< `d`, or one less `Tr`
-  std::filesystem::path colour_map;            ///< the file of `map_Kd`; empty: there is none
-  std::filesystem::path opacity_map;           ///< of `map_d`
+  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear
+  float opacity = 1;                                ///< `d`, or one less `Tr`
+  std::filesystem::path colour_map = {};            ///< the file of `map_Kd`; empty: there is none
+  std::filesystem::path opacity_map = {};           ///< of `map_d`
 };
 
 /// The materials of a mesh, in the order of its files. Of textures only those among the files count.

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kRowsPerBlock = 8192;
+constexpr Index kRowsOfText = 8192;
 
 void append_row(std::string& out, const Positions& rows, Index i) {
   char buffer[kLongestUsdaRow + kSingleRoom];
@@ -72,9 +72,9 @@ std::string usda_string(std::string_view text) {
 
 std::string usda_rows(const Positions& rows) {
   std::vector<std::string> blocks(
-      static_cast<std::size_t>((rows.rows() + kRowsPerBlock - 1) / kRowsPerBlock));
-  parallel_blocks(rows.rows(), kRowsPerBlock, [&](Index begin, Index end) {
-    std::string& block = blocks[static_cast<std::size_t>(begin / kRowsPerBlock)];
+      static_cast<std::size_t>((rows.rows() + kRowsOfText - 1) / kRowsOfText));
+  parallel_blocks(rows.rows(), kRowsOfText, [&](Index begin, Index end) {
+    std::string& block = blocks[static_cast<std::size_t>(begin / kRowsOfText)];
     for (Index i = begin; i < end; ++i) append_row(block, rows, i);
   });
   return blocks.size() == 1 ? std::move(blocks.front()) : join(blocks, "");

@@ -19,18 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-  throw InvalidInput(concat(file.string(), ": ", what));
-}
-
 /// The array of this name: three numbers a vertex.
 const json& triples(const json& root, const char* name, Index vertices, const fs::path& file) {
   const json& rows = root.at(name);
   if (!rows.is_array() || static_cast<Index>(rows.size()) != vertices) {
-    refuse(file, concat("expected ", name, " of ", vertices, " vertices, found ", rows.size()));
+    refuse_file(file,
+                concat("expected ", name, " of ", vertices, " vertices, found ", rows.size()));
   }
   for (const json& row : rows) {
-    if (row.size() != 3) refuse(file, concat(name, ": expected three numbers, found ", row.dump()));
+    if (row.size() != 3)
+      refuse_file(file, concat(name, ": expected three numbers, found ", row.dump()));
   }
   return rows;
 }
@@ -42,7 +40,7 @@ Positions read_triples(const json& root, const char* name, Index vertices, const
     values(i / 3, i % 3) =
         rows[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)].get<double>();
   }
-  if (!values.allFinite()) refuse(file, concat(name, ": expected finite numbers"));
+  if (!values.allFinite()) refuse_file(file, concat(name, ": expected finite numbers"));
   return values;
 }
 
@@ -52,8 +50,8 @@ void read_anchors(const json& root, Index base_vertices, const fs::path& file, F
     for (std::size_t k = 0; k < 3; ++k) {
       const auto value = row[k].get<std::int64_t>();
       if (value < 0 || value >= base_vertices) {
-        refuse(file, concat("ref_vIdxs: expected a vertex of the base mesh, below ", base_vertices,
-                            ", found ", value));
+        refuse_file(file, concat("ref_vIdxs: expected a vertex of the base mesh, below ",
+                                 base_vertices, ", found ", value));
       }
       anchor[k] = static_cast<std::uint32_t>(value);
     }
@@ -66,7 +64,7 @@ fs::path picture_beside(const fs::path& file, const json& material) {
   if (name == material.end()) return {};
   const fs::path relative = fs::path(name->get<std::string>()).lexically_normal();
   if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") {
-    refuse(file, concat("expected a picture beside the file, found ", name->dump()));
+    refuse_file(file, concat("expected a picture beside the file, found ", name->dump()));
   }
   return file.parent_path() / relative;
 }
@@ -141,7 +139,7 @@ FittedMesh read_fitted_mesh(const fs::path& file, Index base_vertices) {
   const ThreeMesh three = read_three_mesh(file, kWhat);
   FittedMesh mesh;
   for (const ThreeMesh::Face& face : three.faces) mesh.topology.add_face(face.vertices, face.uvs);
-  if (three.faces.empty()) refuse(file, "expected faces, found none");
+  if (three.faces.empty()) refuse_file(file, "expected faces, found none");
   mesh.topology.vertex_count = three.positions.rows();
   mesh.uvs = three.uvs;
   try {
@@ -157,7 +155,7 @@ FittedMesh read_fitted_mesh(const fs::path& file, Index base_vertices) {
     mesh.licence = {licence.at("license").get<std::string>(),
                     licence.at("author").get<std::string>(), licence.value("homepage", "")};
   } catch (const json::exception& error) {
-    refuse(file, concat("expected ", kWhat, ": ", error.what()));
+    refuse_file(file, concat("expected ", kWhat, ": ", error.what()));
   }
   return mesh;
 }

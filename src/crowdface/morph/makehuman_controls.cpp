@@ -13,7 +13,6 @@ namespace crowdface {
 namespace {
 
 constexpr double kYoung = 25, kOld = 90;  // the ages for which MakeHuman has targets
-constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
 constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
 /// A measure with a target for either direction. '*' stands for l and r: both sides alike but for a

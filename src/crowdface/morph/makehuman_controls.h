@@ -4,17 +4,20 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/morph/morph_targets.h"
 
 namespace crowdface {
 
+constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
+
 /// What a MakeHuman head's targets hang together with.
 struct MakeHumanPerson {
   bool male = false;
   double years = 0;                   ///< 20 … 80
-  std::array<double, 3> ancestry{};   ///< shares of African, Asian, Caucasian; sum 1
+  std::array<double, 3> ancestry{};   ///< shares of kAncestries; sum 1
   double muscle = 0.5, weight = 0.5;  ///< 0 least … 1 most
 };
 MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index);

@@ -17,10 +17,6 @@ namespace {
 // The plane of the cut, in decimetres: it keeps to one loop of 42 edges round the lower neck.
 constexpr double kCutHeight = 5.84, kCutSlope = 0.4;
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-  throw InvalidInput(concat(file.string(), ": ", what));
-}
-
 struct Part {
   std::string_view in_file, name;
 };
@@ -37,7 +33,7 @@ double mean_height(const ThreeMesh& mesh, const std::array<std::string_view, 2>&
     for (const std::uint32_t v : face.vertices) sum += mesh.positions(v, 1);
     count += 4;
   }
-  if (count == 0) refuse(file, concat("expected faces of ", helpers[0], ", found none"));
+  if (count == 0) refuse_file(file, concat("expected faces of ", helpers[0], ", found none"));
   return sum / static_cast<double>(count);
 }
 
@@ -58,8 +54,8 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
       topology.add_face(face.vertices, face.uvs);
     }
     if (out.materials.back().first_face == topology.face_count()) {
-      refuse(file, concat("expected a head of material ", part.in_file, " above the neck's cut, ",
-                          "found none"));
+      refuse_file(file, concat("expected a head of material ", part.in_file,
+                               " above the neck's cut, ", "found none"));
     }
   }
   out.rows = renumber(topology.corner_vertices, all.positions.rows());

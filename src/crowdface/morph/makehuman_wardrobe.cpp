@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
-
 struct AgeShare {
   std::string_view name;
   double share;

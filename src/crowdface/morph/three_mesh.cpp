@@ -17,27 +17,23 @@ using nlohmann::json;
 constexpr int kQuadMaterialUvs = 1 | 2 | 8;
 constexpr std::size_t kFaceNumbers = 1 + 4 + 1 + 4;
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-  throw InvalidInput(concat(file.string(), ": ", what));
-}
-
 std::uint32_t index_below(const json& number, Index end, const std::filesystem::path& file) {
   const auto value = number.get<std::int64_t>();
   if (value < 0 || value >= end) {
-    refuse(file, concat("expected an index below ", end, ", found ", value));
+    refuse_file(file, concat("expected an index below ", end, ", found ", value));
   }
   return static_cast<std::uint32_t>(value);
 }
 
 void read_faces(const json& numbers, const std::filesystem::path& file, ThreeMesh& mesh) {
   if (numbers.size() % kFaceNumbers != 0) {
-    refuse(file, concat("expected quads with material and texture coordinates, ", kFaceNumbers,
-                        " numbers each, found ", numbers.size(), " numbers"));
+    refuse_file(file, concat("expected quads with material and texture coordinates, ", kFaceNumbers,
+                             " numbers each, found ", numbers.size(), " numbers"));
   }
   for (std::size_t i = 0; i < numbers.size(); i += kFaceNumbers) {
     if (numbers[i].get<int>() != kQuadMaterialUvs) {
-      refuse(file, concat("expected faces of type ", kQuadMaterialUvs, ", found ",
-                          numbers[i].get<int>()));
+      refuse_file(file, concat("expected faces of type ", kQuadMaterialUvs, ", found ",
+                               numbers[i].get<int>()));
     }
     ThreeMesh::Face face;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -71,9 +67,9 @@ ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view wh
     }
     read_faces(root.at("faces"), file, mesh);
   } catch (const json::exception& error) {
-    refuse(file, concat("expected ", what, " as three.js JSON: ", error.what()));
+    refuse_file(file, concat("expected ", what, " as three.js JSON: ", error.what()));
   }
-  if (!mesh.positions.allFinite()) refuse(file, "expected finite positions");
+  if (!mesh.positions.allFinite()) refuse_file(file, "expected finite positions");
   return mesh;
 }
 

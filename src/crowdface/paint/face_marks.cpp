@@ -13,14 +13,14 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kBins = 720;
+constexpr Index kHeights = 720;
 
-/// How far in front the skin reaches in a plane, at each of kBins heights.
+/// How far in front the skin reaches in a plane, at each of kHeights heights.
 class Outline {
  public:
   Outline(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
           const HeadAxes& axes, double middle)
-      : front_(kBins, kNothing) {
+      : front_(kHeights, kNothing) {
     low_ = std::numeric_limits<double>::infinity();
     double high = -low_;
     for (Index v = 0; v < positions.rows(); ++v) {
@@ -29,7 +29,7 @@ class Outline {
       low_ = std::min(low_, height);
       high = std::max(high, height);
     }
-    step_ = (high - low_) / static_cast<double>(kBins - 1);
+    step_ = (high - low_) / static_cast<double>(kHeights - 1);
     if (!(step_ > 0)) return;
     const Eigen::Vector3d side = axes.side();
     for (Index f = 0; f < topology.face_count(); ++f) {
@@ -52,11 +52,11 @@ class Outline {
 
   bool empty() const { return front_.empty() || front_[0] == kNothing; }
   double low() const { return low_; }
-  double high() const { return height(kBins - 1); }
+  double high() const { return height(kHeights - 1); }
   double height(Index bin) const { return low_ + static_cast<double>(bin) * step_; }
   double at(double height) const {
-    const double x = std::clamp((height - low_) / step_, 0.0, static_cast<double>(kBins - 1));
-    const auto bin = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kBins - 2));
+    const double x = std::clamp((height - low_) / step_, 0.0, static_cast<double>(kHeights - 1));
+    const auto bin = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kHeights - 2));
     const double t = x - static_cast<double>(bin);
     return (1 - t) * front_[bin] + t * front_[bin + 1];
   }
@@ -104,7 +104,7 @@ class Outline {
     const Eigen::Vector2d &lower = a.x() < b.x() ? a : b, &upper = a.x() < b.x() ? b : a;
     const auto first = static_cast<Index>(std::ceil((lower.x() - low_) / step_));
     const auto last = static_cast<Index>(std::floor((upper.x() - low_) / step_));
-    for (Index i = std::max<Index>(first, 0); i <= std::min(last, kBins - 1); ++i) {
+    for (Index i = std::max<Index>(first, 0); i <= std::min(last, kHeights - 1); ++i) {
       const double length = upper.x() - lower.x();
       const double t = length > 0 ? (height(i) - lower.x()) / length : 0;
       double& front = front_[static_cast<std::size_t>(i)];

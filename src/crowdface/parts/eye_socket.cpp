@@ -24,23 +24,30 @@ constexpr std::size_t kMostLids = 2500;
 /// off: a share of the radius, 0.05 mm.
 constexpr double kMeans = 20, kMeanOff = 0.004;
 /// What a shift and a change of size cost beside the gaps.
-constexpr double kHold = 0.02, kHoldSize = 0.2;
+constexpr double kHold = 0.02, kHoldBallSize = 0.2;
 /// How much smaller or larger the eyeball may become.
-constexpr double kSmaller = 0.08, kLarger = 0.03;
+constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
 /// Shares of the radius: what is kept free where no head has a lid inside, and what still counts as
 /// free: 0.025 and 0.04 mm.
-constexpr double kMargin = 0.002, kFree = -0.003;
+constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
 /// Lids that are this far off in the first step, and in those after it, are not met by what is still to
 /// come: shares of the radius.
-constexpr double kFarFirst = 0.1, kFar = 0.04;
+constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// A shift, as a share of the radius, after which another step changes nothing that can be seen.
-constexpr double kDone = 1e-3;
+constexpr double kDoneShift = 1e-3;
 /// Prices, as multiples of the radius, of what cannot be had: that no lid enters where none does comes
 /// first, then the mean gaps, then that none enters farther than in any head.
-constexpr double kNewPrice = 100, kMeanPrice = 10, kDeepPrice = 1;
+constexpr double kNewLidPrice = 100, kMeanGapPrice = 10, kDeepLidPrice = 1;
 
 /// Unknowns of a step; lengths.
-enum Unknown : std::size_t { kShift = 0, kSize = 3, kMeanSlack, kNewSlack, kDeepSlack, kUnknowns };
+enum BallUnknown : std::size_t {
+  kBallShift = 0,
+  kBallSize = 3,
+  kMeanGapSlack,
+  kNewLidSlack,
+  kDeepLidSlack,
+  kBallUnknowns
+};
 
 /// Which of kDirections equal sectors a direction in the plane lies in.
 std::size_t sector(double x, double y) {
@@ -120,10 +127,10 @@ RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
   }
   RigidMotion fitted = motion;
   for (int k = 0; k < kSteps; ++k) {
-    const RigidMotion next = step(target, motion, fitted, k == 0 ? kFarFirst : kFar, lids);
+    const RigidMotion next = step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, lids);
     const double change = length3(next.to - fitted.to);
     fitted = next;
-    if (change < kDone * maps_[target].radius()) break;
+    if (change < kDoneShift * maps_[target].radius()) break;
   }
   return fitted;
 }
@@ -138,7 +145,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   const Eigen::Vector3d shifted = centre - start.apply(map.centre());
   const double grown = (motion.scale / start.scale - 1) * radius;
   const auto rim = static_cast<double>(lids_.rim.size());
-  SmallProgram program(kUnknowns);
+  SmallProgram program(kBallUnknowns);
   struct {
     SmallProgram::Vector a = {};
     double missing = 0, count = 0;
@@ -156,18 +163,18 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
     // A shift by x changes the gap by −x · normal.
     SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
-    a[kSize] = -dot3(normal, lid.point - gap.gap * normal - centre) / radius;
+    a[kBallSize] = -dot3(normal, lid.point - gap.gap * normal - centre) / radius;
     if (r != kNoIndex) {
       const double missing = gaps_[target][r] - gap.gap;
       program.want(a, missing, 1 / rim);
       auto& of = mean[lids_.upper[r] ? 1 : 0];
-      for (std::size_t i = 0; i < kMeanSlack; ++i) of.a[i] += a[i];
+      for (std::size_t i = 0; i < kMeanGapSlack; ++i) of.a[i] += a[i];
       of.missing += missing;
       of.count += 1;
     }
     const double least = least_[lid.number];
-    const bool never = least > kFree * map.radius();
-    a[never ? kNewSlack : kDeepSlack] = 1;
+    const bool never = least > kFreeOfLids * map.radius();
+    a[never ? kNewLidSlack : kDeepLidSlack] = 1;
     program.demand(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
   lids.resize(kept);
@@ -179,20 +186,20 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     program.want(of.a, missing, kMeans);
     SmallProgram::Vector less = of.a;
     for (double& value : less) value = -value;
-    of.a[kMeanSlack] = less[kMeanSlack] = 1;
+    of.a[kMeanGapSlack] = less[kMeanGapSlack] = 1;
     program.demand(of.a, missing - kMeanOff * radius);
     program.demand(less, -missing - kMeanOff * radius);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    program.want(kShift + i, -shifted(static_cast<Index>(i)), kHold);
+    program.want(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
-  program.want(kSize, -grown, kHoldSize);
-  program.demand_between(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
-  program.add_slack(kMeanSlack, kMeanPrice * radius);
-  program.add_slack(kNewSlack, kNewPrice * radius);
-  program.add_slack(kDeepSlack, kDeepPrice * radius);
+  program.want(kBallSize, -grown, kHoldBallSize);
+  program.demand_between(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);
+  program.add_slack(kMeanGapSlack, kMeanGapPrice * radius);
+  program.add_slack(kNewLidSlack, kNewLidPrice * radius);
+  program.add_slack(kDeepLidSlack, kDeepLidPrice * radius);
   const SmallProgram::Vector x = program.solve(1e-5 * radius);
-  return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kSize] / radius);
+  return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kBallSize] / radius);
 }
 
 }  // namespace crowdface

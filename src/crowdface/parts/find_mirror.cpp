@@ -23,7 +23,7 @@ constexpr std::size_t kSeeds = 24;  ///< walks that are tried for two components
 /// A ball has many ways to be mirrored: one this near, as a share of its own extent, is the right one.
 constexpr double kSure = 0.01;
 // Shares of the skin's extent, some 43 cm.
-constexpr double kReach = 0.01;  // how far a place may be from a vertex' image
+constexpr double kMatchReach = 0.01;  // how far a place may be from a vertex' image
 /// How far partners that faces tell may be from images, in the root mean square: as a share of the
 /// component's own extent, or of the skin's.
 constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
@@ -35,15 +35,11 @@ constexpr double kMore = 1 + 1e-9;  ///< than sums that are rounded
 
 using Vertices = std::vector<std::uint32_t>;
 
-Eigen::Vector3d at(const Positions& positions, std::uint32_t vertex) {
-  return row3(positions, static_cast<Index>(vertex));
-}
-
 using Box = Eigen::AlignedBox3d;
 
 Box box_of(const Positions& mean, const Vertices& vertices) {
   Box box;
-  for (const std::uint32_t v : vertices) box.extend(at(mean, v));
+  for (const std::uint32_t v : vertices) box.extend(row3(mean, v));
   return box;
 }
 
@@ -57,7 +53,7 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
     Vertices rows(vertices.size());
     for (std::uint32_t i = 0; i < rows.size(); ++i) {
       rows[i] = i;
-      image.row(i) = plane.image(at(mean, vertices[i])).transpose();
+      image.row(i) = plane.image(row3(mean, vertices[i])).transpose();
     }
     boxes.push_back(box_of(mean, vertices));
     images.push_back(box_of(image, rows));
@@ -150,7 +146,7 @@ class PlaceFinder {
   /// By nearness, each vertex for itself.
   void by_nearness(const Vertices& here, const Vertices& there, FoundMirror& found) const {
     const PointGrid grid_there(mean_, there), grid_here(mean_, here);
-    const double reach = kReach * extent_;
+    const double reach = kMatchReach * extent_;
     std::vector<double> distances(here.size());
     parallel_for_each(here.size(), [&](std::size_t i) {
       const std::uint32_t v = here[i];
@@ -185,10 +181,10 @@ class PlaceFinder {
   }
 
  private:
-  Eigen::Vector3d image(std::uint32_t vertex) const { return plane_.image(at(mean_, vertex)); }
+  Eigen::Vector3d image(std::uint32_t vertex) const { return plane_.image(row3(mean_, vertex)); }
 
   double square_off(const MirroredPair& pair) const {
-    const Eigen::Vector3d off = image(pair.vertex) - at(mean_, pair.partner);
+    const Eigen::Vector3d off = image(pair.vertex) - row3(mean_, pair.partner);
     return dot3(off, off);
   }
 
@@ -204,7 +200,7 @@ class PlaceFinder {
     for (const std::uint32_t f : around_.of(vertex)) {
       const auto face = topology_.face(f);
       for (std::size_t c = 0; c < face.size(); ++c) {
-        sum += length3(at(mean_, face[c]) - at(mean_, face[(c + 1) % face.size()]));
+        sum += length3(row3(mean_, face[c]) - row3(mean_, face[(c + 1) % face.size()]));
         ++count;
       }
     }
@@ -237,7 +233,7 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
                               const Eigen::Vector3d& side) {
   PlaneFit fit;
   for (const std::uint32_t v : skin) {
-    if (map.is_vertex(v)) fit.add(at(mean, v), at(mean, map.corners[v][0]));
+    if (map.is_vertex(v)) fit.add(row3(mean, v), row3(mean, map.corners[v][0]));
   }
   if (fit.count() * 2 >= static_cast<double>(skin.size())) map.plane = fit.plane(side);
   const double best = mean_square(map, mean);
@@ -311,7 +307,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   std::ranges::sort(map.without);
   map.kept.setZero(static_cast<Index>(map.without.size()), 3);
   map.plane = plane_of_partners(map, skin, mean, side);
-  keep_form(mean, kReach * extent, map);
+  keep_form(mean, kMatchReach * extent, map);
   found.rms = std::sqrt(mean_square(map, mean, &found.largest));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
     if (std::ranges::binary_search(map.without, v)) continue;

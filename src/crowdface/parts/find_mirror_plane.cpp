@@ -16,10 +16,6 @@ constexpr int kSteps = 30;
 
 using Vertices = std::vector<std::uint32_t>;
 
-Eigen::Vector3d at(const Positions& positions, std::uint32_t vertex) {
-  return row3(positions, static_cast<Index>(vertex));
-}
-
 class PlaneSearch {
  public:
   PlaneSearch(const Topology& topology, const FacesAround& around, const Positions& mean,
@@ -36,7 +32,7 @@ class PlaneSearch {
     MirrorPlane by_vertices = start_;
     for (int step = 0; step < kSteps; ++step) {
       by_vertices = next(by_vertices, [&](std::uint32_t nearest, const Eigen::Vector3d&) {
-        return at(mean_, nearest);
+        return row3(mean_, nearest);
       });
     }
     for (MirrorPlane plane : {start_, by_vertices}) {
@@ -56,18 +52,18 @@ class PlaneSearch {
   template <class PlaceOf>
   MirrorPlane next(const MirrorPlane& plane, const PlaceOf& place_of) {
     parallel_for_each(some_.size(), [&](std::size_t i) {
-      const Eigen::Vector3d image = plane.image(at(mean_, some_[i]));
+      const Eigen::Vector3d image = plane.image(row3(mean_, some_[i]));
       places_[i] = place_of(grid_.nearest(image).vertex, image);
     });
     PlaneFit fit;
-    for (std::size_t i = 0; i < some_.size(); ++i) fit.add(at(mean_, some_[i]), places_[i]);
+    for (std::size_t i = 0; i < some_.size(); ++i) fit.add(row3(mean_, some_[i]), places_[i]);
     return fit.plane(start_.normal);
   }
 
   void keep_best(const MirrorPlane& tried) {
     double squares = 0;
     for (std::size_t i = 0; i < some_.size(); ++i) {
-      const Eigen::Vector3d off = tried.image(at(mean_, some_[i])) - places_[i];
+      const Eigen::Vector3d off = tried.image(row3(mean_, some_[i])) - places_[i];
       squares += dot3(off, off);
     }
     if (squares >= least_) return;

@@ -18,7 +18,7 @@ namespace {
 
 /// How far a rigid part's socket reaches: a share of an eyeball's radius (some 12 mm), and of the
 /// skin's extent (some 43 cm) for all else.
-constexpr double kEyeReach = 1, kReach = 0.03;
+constexpr double kEyeReach = 1, kSocketReach = 0.03;
 /// Vertices of a part that stand for all of it when its socket is found.
 constexpr std::size_t kMostRough = 4000;
 /// How near to the skin a part may come to pass through it, and how much of a clearance is kept at
@@ -93,7 +93,7 @@ RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& 
   bound.ones.assign(part.vertices.size(), 1.0);
   bound.eyeball = part.eyeball;
   if (!part.eyeball) {
-    bound.socket = socket_of(part, kReach * skin.extent, skin);
+    bound.socket = socket_of(part, kSocketReach * skin.extent, skin);
     bound.contact = Contact(skin.faces.topology, skin.around, skin.mean, skin.grid, skin.vertices,
                             part.vertices, kContactReach * skin.extent, skin.faces.heads);
     return bound;

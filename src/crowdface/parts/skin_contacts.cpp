@@ -15,14 +15,14 @@ namespace crowdface {
 namespace {
 
 // Shares of the skin's extent, some 43 cm.
-constexpr double kSpacing = 0.008;     // between places
-constexpr double kProfile = 0.015;     // a profile to either side of a place
-constexpr double kReach = 0.07;        // how far the skin around a place moves
-constexpr double kSide = 0.09;         // how far along the surface a side is told from the other
-constexpr double kRounding = 0.006;    // size of what is smoothed out of a side's edges
-constexpr double kTolerance = 1e-5;    // by which a gap may miss its range
-constexpr double kLeastWeight = 1e-3;  // what moves less does not move
-constexpr Index kBlock = 8192;
+constexpr double kPlaceSpacing = 0.008;  // between places
+constexpr double kProfile = 0.015;       // a profile to either side of a place
+constexpr double kMotionReach = 0.07;    // how far the skin around a place moves
+constexpr double kSide = 0.09;           // how far along the surface a side is told from the other
+constexpr double kRounding = 0.006;      // size of what is smoothed out of a side's edges
+constexpr double kTolerance = 1e-5;      // by which a gap may miss its range
+constexpr double kLeastWeight = 1e-3;    // what moves less does not move
+constexpr Index kRowsPerBlock = 8192;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
 /// Share of what is asked for at a place by which its gap may miss its range: evens out what neighbours ask for
@@ -100,7 +100,7 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   }
   std::vector<double> next = side;
   for (int step = 0; step < steps; ++step) {
-    parallel_blocks(static_cast<Index>(rows), kBlock, [&](Index begin, Index end) {
+    parallel_blocks(static_cast<Index>(rows), kRowsPerBlock, [&](Index begin, Index end) {
       std::uint32_t n = begin == 0 ? 0 : ends[static_cast<std::size_t>(begin) - 1];
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
         const auto valence = static_cast<double>(std::max(ends[i] - n, 1U));
@@ -139,7 +139,7 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
   Sides sides = find_sides(group, adjacency, mean, kSide * extent);
   Contact contact;
   contact.begin = places_.size();
-  for (ContactPlace& place : places_among(group, kSpacing * extent)) {
+  for (ContactPlace& place : places_among(group, kPlaceSpacing * extent)) {
     cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, place);
     if (place.low.empty() || place.high.empty()) continue;
     clearances_.emplace_back(place, adjacency);
@@ -156,7 +156,7 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
 void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint32_t> around,
                                const std::vector<double>& side, double extent,
                                Contact& contact) const {
-  const double reach = kReach * extent;
+  const double reach = kMotionReach * extent;
   contact.offsets = {0};
   for (const std::uint32_t v : around) {
     for (std::size_t p = contact.begin; p < contact.end; ++p) {

@@ -10,7 +10,7 @@ namespace {
 
 /// More vertices than this change a motion by less than a hundredth of a millimetre; and of so many
 /// near the part it is found out how near they are.
-constexpr std::size_t kMostVertices = 1500, kMostMeasured = 16 * kMostVertices;
+constexpr std::size_t kMostKept = 1500, kMostMeasured = 16 * kMostKept;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
     all.vertices.push_back(v);
     all.weights.push_back(weight);
   }
-  return {some_of(all.vertices, kMostVertices), some_of(all.weights, kMostVertices)};
+  return {some_of(all.vertices, kMostKept), some_of(all.weights, kMostKept)};
 }
 
 bool unmoved(const Positions& before, const Positions& after,

@@ -10,7 +10,6 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMost = 100;
-constexpr double kFarthest = 1e9;
 constexpr std::uint64_t kMostVertices = 0xfffffffe;
 
 std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Complaints& out) {

@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/page/answer_request.h"
 #include "crowdface/page/request_values.h"
+#include "crowdface/pick/landmark_file.h"
 #include "crowdface/pick/landmark_names.h"
 
 namespace crowdface {
@@ -16,7 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kFarthest = 1e9;  // as read_landmarks allows
 constexpr std::size_t kMostLandmarks = 100, kLongestName = 64;
 
 Json list_of(const Eigen::Vector3d& v) {

@@ -112,7 +112,7 @@ std::optional<PickedPlace> outermost(const PickableMesh& mesh,
 std::map<std::string, PickedPlace> suggest_on_template(
     const std::vector<PickedLandmark>& landmarks, const PickableMesh& mesh,
     const MirrorPlane& plane, const std::map<std::string, std::uint32_t>& proposals) {
-  constexpr double kLeastCosine = 0.5, kReachMm = 20;
+  constexpr double kReachMm = 20;
   std::map<std::string, PickedPlace> places;
   for (const auto& [name, vertex] : proposals) places[name] = mesh.at_vertex(vertex);
   for (const PickedLandmark& landmark : landmarks) {
@@ -156,7 +156,7 @@ SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
                                const PickableMesh& of_template, const PickableMesh& of_scan,
                                const MirrorPlane& plane,
                                const std::map<std::string, std::uint32_t>& proposals) {
-  constexpr double kLeastCosine = 0.3, kReachMm = 25, kDepthMm = 5;
+  constexpr double kLeastFacing = 0.3, kReachMm = 25, kDepthMm = 5;
   SuggestedPlaces suggested;
   suggested.of_template = suggest_on_template(landmarks, of_template, plane, proposals);
   suggested.pose = pose_of_picked(landmarks, of_template.positions());
@@ -174,7 +174,7 @@ SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
         carried(pose, place.point) + correction(pairs, *suggested.pose, place.point);
     const auto near = outermost(
         of_scan,
-        of_scan.nearest(point, pose.rotation * place.normal, kLeastCosine, kReachMm * pose.scale),
+        of_scan.nearest(point, pose.rotation * place.normal, kLeastFacing, kReachMm * pose.scale),
         kDepthMm * pose.scale);
     if (near) suggested.of_scan[name] = *near;
   }

@@ -58,7 +58,7 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
       {.cut_below = kCutBelow, .beside = reach_of(inputs.attachments, inputs.faces)});
 }
 
-std::string to_png(const Rgb8Image& image) {
+std::string quick_png(const Rgb8Image& image) {
   return encode_png(image.width, image.height, 3, image.pixels, PngEffort::kFast);
 }
 
@@ -131,7 +131,7 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
   for (const Camera& camera : cameras_) {
     views.push_back(renderer_.render(positions, camera, colours, coat, meshes));
   }
-  return to_png(side_by_side(views));
+  return quick_png(side_by_side(views));
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,

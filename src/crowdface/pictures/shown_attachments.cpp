@@ -16,8 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Of all materials together; a vertex is 8 bytes of text a face.
-constexpr std::size_t kMostTriangles = 24'000;
-constexpr int kMostTexels = 512;
+constexpr std::size_t kMostWornTriangles = 24'000;
+constexpr int kMostWornTexels = 512;
 
 /// The vertices that move at least so far, four bytes each, then how far.
 /// \param shown  rows of what moves
@@ -45,8 +45,8 @@ Json part_to_json(const PreviewMesh& mesh, const WornMaterial& material) {
   json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
   json["share"] = material.share;
   if (mesh.uvs.empty()) return json;
-  if (material.texture) json["picture"] = colour_picture(*material.texture, kMostTexels);
-  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity, kMostTexels);
+  if (material.texture) json["picture"] = colour_picture(*material.texture, kMostWornTexels);
+  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity, kMostWornTexels);
   return json;
 }
 
@@ -62,7 +62,7 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
       std::vector<bool> drawn;
       for (const std::uint32_t of_face : named.of_face) drawn.push_back(of_face == m);
       const auto faces = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), true));
-      const std::size_t most = kMostTriangles * faces / std::max<std::size_t>(1, drawn.size());
+      const std::size_t most = kMostWornTriangles * faces / std::max<std::size_t>(1, drawn.size());
       parts->push_back(preview_mesh(file.topology, file.uvs, file.positions, drawn,
                                     std::max<std::size_t>(1, most / 2)));
     }

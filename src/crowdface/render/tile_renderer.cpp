@@ -18,10 +18,10 @@ namespace {
 using Vector = Eigen::Vector3f;
 
 // Lengths are in half the side of the image, so that these hold for any unit.
-constexpr float kSkyReach = 0.55F;    // how far ambient occlusion looks
-constexpr float kClearance = 2e-4F;   // rays start this far above the surface
-constexpr float kThickness = 0.012F;  // how deep light soaks in: softens where shadows begin
-constexpr float kThrough = 0.8F;      // of the light on its other side a thin surface lets through
+constexpr float kSkyReach = 0.55F;      // how far ambient occlusion looks
+constexpr float kRayClearance = 2e-4F;  // rays start this far above the surface
+constexpr float kThickness = 0.012F;    // how deep light soaks in: softens where shadows begin
+constexpr float kThrough = 0.8F;  // of the light on its other side a thin surface lets through
 
 constexpr float kSameNormal = 0.985F;  // cosine: 10 degrees
 constexpr float kReliefNormal = 0.9F;  // 26 degrees
@@ -166,7 +166,7 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
     if (n.dot(side * geometric) <= 0) continue;
     lift -= weights[c] * std::min(0.0F, (meeting.point - stage.scene.point(vertex)).dot(n)) * n;
   }
-  meeting.start = meeting.point + lift + kClearance * side * geometric.normalized();
+  meeting.start = meeting.point + lift + kRayClearance * side * geometric.normalized();
   return meeting;
 }
 
@@ -202,7 +202,7 @@ Meeting meet_worn(const WornStage& worn, const Vector& viewer, const RayHit& hit
   meeting.surface.normal =
       towards(meeting.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
   meeting.asks_key = faces_key(meeting.surface);
-  meeting.start = meeting.point + kClearance * geometric;
+  meeting.start = meeting.point + kRayClearance * geometric;
   return meeting;
 }
 

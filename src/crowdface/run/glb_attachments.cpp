@@ -108,15 +108,15 @@ Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
 }
 
 /// What an attachment is made of.
-struct Look {
+struct WornLook {
   std::vector<GlbPartMaterial> materials;
   std::vector<std::uint32_t> of_face;
   std::vector<GlbImage> images;
 };
 
-Look look_of(const Attachment& item) {
+WornLook look_of(const Attachment& item) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
-  Look look;
+  WornLook look;
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     look.materials.emplace_back();
     look.materials.back().name = material.name;
@@ -130,14 +130,14 @@ Look look_of(const Attachment& item) {
   return look;
 }
 
-GlbPart part_of(const Attachment& item, const Look& look, const Inputs& inputs) {
+GlbPart part_of(const Attachment& item, const WornLook& look, const Inputs& inputs) {
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   return {item.name,   item.file.topology,          item.file.uvs,     look.materials, look.of_face,
           look.images, influences_of(item, inputs), std::move(targets)};
 }
 
-GlbPart part_of(const Attachment& item, const Look& look, const Inputs& inputs,
+GlbPart part_of(const Attachment& item, const WornLook& look, const Inputs& inputs,
                 const DetailLevel& level) {
   const Grouped<Influence> whole = influences_of(item, inputs);
   Grouped<Influence> influences;
@@ -155,7 +155,7 @@ GlbPart part_of(const Attachment& item, const Look& look, const Inputs& inputs,
 
 std::vector<GlbAttachments> glb_attachments(const Inputs& inputs,
                                             std::span<const WornLevel> levels) {
-  std::map<const Attachment*, Look> looks;
+  std::map<const Attachment*, WornLook> looks;
   for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
   std::vector<GlbAttachments> all;
   all.emplace_back(inputs.attachments,

@@ -38,19 +38,19 @@ UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
 }
 
 /// An attachment as a prim.
-struct Look {
+struct PrimLook {
   std::string prim;
   std::vector<UsdaPart::Material> materials;
   std::vector<std::uint32_t> of_face;
 };
 
-Look look_of(const Attachment& item, std::string prim, const std::string& shared) {
+PrimLook prim_look_of(const Attachment& item, std::string prim, const std::string& shared) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   const auto file_of = [&](const fs::path& from) {
     const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::from);
     return (fs::path(shared) / attachment_folder(item.name) / file->relative).generic_string();
   };
-  Look look{std::move(prim), {}, std::move(named.of_face)};
+  PrimLook look{std::move(prim), {}, std::move(named.of_face)};
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     look.materials.push_back({material.name, {}});
     try {
@@ -75,15 +75,15 @@ std::vector<UsdAttachments> usd_attachments(const Inputs& inputs, const std::str
   for (const char* taken : {"face", "mesh", "materials", "skeleton", "animation", "points"}) {
     names.add(taken);
   }
-  std::map<const Attachment*, Look> looks;
+  std::map<const Attachment*, PrimLook> looks;
   for (const Attachment& item : inputs.attachments.items) {
-    looks.emplace(&item, look_of(item, names.add(item.name), shared));
+    looks.emplace(&item, prim_look_of(item, names.add(item.name), shared));
   }
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   std::vector<UsdAttachments> all;
   all.emplace_back(inputs.attachments, [&](const Attachment& item) {
-    const Look& look = looks.at(&item);
+    const PrimLook& look = looks.at(&item);
     return UsdaPart(look.prim, item.file.topology, item.file.uvs, look.materials, look.of_face,
                     targets);
   });
@@ -91,7 +91,7 @@ std::vector<UsdAttachments> usd_attachments(const Inputs& inputs, const std::str
     all.emplace_back(inputs.attachments, [&](const Attachment& item) -> std::optional<UsdaPart> {
       const DetailLevel* level = worn.find(item);
       if (level == nullptr) return std::nullopt;
-      const Look& look = looks.at(&item);
+      const PrimLook& look = looks.at(&item);
       return UsdaPart(look.prim, level->topology, level->uvs, look.materials,
                       on_level(*level, look.of_face), targets);
     });

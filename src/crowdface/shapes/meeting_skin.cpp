@@ -13,13 +13,13 @@ namespace crowdface {
 namespace {
 
 // Lengths are shares of the skin's extent, some 430 mm.
-constexpr double kReach = 0.02;      // of skin that may meet: other faces are narrower
-constexpr double kReachEdges = 1.6;  // the same, in edges
+constexpr double kMeetingReach = 0.02;      // of skin that may meet: other faces are narrower
+constexpr double kMeetingReachEdges = 1.6;  // the same, in edges
 /// How much of its distance to other skin a shape may take away on a face: of what it moves skin, and of what it moves
 /// it against that.
 constexpr double kOfMove = 4, kOfDifference = 10;
 constexpr double kFolds = 0.5;  // a difference between what the ends of an edge move, in its length
-constexpr double kCell = 0.003;  // skin so near to each other that one vertex stands for it
+constexpr double kMeetingCell = 0.003;  // skin so near to each other that one vertex stands for it
 
 /// For each vertex of the skin one that lies in the same cell and faces the same way; other vertices: none.
 std::vector<std::uint32_t> representatives(const SkinMesh& skin, const Positions& shaped,
@@ -50,7 +50,7 @@ std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neut
                                      const Positions& shaped, double extent) {
   const Positions normals = vertex_normals(skin.triangles, shaped);
   const std::vector<std::uint32_t> representative =
-      representatives(skin, shaped, normals, kCell * extent);
+      representatives(skin, shaped, normals, kMeetingCell * extent);
   std::vector<std::uint32_t> asked;
   for (const std::uint32_t v : skin.vertices) {
     if (representative[v] == v) asked.push_back(v);
@@ -63,11 +63,11 @@ std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neut
   for (const std::uint32_t v : skin.vertices) {
     const Eigen::Vector3d at = row3(shaped, v), move = move_of(v);
     if (dot3(move, move) == 0) continue;
-    double reach = kReach * extent;
+    double reach = kMeetingReach * extent;
     for (const std::uint32_t t : skin.around.of(v)) {
       for (const std::uint32_t w : skin.triangles[t]) {
         const double edge = length3(row3(shaped, w) - at);
-        reach = std::max(reach, kReachEdges * edge);
+        reach = std::max(reach, kMeetingReachEdges * edge);
         const double shorter = std::min(edge, length3(row3(neutral, w) - row3(neutral, v)));
         if (length3(move_of(w) - move) > kFolds * shorter) folds[v] = folds[w] = true;
       }

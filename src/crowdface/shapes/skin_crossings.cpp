@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/shapes/evened_field.h"
 
@@ -29,10 +30,6 @@ constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds in which nothing gets better, where lids meet
 
 using Pair = CrossingSearch::Pair;
-
-double square(double x) {
-  return x * x;
-}
 
 std::vector<std::uint32_t> vertices_of(const std::vector<Pair>& pairs,
                                        const CrossingSearch& search) {
@@ -247,7 +244,7 @@ class SkinCrossings::Mending {
         if (side(v) != side(row.vertex) && v != row.vertex) continue;
         const double distance = length3(row3(face_.rest, v) - here) / reach;
         if (distance >= 1) continue;
-        const double weight = square(1 - square(distance));
+        const double weight = biweight(distance);
         sum += weight * push;
         weights += weight;
         most = std::max(most, weight);

@@ -11,27 +11,24 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
 // Lengths are shares of the skin's extent, some 430 mm.
-constexpr double kDepth = 0.001;  // below the skin, if the template is not less deep
-constexpr double kReach = 0.025;  // of skin in front
+constexpr double kDepth = 0.001;       // below the skin, if the template is not less deep
+constexpr double kFrontReach = 0.025;  // of skin in front
 constexpr double kNear = 0.008;  // so near the template's skin is on a face, if there is a question
-constexpr double kPushed = 0.02;   // around
-constexpr double kCell = 0.0025;   // in which one vertex stands for others
-constexpr double kTooNear = 0.25;  // of that depth: what lies less deep is not left there
-constexpr double kFacing = 0.5;    // how much skin looks to the front: rims of lips do not
+constexpr double kPushedAround = 0.02;  // around
+constexpr double kFrontCell = 0.0025;   // in which one vertex stands for others
+constexpr double kTooNear = 0.25;       // of that depth: what lies less deep is not left there
+constexpr double kFacesFront = 0.5;     // how much skin looks to the front: rims of lips do not
 /// Of triangles around, one of which is in front on a face: so many, or so far.
-constexpr double kRings = 2, kMostRings = 12;
+constexpr double kFewestRings = 2, kMostRings = 12;
 constexpr double kSlides = 0.007;
-constexpr int kRounds = 6;
-
-double square(double x) {
-  return x * x;
-}
+constexpr int kFrontRounds = 6;
 
 Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& corners) {
   return unit3(cross3(corners[1] - corners[0], corners[2] - corners[0]));
@@ -123,7 +120,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
   if (inner.empty()) return;
   Eigen::AlignedBox3d box;
   for (const std::uint32_t v : inner) box.extend(row3(shaped, v));
-  box = {box.min().array() - kReach * extent, box.max().array() + kReach * extent};
+  box = {box.min().array() - kFrontReach * extent, box.max().array() + kFrontReach * extent};
   std::vector<std::uint32_t> numbers;
   std::vector<Triangle> around;
   for (std::uint32_t t = 0; t < skin.triangles.size(); ++t) {
@@ -140,13 +137,13 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
   for (const Triangle& t : around) area += length3(area_vector(shaped, t));
   const double edge =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, around.size())));
-  const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kRings, kMostRings));
-  const FrontView view(shaped, around, axes, kReach * extent / 4);
+  const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kFewestRings, kMostRings));
+  const FrontView view(shaped, around, axes, kFrontReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
   for (const std::uint32_t v : inner) {
     const Eigen::Vector3d point = row3(shaped, v);
     const auto cell = [&](Index c) {
-      return static_cast<std::int64_t>(std::floor(point[c] / (kCell * extent)));
+      return static_cast<std::int64_t>(std::floor(point[c] / (kFrontCell * extent)));
     };
     const std::tuple at{cell(0), cell(1), cell(2)};
     if (taken.contains(at)) continue;
@@ -154,7 +151,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
     if (!hit || hit->ahead <= 0) continue;
     const double facing = dot3(axes.front, normal_of(view.corners_of(hit->triangle)));
     const double depth = hit->ahead * facing;
-    if (facing < kFacing || depth > kReach * extent) continue;
+    if (facing < kFacesFront || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
     taken.insert(at);
     std::vector<std::uint32_t> near = {numbers[hit->triangle]};
@@ -188,7 +185,7 @@ void SkinOverParts::keep(const Positions& rest, const RigidMotion& whole,
     }
     most.push_back(least);
   }
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFrontRounds; ++round) {
     const std::vector<Push> pushes = pushes_in(mesh, whole, most);
     if (pushes.empty()) break;
     push(pushes, whole.scale, rows, mesh, shape);
@@ -222,7 +219,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
       normal = normal_of(corners);
     }
     const double facing = dot3(axes.front, normal);
-    if (!foremost || facing < kFacing) continue;
+    if (!foremost || facing < kFacesFront) continue;
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
     const double by = std::min(missing, most[i]);
@@ -235,7 +232,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
 /// Skin around goes along.
 void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
                          Positions& mesh, Displacements& shape) const {
-  const double reach = kPushed * scale * extent_;
+  const double reach = kPushedAround * scale * extent_;
   Eigen::AlignedBox3d box;
   for (const Push& push : pushes) box.extend(push.at);
   box = {box.min().array() - reach, box.max().array() + reach};
@@ -247,7 +244,7 @@ void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<c
     for (const Push& push : pushes) {
       const double distance = length3(push.at - here) / reach;
       if (distance >= 1) continue;
-      const double weight = square(1 - square(distance));
+      const double weight = biweight(distance);
       sum += weight * push.by;
       longest = std::max(longest, weight * length3(push.by));
     }

@@ -31,7 +31,7 @@ const auto& skin_tones() {
 }
 
 /// From blond to black.
-const auto& hair_colours() {
+const auto& natural_hair() {
   static const std::array<ScreenColour, 5> colours = {
       from_bytes(176, 146, 104), from_bytes(124, 96, 70), from_bytes(82, 62, 49),
       from_bytes(50, 40, 34), from_bytes(30, 26, 25)};
@@ -69,7 +69,7 @@ Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
   const double darkest = smooth_step(0.15, 0.65, look.tone);
   const double hair = darkest + (1 - darkest) * unit("synth/hair");
   const double grey = smooth_step(38, 74, person.age + 12 * (unit("synth/grey") - 0.5));
-  look.hair = along(hair_colours(), hair);
+  look.hair = along(natural_hair(), hair);
   look.brow_hair = 0.85 * (look.hair + 0.45 * grey * (from_bytes(150, 143, 137) - look.hair));
   look.hair += grey * (from_bytes(168, 166, 164) - look.hair);
   look.ruddy = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.6 * look.tone);

@@ -10,7 +10,7 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::size_t kBlock = 4096;
+constexpr std::size_t kTexelsPerBlock = 4096;
 
 bool is_skin(const SkinPlace& place) {
   return place.covered && place.ball <= 0.5;
@@ -63,14 +63,14 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas) {
 std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas,
                                        const Relief& fine, const Relief& coarse) {
   std::vector<double> heights(atlas.size());
-  parallel_for_each(atlas.size(), kBlock, [&](std::size_t i) {
+  parallel_for_each(atlas.size(), kTexelsPerBlock, [&](std::size_t i) {
     if (!is_skin(atlas[i])) return;
     heights[i] = fine.height(atlas[i].skin) - coarse.height(atlas[i].skin);
   });
   const Slopes slopes(atlas, heights, texel_cm(size, atlas));
   const auto side = static_cast<std::size_t>(size);
   std::vector<std::uint8_t> bytes(3 * atlas.size());
-  parallel_for_each(atlas.size(), kBlock, [&](std::size_t i) {
+  parallel_for_each(atlas.size(), kTexelsPerBlock, [&](std::size_t i) {
     const std::size_t x = i % side, y = i / side;
     const std::size_t left = x > 0 ? i - 1 : i, right = x + 1 < side ? i + 1 : i;
     const std::size_t above = y > 0 ? i - side : i, below = y + 1 < side ? i + side : i;

@@ -18,7 +18,7 @@ namespace crowdface {
 namespace {
 
 constexpr Index kFewest = 5000, kMost = 1200000;
-constexpr std::size_t kBlock = 1024;
+constexpr std::size_t kVerticesPerBlock = 1024;
 
 }  // namespace
 
@@ -51,7 +51,7 @@ SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp)
   state_->addresses = std::move(layout.addresses);
   const std::size_t n = state_->addresses.size();
   state_->mean.resize(n);
-  parallel_for_each(n, kBlock, [&](std::size_t i) {
+  parallel_for_each(n, kVerticesPerBlock, [&](std::size_t i) {
     state_->mean[i] = state_->loose ? synth::mean_skin_with_sockets(state_->addresses[i])
                                     : synth::mean_skin(state_->addresses[i]);
   });
@@ -90,7 +90,7 @@ Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) con
   const bool haired = state_->scalp != Scalp::kBare;
   const double most = state_->scalp == Scalp::kShorn ? 0.2 : 10;  // cm
   Positions out(state_->topology.vertex_count, 3);
-  parallel_for_each(state_->mean.size(), kBlock, [&](std::size_t i) {
+  parallel_for_each(state_->mean.size(), kVerticesPerBlock, [&](std::size_t i) {
     const synth::SkinPoint& mean = state_->mean[i];
     double height = relief.height(mean);
     if (haired && mean.relief > 0.5) height += std::min(most, hair.thickness(mean.position));

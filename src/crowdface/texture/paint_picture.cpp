@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-constexpr int kRowsPerBlock = 16;
+constexpr int kPictureRowsPerBlock = 16;
 constexpr std::size_t kGutterPerBlock = 1 << 14;
 
 /// Sums of the covered texels of a row, a channel each.
@@ -122,7 +122,7 @@ void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, st
     fill[c] = static_cast<Value>(sum / std::max<std::size_t>(1, texels.covered()));
   }
   const auto width = static_cast<std::size_t>(texels.width());
-  parallel_for_each(texels.height(), kRowsPerBlock, [&](int y) {
+  parallel_for_each(texels.height(), kPictureRowsPerBlock, [&](int y) {
     std::size_t x = static_cast<std::size_t>(y) * width;
     const std::size_t row = x, end = x + width;
     const auto fill_to = [&](std::size_t stop) {
@@ -167,7 +167,7 @@ BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& codin
   BlendedPicture result = blank_picture(texels, coding);
   const auto channels = static_cast<std::size_t>(result.channels);
   std::vector<RowSums> row_sums(static_cast<std::size_t>(texels.height()));
-  parallel_blocks(texels.height(), kRowsPerBlock, [&](int begin, int end) {
+  parallel_blocks(texels.height(), kPictureRowsPerBlock, [&](int begin, int end) {
     const RowBuffer buffer(texels.width(), fields.width());
     const std::span<float* const> sums = buffer.rows().first(fields.channels);
     std::vector<LentRow> lent(fields.heads.size());

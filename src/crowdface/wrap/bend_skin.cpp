@@ -14,11 +14,10 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastCosine = 0.5;      // normals within 60°
-constexpr double kLeastOpenness = 0.04;   // a vertex that sees less is inside
+constexpr double kLeastOpen = 0.04;       // a vertex that sees less is inside
 constexpr double kOpennessOfSkin = 0.25;  // from here on the scan counts in full
 constexpr std::size_t kMostScanPoints = 8000;
-constexpr double kLeastSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
+constexpr double kLeastPullSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
 /// What one vertex, or one point of the scan, found.
@@ -60,8 +59,8 @@ class Bending {
         scan_areas_(vertex_areas(scan.scan().triangles, scan.scan().positions)) {
     visible_.resize(skin.openness.size());
     for (std::size_t v = 0; v < visible_.size(); ++v) {
-      visible_[v] = std::clamp(
-          (skin.openness[v] - kLeastOpenness) / (kOpennessOfSkin - kLeastOpenness), 0.0, 1.0);
+      visible_[v] =
+          std::clamp((skin.openness[v] - kLeastOpen) / (kOpennessOfSkin - kLeastOpen), 0.0, 1.0);
     }
     choose_scan_points();
     choose_rims();
@@ -159,7 +158,7 @@ class Bending {
       found_on_scan_[v] = place.triangle;
       if (place.found) pulls[v] = {true, place.normal, place.point - point, areas_(v) * seen};
     });
-    const double spread = spread_of(pulls, kLeastSpread * reach);
+    const double spread = spread_of(pulls, kLeastPullSpread * reach);
     for (std::uint32_t v = 0; v < pulls.size(); ++v) {
       const Pull& pull = pulls[v];
       if (!pull.found) continue;
@@ -184,7 +183,7 @@ class Bending {
       pulls[i] = {true, normal, point - hit.point,
                   options_.backward * scan_weight_ * scan_areas_(s)};
     });
-    const double spread = spread_of(pulls, kLeastSpread * reach);
+    const double spread = spread_of(pulls, kLeastPullSpread * reach);
     for (std::size_t i = 0; i < pulls.size(); ++i) {
       const Pull& pull = pulls[i];
       if (!pull.found) continue;

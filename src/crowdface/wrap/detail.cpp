@@ -21,14 +21,14 @@ constexpr double kLeastOpenness = 0.15;
 constexpr double kUnasked = 1e-4;  ///< weight of staying where the scan says nothing
 constexpr int kSteps = 30;
 constexpr int kMostEvenings = 10, kEvenOnly = 3, kSweeps = 8;
-constexpr double kKept = 0.98;         ///< of an offset in each sweep
-constexpr double kLeastLeft = 0.05;    ///< of a triangle's area, seen as it faced before
-constexpr double kLeastCosine = 0.05;  ///< of a triangle with the template's
+constexpr double kKeptOffset = 0.98;       ///< of an offset in each sweep
+constexpr double kLeastLeft = 0.05;        ///< of a triangle's area, seen as it faced before
+constexpr double kLeastFaceCosine = 0.05;  ///< of a triangle with the template's
 
-constexpr std::ptrdiff_t kBlock = 8192;
+constexpr std::ptrdiff_t kDetailBlock = 8192;
 
 double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return parallel_dot(a.data(), b.data(), a.size(), kBlock);
+  return parallel_dot(a.data(), b.data(), a.size(), kDetailBlock);
 }
 
 /// Solves (W + c Uᵀ U) x = W r, U x being what a value differs by from the mean of its neighbours, by
@@ -62,13 +62,13 @@ class SmoothFit {
  private:
   Eigen::VectorXd times(const Eigen::VectorXd& weights, const Eigen::VectorXd& x) const {
     Eigen::VectorXd off(x.size()), y(x.size());
-    parallel_for_each(x.size(), kBlock, [&](Index i) {
+    parallel_for_each(x.size(), kDetailBlock, [&](Index i) {
       const auto around = adjacency_.of(i);
       double sum = 0;
       for (const std::uint32_t n : around) sum += x(n);
       off(i) = around.empty() ? 0 : x(i) - sum / static_cast<double>(around.size());
     });
-    parallel_for_each(x.size(), kBlock, [&](Index i) {
+    parallel_for_each(x.size(), kDetailBlock, [&](Index i) {
       double sum = off(i);
       for (const std::uint32_t n : adjacency_.of(i)) {
         sum -= off(n) / static_cast<double>(adjacency_.of(n).size());
@@ -83,14 +83,14 @@ class SmoothFit {
 };
 
 /// What the scan asks of each vertex, along its normal.
-struct Asked {
+struct AskedOfSkin {
   Eigen::VectorXd weights, values;  ///< #skin
 };
 
-Asked ask_scan(const SkinMesh& skin, const Positions& positions, const Positions& normals,
-               const ScanSurface& scan, double reach) {
-  Asked asked{Eigen::VectorXd::Constant(positions.rows(), kUnasked),
-              Eigen::VectorXd::Zero(positions.rows())};
+AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Positions& normals,
+                     const ScanSurface& scan, double reach) {
+  AskedOfSkin asked{Eigen::VectorXd::Constant(positions.rows(), kUnasked),
+                    Eigen::VectorXd::Zero(positions.rows())};
   parallel_blocks(positions.rows(), 256, [&](Index begin, Index end) {
     std::uint32_t before = kNoIndex;
     for (Index v = begin; v < end; ++v) {
@@ -118,7 +118,7 @@ bool turns_over(const Positions& rest, const Positions& before, const Positions&
   const Eigen::Vector3d is = cross3(moved(t[1]) - first, moved(t[2]) - first);
   if (dot3(was, is) <= kLeastLeft * dot3(was, was)) return true;
   const Eigen::Vector3d of_rest = area_vector(rest, t);
-  const double least = kLeastCosine * length3(of_rest);
+  const double least = kLeastFaceCosine * length3(of_rest);
   return dot3(of_rest, is) <= least * length3(is) && dot3(of_rest, was) > least * length3(was);
 }
 
@@ -128,7 +128,7 @@ std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& re
                                        const Eigen::VectorXd& along,
                                        const std::vector<char>& changed) {
   std::vector<char> is_turned(skin.triangles.size(), 0);
-  parallel_for_each(skin.triangles.size(), kBlock, [&](std::size_t i) {
+  parallel_for_each(skin.triangles.size(), kDetailBlock, [&](std::size_t i) {
     const Triangle& t = skin.triangles[i];
     if (changed[t[0]] + changed[t[1]] + changed[t[2]] == 0) return;
     is_turned[i] = turns_over(rest, before, normals, along, t) ? 1 : 0;
@@ -187,7 +187,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
     }
     std::ranges::sort(evened);
     // In a crease even like offsets cross: less and less is asked there.
-    const double kept = round < kEvenOnly ? 1 : kKept;
+    const double kept = round < kEvenOnly ? 1 : kKeptOffset;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {
         const auto around = skin.adjacency.of(v);
@@ -219,7 +219,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     const auto times = static_cast<std::uint64_t>(options.smoothings);
     normals = iterate(lazy, normals, times);
     for (Index v = 0; v < normals.rows(); ++v) normals.row(v) = unit3(row3(normals, v)).transpose();
-    const Asked asked = ask_scan(skin, result, normals, scan, options.reach_mm);
+    const AskedOfSkin asked = ask_scan(skin, result, normals, scan, options.reach_mm);
     Columns sums(result.rows(), 2);
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;
     sums = iterate(lazy, sums, times);
@@ -231,7 +231,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
   const SmoothFit fit(skin.adjacency, 16 * std::pow(options.stiffness_edges, 4));
   for (int round = 0; round < options.rounds; ++round) {
     if (options.smoothings == 0) normals = vertex_normals(skin.triangles, result);
-    const Asked asked = ask_scan(skin, result, normals, scan, options.reach_mm);
+    const AskedOfSkin asked = ask_scan(skin, result, normals, scan, options.reach_mm);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
     even_out_folds(skin, rest, result, normals, mender, along);
     move_along(normals, along, result);

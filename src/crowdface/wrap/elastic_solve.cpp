@@ -12,10 +12,10 @@
 namespace crowdface {
 namespace {
 
-constexpr std::ptrdiff_t kBlock = 2048;
+constexpr std::ptrdiff_t kElasticBlock = 2048;
 
 double product(const Positions& a, const Positions& b) {
-  return parallel_dot(a.data(), b.data(), a.size(), 3 * kBlock);
+  return parallel_dot(a.data(), b.data(), a.size(), 3 * kElasticBlock);
 }
 
 /// a += factor · b
@@ -86,7 +86,7 @@ struct ElasticSolver::State {
   /// (W + B) x; B is symmetric, so that a column is a row.
   Positions times(const Wishes& wishes, const Positions& x) const {
     Positions y(x.rows(), 3);
-    parallel_for_each(x.rows(), kBlock, [&](Index i) {
+    parallel_for_each(x.rows(), kElasticBlock, [&](Index i) {
       Eigen::RowVector3d sum =
           x.row(i) * wishes.matrices[static_cast<std::size_t>(i)];  // symmetric
       for (SparseMatrix::InnerIterator entry(stiffness, i); entry; ++entry) {

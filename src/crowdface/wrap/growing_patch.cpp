@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMostMm = 15;
+constexpr double kMostPatchMm = 15;
 constexpr double kLeastRings = 12, kMostRings = 100;
 
 }  // namespace
@@ -40,7 +40,7 @@ PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest)
   double area = 0;
   for (const Triangle& t : skin.triangles) area += length3(area_vector(rest, t));
   const double edge = std::sqrt(area / static_cast<double>(skin.triangles.size()));
-  most_rings_ = static_cast<int>(std::clamp(kMostMm / edge, kLeastRings, kMostRings));
+  most_rings_ = static_cast<int>(std::clamp(kMostPatchMm / edge, kLeastRings, kMostRings));
 }
 
 void PatchMender::mend(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,

@@ -13,7 +13,7 @@ namespace crowdface {
 namespace {
 
 constexpr int kSidePx = 320;
-constexpr double kMostMm = 2;  // where the heat map's scale ends
+constexpr double kScaleEndMm = 2;  // where the heat map's scale ends
 constexpr std::array<View, 3> kViews = {View::kFront, View::kThreeQuarter, View::kProfile};
 
 /// Eyeballs are shown as such, lashes and tear lines not at all.
@@ -49,7 +49,7 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
   for (std::size_t i = 0; i < shape.skin.vertices.size(); ++i) {
     distances(shape.skin.vertices[i]) = result.distance_mm(static_cast<Index>(i));
   }
-  const VertexColours colours = heat_colours(distances, kMostMm);
+  const VertexColours colours = heat_colours(distances, kScaleEndMm);
   std::vector<Rgb8Image> scans, wrapped, heat;
   for (const Camera& camera : cameras) {
     scans.push_back(of_scan.render(standing, camera));
@@ -60,7 +60,7 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
                                         {side_by_side(wrapped), "wrapped template"},
                                         {side_by_side(heat), "distance to the scan"}};
   const Rgb8Image sheet =
-      contact_sheet(cells, {.columns = 1, .title = title, .legend = HeatLegend{kMostMm, "mm"}});
+      contact_sheet(cells, {.columns = 1, .title = title, .legend = HeatLegend{kScaleEndMm, "mm"}});
   return encode_png(sheet.width, sheet.height, 3, sheet.pixels);
 }
 

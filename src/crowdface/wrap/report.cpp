@@ -13,11 +13,9 @@
 namespace crowdface {
 namespace {
 
-constexpr double kSeen = 0.12;         // openness from which a vertex counts as visible
 constexpr double kMostMedianMm = 15;   // of the landmarks after the similarity
 constexpr double kMostDistanceMm = 3;  // 95 % of the visible skin
-constexpr double kFarMm = 3;
-constexpr double kMostFar = 0.02, kMostWithoutData = 0.15, kLeastWithData = 0.02;
+constexpr double kMostFarShare = 0.02, kMostWithoutData = 0.15, kLeastWithData = 0.02;
 constexpr std::size_t kFewHeads = 8;
 
 double percentile(std::vector<double> values, double share) {
@@ -45,7 +43,7 @@ std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& 
 
 double share_far(const std::vector<double>& distances) {
   const auto far = std::count_if(distances.begin(), distances.end(),
-                                 [](double distance) { return distance > kFarMm; });
+                                 [](double distance) { return distance > kFarFromScanMm; });
   return distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
 }
 
@@ -98,9 +96,9 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   const std::vector<std::string> faults = scan_faults(shape, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
   const double share = share_far(seen_distances(shape, result));
-  if (share > kMostFar && faults.empty()) {
+  if (share > kMostFarShare && faults.empty()) {
     warnings.push_back(
-        concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarMm,
+        concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarFromScanMm,
                " mm off the scan", farthest_region(shape, result, regions),
                ": leave out with --ignore what is no skin, or pick landmarks there"));
   }

@@ -15,12 +15,11 @@
 namespace crowdface {
 namespace {
 
-constexpr double kSeen = 0.12;      // openness from which a vertex counts as visible
 constexpr double kClosed = 0.4;     // of the template's opening between the lids
 constexpr double kMiddle = 0.4;     // of an eyeball's radius: where lids are widest apart
 constexpr double kOpenMouthMm = 3;  // farther apart than the template's lips
 constexpr double kHairMm = 10;      // heads of people without hair differ by less
-constexpr double kFarMm = 3, kMostFar = 0.05;
+constexpr double kMostFar = 0.05;
 constexpr std::size_t kFewest = 20;  // vertices of a region
 
 std::optional<double> median(std::vector<double> values, std::size_t fewest) {
@@ -96,7 +95,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   std::size_t far = 0;
   for (const std::uint32_t v : skull) {
     out.push_back(dot3(row3(wrapped, v) - row3(placed, v), row3(normals, v)));
-    if (result.distance_mm(v) > kFarMm) ++far;
+    if (result.distance_mm(v) > kFarFromScanMm) ++far;
   }
   const double share = static_cast<double>(far) / static_cast<double>(skull.size());
   const double above = median(std::move(out), 1).value_or(0);
@@ -104,7 +103,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   faults.push_back(concat("the scan seems to show hair: above the brows it stands ",
                           format_fixed(above, 0), " mm out beyond the template's head, and ",
                           format_fixed(100 * share, 1), " % of the skin there is more than ",
-                          kFarMm, " mm off it; leave hair out with --ignore"));
+                          kFarFromScanMm, " mm off it; leave hair out with --ignore"));
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 
 namespace crowdface {
 
+constexpr double kLeastCosine = 0.5;  ///< of normals that face alike: within 60°
+
 /// A scan made ready to be asked for the surface nearest to a place.
 class ScanSurface {
  public:

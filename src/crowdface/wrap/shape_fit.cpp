@@ -16,9 +16,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMostProbes = 3000;  ///< vertices asked in each step
-constexpr double kOpenEnough = 0.3;
-constexpr double kLeastCosine = 0.5;
-constexpr double kKept = 0.8;  ///< of the probes that found something
+constexpr double kKept = 0.8;              ///< of the probes that found something
 constexpr Index kPoseUnknowns = 7;
 constexpr double kGrowth = 0.02;  ///< by which a scale still changes once a model is fitted
 

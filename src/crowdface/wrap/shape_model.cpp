@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::ptrdiff_t kBlock = 4096;
+constexpr std::ptrdiff_t kModelBlock = 4096;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ ShapeModel make_model(const std::vector<Positions>& heads) {
     for (Index j = 0; j <= i; ++j) {
       const Positions &one = differences[static_cast<std::size_t>(i)],
                       &other = differences[static_cast<std::size_t>(j)];
-      gram(i, j) = gram(j, i) = parallel_dot(one.data(), other.data(), one.size(), kBlock);
+      gram(i, j) = gram(j, i) = parallel_dot(one.data(), other.data(), one.size(), kModelBlock);
     }
   }
   const SymmetricEigen eigen = symmetric_eigen(gram);

@@ -14,10 +14,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastCosine = 0.5;
-constexpr double kOpenEnough = 0.3;
 constexpr double kLeastSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
-constexpr double kTurn = 0.05, kShiftMm = 5, kGrowth = 0.02;  ///< by which the pose may be off
+constexpr double kTurn = 0.05, kShiftMm = 5, kPoseGrowth = 0.02;  ///< by which the pose may be off
 constexpr Index kPose = 7;
 
 /// How far a vertex is displaced along a direction, as the scan or a landmark has it.
@@ -113,7 +111,7 @@ class Regression {
     for (Index k = 0; k < 3; ++k) {
       modes.row(3 + k) = kTurn * cross3(Eigen::Vector3d::Unit(k), arm).transpose();
     }
-    modes.row(6) = kGrowth * arm.transpose();
+    modes.row(6) = kPoseGrowth * arm.transpose();
     return modes;
   }
 

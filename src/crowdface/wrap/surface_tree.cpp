@@ -10,7 +10,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kMostInLeaf = 4;
-constexpr std::size_t kDeepest = 64;  // of a tree that is halved at every level
+constexpr std::size_t kDeepestTree = 64;  // of a tree that is halved at every level
 
 }  // namespace
 
@@ -84,7 +84,7 @@ SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, const SurfaceHit& s
   };
   SurfaceHit best = start;
   if (nodes_.empty()) return best;
-  std::array<Waiting, kDeepest> stack;
+  std::array<Waiting, kDeepestTree> stack;
   std::size_t waiting = 0;
   stack[waiting++] = {0, nodes_[0].box.squaredExteriorDistance(point)};
   while (waiting > 0) {
