@@ -173,11 +173,12 @@ TEST(HeadTextures, MissingOnesAreToldOnceWhicheverFilesNameThem) {
   const auto told = [&] {
     generate(config, {}, {folder / "cache", Replace::kForce, false});
     const auto report = testing::read_json(folder / "out/report.json");
-    std::vector<std::string> told;
+    std::vector<std::string> of_it;
     for (const auto& warning : report.at("warnings")) {
-      if (warning.get<std::string>().find("gone.png") != std::string::npos) told.push_back(warning);
+      if (warning.get<std::string>().find("gone.png") != std::string::npos)
+        of_it.push_back(warning);
     }
-    return told;
+    return of_it;
   };
   EXPECT_THAT(told(), ElementsAre(AllOf(HasSubstr("missing"), HasSubstr("(a, b, c)"))));
   std::filesystem::remove(folder / "heads/left.png");

@@ -23,7 +23,7 @@ void append_single(std::string& out, double value) {
   out.append(buffer, write_single(buffer, value));
 }
 
-void append_number(std::string& out, std::uint32_t number) {
+void append_digits(std::string& out, std::uint32_t number) {
   char digits[16];
   out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
@@ -75,12 +75,12 @@ std::string face_lines(const Topology& topology, const std::vector<MaterialRange
     const std::uint32_t vertex = topology.corner_vertices[corner] + 1;
     const bool has_uv = !topology.corner_uvs.empty() && topology.corner_uvs[corner] != kNoIndex;
     out += ' ';
-    append_number(out, vertex);
+    append_digits(out, vertex);
     if (has_uv || normals) out += '/';
-    if (has_uv) append_number(out, topology.corner_uvs[corner] + 1);
+    if (has_uv) append_digits(out, topology.corner_uvs[corner] + 1);
     if (!normals) return;
     out += '/';
-    append_number(out, vertex);
+    append_digits(out, vertex);
   };
   return join(format_blocks(topology.face_count(),
                             [&](std::string& out, Index f) {

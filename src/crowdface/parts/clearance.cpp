@@ -42,11 +42,6 @@ Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
   add_pieces(place.low.size(), points_.size(), high_);
 }
 
-double Clearance::Opposite::gap(std::span<const double> heights) const {
-  return (1 - high_share) * heights[high[0]] + high_share * heights[high[1]] -
-         (1 - low_share) * heights[low[0]] - low_share * heights[low[1]];
-}
-
 std::vector<double> Clearance::along(const Eigen::Vector3d& direction,
                                      const Positions& positions) const {
   std::vector<double> heights;
@@ -58,20 +53,29 @@ std::vector<double> Clearance::along(const Eigen::Vector3d& direction,
 }
 
 std::vector<Clearance::Opposite> Clearance::opposites(std::span<const double> depths) const {
-  const auto share_at = [&](const Piece& piece, double depth) {
+  const auto shares_at = [&](const Piece& piece, double depth) {
     const double span = depths[piece[1]] - depths[piece[0]];
-    return span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
+    const double of_second =
+        span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
+    return std::array{1 - of_second, of_second};
   };
+  const auto reach_of = [&](const Piece& piece) {
+    return std::array{std::min(depths[piece[0]], depths[piece[1]]),
+                      std::max(depths[piece[0]], depths[piece[1]])};
+  };
+  std::vector<std::array<double, 2>> reaches_of_high;
+  for (const Piece& high : high_) reaches_of_high.push_back(reach_of(high));
   std::vector<Opposite> opposites;
   Opposite nearest{};
   double least = std::numeric_limits<double>::max();
   for (const Piece& low : low_) {
-    const auto [low_from, low_to] = std::minmax(depths[low[0]], depths[low[1]]);
-    for (const Piece& high : high_) {
-      const auto [high_from, high_to] = std::minmax(depths[high[0]], depths[high[1]]);
+    const auto [low_from, low_to] = reach_of(low);
+    for (std::size_t h = 0; h < high_.size(); ++h) {
+      const Piece& high = high_[h];
+      const auto [high_from, high_to] = reaches_of_high[h];
       const double from = std::max(low_from, high_from), to = std::min(low_to, high_to);
       const auto at = [&](double depth) {
-        return Opposite{low, high, share_at(low, depth), share_at(high, depth)};
+        return Opposite{low, high, shares_at(low, depth), shares_at(high, depth)};
       };
       if (from <= to) {
         opposites.push_back(at(from));

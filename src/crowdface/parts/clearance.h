@@ -18,11 +18,14 @@ class Clearance {
 
   /// A point of the low profile and one of the high profile as deep as it, each between two points.
   struct Opposite {
-    std::array<std::uint32_t, 2> low, high;  ///< low points first, high ones after them
-    double low_share, high_share;            ///< of the second point
+    std::array<std::uint32_t, 2> low, high;         ///< low points first, high ones after them
+    std::array<double, 2> low_shares, high_shares;  ///< of the points; sum 1
 
     /// \param heights  of all points
-    double gap(std::span<const double> heights) const;
+    double gap(std::span<const double> heights) const {
+      return high_shares[0] * heights[high[0]] + high_shares[1] * heights[high[1]] -
+             low_shares[0] * heights[low[0]] - low_shares[1] * heights[low[1]];
+    }
   };
   /// Where the profiles' pieces begin or end above each other; at one of them the gap is smallest, since
   /// pieces are straight. At least one: where nothing is above anything, the points nearest in depth.

@@ -23,6 +23,7 @@ constexpr double kRounding = 0.006;      // size of what is smoothed out of a si
 constexpr double kTolerance = 1e-5;      // by which a gap may miss its range
 constexpr double kLeastWeight = 1e-3;    // what moves less does not move
 constexpr Index kRowsPerBlock = 8192;
+constexpr std::size_t kMovedPerBlock = 1024;  // vertices
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
 /// Share of what is asked for at a place by which its gap may miss its range: evens out what neighbours ask for
@@ -261,19 +262,22 @@ double SkinContacts::Profiles::gap(std::size_t place) const {
 
 void SkinContacts::move(const Contact& contact, std::span<const double> by,
                         Positions& positions) const {
-  for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
+  std::vector<Eigen::Vector3d> ups;
+  for (std::size_t p = contact.begin; p < contact.end; ++p) ups.push_back(places_[p].up);
+  parallel_for_each(contact.vertices.size(), kMovedPerBlock, [&](std::size_t i) {
     double x = 0, y = 0, z = 0;
     for (std::uint32_t s = contact.offsets[i]; s < contact.offsets[i + 1]; ++s) {
       const auto [place, weight] = contact.shares[s];
+      const Eigen::Vector3d& up = ups[place - contact.begin];
       const double share = weight * by[place - contact.begin];
-      x += share * places_[place].up.x();
-      y += share * places_[place].up.y();
-      z += share * places_[place].up.z();
+      x += share * up.x();
+      y += share * up.y();
+      z += share * up.z();
     }
     positions(contact.vertices[i], 0) += x;
     positions(contact.vertices[i], 1) += y;
     positions(contact.vertices[i], 2) += z;
-  }
+  });
 }
 
 /// Points that move change which of them lie at one depth, so it takes a few rounds.
