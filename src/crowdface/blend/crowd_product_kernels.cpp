@@ -43,8 +43,9 @@ void unpack(const std::int16_t* numbers, std::size_t count, float step, std::siz
   }
 }
 
-/// The sums of kVectors vectors in kRegions regions stay in registers.
-template <std::size_t kVectors, std::size_t kRegions>
+/// The sums of six vectors in kRegions regions stay in registers.
+constexpr std::size_t kVectors = 6;
+template <std::size_t kRegions>
 void add_vectors(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
                  std::size_t begin, const std::int16_t* ahead) {
   const hn::CappedTag<float, kChunkValues / 2> lanes;
@@ -86,12 +87,12 @@ template <std::size_t kRegions>
 void add_in_regions(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
                     std::size_t begin, std::size_t end, const std::int16_t* ahead) {
   const hn::CappedTag<float, kChunkValues / 2> lanes;
-  const std::size_t width = hn::Lanes(lanes);
-  std::size_t i = begin / width * width;
-  for (; i + 6 * width <= end; i += 6 * width) {
-    add_vectors<6, kRegions>(numbers, fields, regions, i, ahead);
+  static_assert(kTileValues % (kVectors * hn::MaxLanes(lanes)) == 0);
+  // A vector alone would wait for each addition before it: whole sixes at both ends, too.
+  const std::size_t step = kVectors * hn::Lanes(lanes);
+  for (std::size_t i = begin / step * step; i < end; i += step) {
+    add_vectors<kRegions>(numbers, fields, regions, i, ahead);
   }
-  for (; i < end; i += width) add_vectors<1, kRegions>(numbers, fields, regions, i, ahead);
 }
 
 void add_fields(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,

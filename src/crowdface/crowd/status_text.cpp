@@ -63,7 +63,7 @@ std::string aligned(const std::vector<StatusRow>& rows) {
   return text;
 }
 
-Json number(const std::optional<double>& value) {
+Json rounded_or_null(const std::optional<double>& value) {
   return value ? Json(rounded(*value)) : Json();
 }
 
@@ -93,8 +93,8 @@ std::string format_status_json(const CrowdStatus& status) {
                {"finished", status.gathered},
                {"faces", status.faces},
                {"done", status.done},
-               {"faces_a_second", number(status.faces_a_second)},
-               {"seconds_left", number(status.seconds_left)},
+               {"faces_a_second", rounded_or_null(status.faces_a_second)},
+               {"seconds_left", rounded_or_null(status.seconds_left)},
                {"failures", status.failures},
                {"shards", Json::array()}};
   for (const ShardStatus& shard : status.shards) {
@@ -103,9 +103,9 @@ std::string format_status_json(const CrowdStatus& status) {
                               {"state", name_of(shard.state)},
                               {"faces", shard.faces},
                               {"done", shard.done},
-                              {"faces_a_second", number(shard.faces_a_second)},
-                              {"seconds_left", number(shard.seconds_left)},
-                              {"silent_seconds", number(shard.silent_seconds)},
+                              {"faces_a_second", rounded_or_null(shard.faces_a_second)},
+                              {"seconds_left", rounded_or_null(shard.seconds_left)},
+                              {"silent_seconds", rounded_or_null(shard.silent_seconds)},
                               {"machine", shard.machine},
                               {"reason", shard.reason}});
   }

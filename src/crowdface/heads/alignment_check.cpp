@@ -22,7 +22,7 @@ constexpr double kMostTurn = 45;  // degrees: what is carried over then is no de
 constexpr Index kPoints = 2000;
 
 /// Evenly chosen vertices of the skin.
-std::vector<Index> skin_vertices(const Components& components, Index most) {
+std::vector<Index> some_skin(const Components& components, Index most) {
   const std::uint32_t skin = components.largest();
   const Index size = components.sizes[skin];
   const Index step = std::max<Index>(1, size / most);
@@ -69,7 +69,7 @@ double badness(const HeadPose& pose) {
 }  // namespace
 
 std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& components) {
-  const std::vector<Index> chosen = skin_vertices(components, kPoints);
+  const std::vector<Index> chosen = some_skin(components, kPoints);
   const std::size_t count = faces.heads.size();
   if (chosen.size() < 3) return std::vector<HeadPose>(count);
   std::vector<Positions> points;
@@ -97,7 +97,7 @@ std::vector<std::string> align_heads(FaceSet& faces, const Components& component
   if (align == Align::kNone) return {};
   if (align == Align::kRigid) {
     const std::vector<Index> chosen =
-        skin_vertices(components, std::max<Index>(faces.topology.vertex_count, 1));
+        some_skin(components, std::max<Index>(faces.topology.vertex_count, 1));
     const Positions reference = faces.heads[0].positions(chosen, Eigen::all);
     if (chosen.size() >= 3) {
       parallel_for_each(static_cast<Index>(faces.heads.size()) - 1, [&](Index h) {

@@ -202,11 +202,11 @@ std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
 }
 
 template <class T>
-Digest digest_of(const T* data, Index size) {
+Digest digest_of_numbers(const T* data, Index size) {
   return Hasher().add_array(std::span<const T>(data, static_cast<std::size_t>(size))).digest();
 }
 
-Digest digest_of(const Topology& topology) {
+Digest digest_of_topology(const Topology& topology) {
   return Hasher()
       .add(topology.vertex_count)
       .add_array(std::span(topology.corner_vertices))
@@ -219,7 +219,7 @@ void hash_heads(Inputs& inputs) {
   parallel_for_each(static_cast<Index>(inputs.faces.heads.size()), [&](Index h) {
     const Positions& positions = inputs.faces.heads[static_cast<std::size_t>(h)].positions;
     inputs.head_digests[static_cast<std::size_t>(h)] =
-        digest_of(positions.data(), positions.size());
+        digest_of_numbers(positions.data(), positions.size());
   });
 }
 
@@ -358,7 +358,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   take_heads(config, std::move(heads), inputs);
   inputs.materials = face_materials(inputs.files[0].materials, inputs.faces.topology.face_count());
   inputs.cache = folder_for(cache, inputs.faces.topology);
-  inputs.topology_digest = digest_of(inputs.faces.topology);
+  inputs.topology_digest = digest_of_topology(inputs.faces.topology);
   find_neighbours(inputs);
   try {
     for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
@@ -399,7 +399,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
                         " vertices are covered by no mask and go to the last region, ",
                         config.region_names().back()));
   }
-  inputs.mask_digest = digest_of(inputs.regions.alpha.data(), inputs.regions.alpha.size());
+  inputs.mask_digest = digest_of_numbers(inputs.regions.alpha.data(), inputs.regions.alpha.size());
   read_textures(config, cache, inputs, problems);
   load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);

@@ -66,7 +66,7 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
   return positions;
 }
 
-void read_heads(const YamlNode& node, Inputs& inputs, Complaints& complaints) {
+void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complaints) {
   if (!complaints.expect_map(node, "a mapping from heads to points")) return;
   PointSet& points = inputs.points;
   for (const Head& head : inputs.faces.heads) {
@@ -106,7 +106,7 @@ void read_file(const std::filesystem::path& file, const YamlNode& root,
   }
   const YamlEntry *points = root.find("points"), *heads = root.find("heads");
   if ((points == nullptr) == (heads == nullptr)) return complaints.expected(root, kExpected);
-  if (heads != nullptr) return read_heads(heads->value, inputs, complaints);
+  if (heads != nullptr) return read_head_points(heads->value, inputs, complaints);
   inputs.points.positions = {read_set(points->value, inputs.points.names, complaints)};
   inputs.points.meshes = {template_of(root, file, neutral, inputs, complaints)};
 }

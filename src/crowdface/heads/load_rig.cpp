@@ -135,7 +135,7 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
 }
 
 /// A joint's axes in the heads'. \throws InvalidInput if their lengths differ.
-Eigen::Matrix3d axes_of(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
+Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
   constexpr double kAlike = 1e-3;
   Eigen::Matrix3d axes;
   std::array<double, 3> lengths;
@@ -160,7 +160,7 @@ Rig bind(const GltfRig& file, Fit fit, const Config& config) {
   Positions places(count, 3);
   for (std::size_t j = 0; j < file.joints.size(); ++j) {
     const GltfRig::Joint& joint = file.joints[j];
-    rig.skin.joints.push_back({joint.name, joint.parent, axes_of(joint, fit.frame, config)});
+    rig.skin.joints.push_back({joint.name, joint.parent, joint_axes(joint, fit.frame, config)});
     rig.points.names.push_back(joint.name);
     places.row(static_cast<Index>(j)) = fit.frame.place(joint.rest.col(3).head<3>()).transpose();
   }
@@ -172,7 +172,7 @@ Rig bind(const GltfRig& file, Fit fit, const Config& config) {
   return rig;
 }
 
-Digest digest_of(const Rig& rig) {
+Digest digest_of_rig(const Rig& rig) {
   Hasher hasher;
   for (const GlbJoint& joint : rig.skin.joints) {
     hasher.add(joint.name).add(joint.parent);
@@ -203,7 +203,7 @@ void load_rig(const Config& config, Inputs& inputs, Problems& problems) {
                       file.vertex_ids.empty() ? fit_by_place(file, config, inputs)
                                               : fit_by_id(file, config, inputs),
                       config);
-    inputs.rig.digest = digest_of(inputs.rig);
+    inputs.rig.digest = digest_of_rig(inputs.rig);
   } catch (const Error& error) {
     problems.add(error);
   }

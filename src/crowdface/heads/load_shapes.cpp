@@ -161,7 +161,7 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   }
 }
 
-Digest digest_of(const ShapeSet& set) {
+Digest digest_of_shapes(const ShapeSet& set) {
   Hasher hasher;
   const auto add = [&](const auto& values) {
     hasher.add_array(std::span(values.data(), static_cast<std::size_t>(values.size())));
@@ -193,7 +193,7 @@ void load_shapes(const Config& config, const std::filesystem::path& cache, Input
   } else {
     load_heads(source, inputs, problems);
   }
-  if (problems.size() == before) inputs.shapes_digest = digest_of(inputs.shapes);
+  if (problems.size() == before) inputs.shapes_digest = digest_of_shapes(inputs.shapes);
 }
 
 }  // namespace crowdface

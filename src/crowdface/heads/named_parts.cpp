@@ -120,7 +120,7 @@ PartOverrides overrides_of(const Config& config, const Inputs& inputs, Problems&
   return overrides;
 }
 
-std::string name_of(const Part& part) {
+std::string part_name(const Part& part) {
   if (part.part_class == PartClass::kBound) return "bound";
   return part.eyeball ? "eyeball" : "rigid";
 }
@@ -176,7 +176,7 @@ std::string describe_parts(const Config& config, const Inputs& inputs) {
     // Lashes come in dozens: those of one material share a line.
     const bool again = part.part_class == PartClass::kBound && lines.back().what == "bound" &&
                        label(lines.back().components[0]) == label(part.components[0]);
-    if (!again) lines.push_back({name_of(part), {}, 0});
+    if (!again) lines.push_back({part_name(part), {}, 0});
     for (const std::uint32_t c : part.components) add(lines.back(), c);
   }
   std::string text;

@@ -22,7 +22,7 @@ using Picture = ImageCodec::Picture;
 using Values = PictureFacts::Values;
 using Form = PictureToEncode::Form;
 
-Values values_of(const OIIO::TypeDesc& type) {
+Values kind_of_values(const OIIO::TypeDesc& type) {
   switch (type.basetype) {
     case OIIO::TypeDesc::UINT8:
       return Values::kBytes;
@@ -58,7 +58,7 @@ PictureFacts facts_of(const OIIO::ImageSpec& spec) {
   facts.tile_height = spec.tile_height;
   facts.alpha_channel = spec.alpha_channel;
   facts.deep = spec.deep;
-  facts.values = values_of(spec.format);
+  facts.values = kind_of_values(spec.format);
   facts.type = spec.format.c_str();
   return facts;
 }
@@ -99,7 +99,7 @@ bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
 bool read(Picture& picture, void* pixels, std::string& error) {
   OIIO::ImageInput& input = *picture.input;
   const OIIO::ImageSpec& spec = input.spec();
-  const OIIO::TypeDesc type = type_of(values_of(spec.format));
+  const OIIO::TypeDesc type = type_of(kind_of_values(spec.format));
   bool read = true;
   if (by_rows(input, spec)) {
     const std::size_t row = static_cast<std::size_t>(spec.width) *

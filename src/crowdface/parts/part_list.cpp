@@ -57,7 +57,7 @@ Box box_of(const Positions& positions, const std::vector<std::uint32_t>& vertice
   return box;
 }
 
-double height_of(const Box& box) {
+double box_height(const Box& box) {
   return box.center().y();
 }
 
@@ -73,7 +73,7 @@ std::size_t lower_row(const std::vector<Box>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;
   for (std::size_t i = 1; i < lowest_first.size(); ++i) {
-    const double gap = height_of(lowest_first[i]) - height_of(lowest_first[i - 1]);
+    const double gap = box_height(lowest_first[i]) - box_height(lowest_first[i - 1]);
     if (gap <= widest) continue;
     widest = gap;
     lower = i;
@@ -84,8 +84,8 @@ std::size_t lower_row(const std::vector<Box>& lowest_first) {
     (i < lower ? below : above).extend(lowest_first[i]);
   }
   const double spread =
-      std::max(height_of(lowest_first[lower - 1]) - height_of(lowest_first.front()),
-               height_of(lowest_first.back()) - height_of(lowest_first[lower]));
+      std::max(box_height(lowest_first[lower - 1]) - box_height(lowest_first.front()),
+               box_height(lowest_first.back()) - box_height(lowest_first[lower]));
   const bool stacked = spread < widest && overlap(below, above, 1) < 0;
   const bool over = overlap(below, above, 0) > 0 && overlap(below, above, 2) > 0;
   return stacked && over ? lower : 0;
@@ -140,7 +140,7 @@ void split_jaws(const Positions& positions, const std::vector<std::vector<std::u
     std::vector<std::pair<Box, std::uint32_t>> boxes;
     for (const std::uint32_t c : group) boxes.emplace_back(box_of(positions, members[c], axes), c);
     std::ranges::stable_sort(boxes, [](const auto& a, const auto& b) {
-      return height_of(a.first) < height_of(b.first);
+      return box_height(a.first) < box_height(b.first);
     });
     std::vector<Box> lowest_first;
     for (const auto& [box, c] : boxes) lowest_first.push_back(box);

@@ -81,7 +81,7 @@ Json to_json(const SkinDefects& skin) {
 
 /// The line's checksum was right, so it is what `to_json` made; a line of another program's version
 /// throws.
-SkinDefects skin_of(const Json& json) {
+SkinDefects noted_skin(const Json& json) {
   SkinDefects skin;
   skin.local.compared = json.at("compared").get<Index>();
   skin.local.flipped = json.at("flipped").get<Index>();
@@ -143,7 +143,7 @@ std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   try {
     if (extras_.skin || extras_.shapes > 0) {
       const Json note = Json::parse(entry->note);
-      if (extras_.skin) files.skin = skin_of(note);
+      if (extras_.skin) files.skin = noted_skin(note);
       if (extras_.shapes > 0) files.crossing = note.at("crossing").get<std::vector<Index>>();
       if (files.crossing.size() != extras_.shapes) return std::nullopt;
     }

@@ -130,15 +130,15 @@ WornLook look_of(const Attachment& item) {
   return look;
 }
 
-GlbPart part_of(const Attachment& item, const WornLook& look, const Inputs& inputs) {
+GlbPart worn_part(const Attachment& item, const WornLook& look, const Inputs& inputs) {
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   return {item.name,   item.file.topology,          item.file.uvs,     look.materials, look.of_face,
           look.images, influences_of(item, inputs), std::move(targets)};
 }
 
-GlbPart part_of(const Attachment& item, const WornLook& look, const Inputs& inputs,
-                const DetailLevel& level) {
+GlbPart worn_part(const Attachment& item, const WornLook& look, const Inputs& inputs,
+                  const DetailLevel& level) {
   const Grouped<Influence> whole = influences_of(item, inputs);
   Grouped<Influence> influences;
   if (whole.group_count() > 0) {
@@ -158,13 +158,14 @@ std::vector<GlbAttachments> glb_attachments(const Inputs& inputs,
   std::map<const Attachment*, WornLook> looks;
   for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
   std::vector<GlbAttachments> all;
-  all.emplace_back(inputs.attachments,
-                   [&](const Attachment& item) { return part_of(item, looks.at(&item), inputs); });
+  all.emplace_back(inputs.attachments, [&](const Attachment& item) {
+    return worn_part(item, looks.at(&item), inputs);
+  });
   for (const WornLevel& worn : levels) {
     all.emplace_back(inputs.attachments, [&](const Attachment& item) -> std::optional<GlbPart> {
       const DetailLevel* level = worn.find(item);
       if (level == nullptr) return std::nullopt;
-      return part_of(item, looks.at(&item), inputs, *level);
+      return worn_part(item, looks.at(&item), inputs, *level);
     });
   }
   return all;

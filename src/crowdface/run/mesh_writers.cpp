@@ -20,7 +20,7 @@
 namespace crowdface {
 namespace {
 
-std::vector<std::uint32_t> skin_of(const Inputs& inputs) {
+std::vector<std::uint32_t> skin_of_heads(const Inputs& inputs) {
   std::vector<std::uint32_t> skin;
   for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
     if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
@@ -128,9 +128,9 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
     }
   }
   if (need_normals) fans_.emplace(faces.topology);
-  if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of(inputs));
+  if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of_heads(inputs));
   if (!inputs.rig.empty() && glb_)
-    joints_.emplace(inputs.rig.points, inputs.parts, skin_of(inputs));
+    joints_.emplace(inputs.rig.points, inputs.parts, skin_of_heads(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
     levels_.emplace_back(config, inputs, level, formats_, all_targets, shared,
                          attachments_on(level));

@@ -65,7 +65,7 @@ void move(std::vector<WrapLandmark>& landmarks, const Similarity& motion) {
   }
 }
 
-Scan moved(const Scan& scan, const Similarity& motion) {
+Scan moved_scan(const Scan& scan, const Similarity& motion) {
   return {motion.apply(scan.positions), scan.triangles};
 }
 
@@ -173,7 +173,7 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   result.pose = fit.pose;
   refuse_no_pose(fit.pose);
   const Similarity back = inverse(fit.pose);
-  const ScanSurface surface(moved(scan, back));
+  const ScanSurface surface(moved_scan(scan, back));
   move(landmarks, back);
   if (small) move(small->landmarks, back);
   const auto& marks = small ? small->landmarks : landmarks;
