@@ -126,7 +126,7 @@ class CrowdBlender::FieldsAhead {
     std::size_t lines = 0;
     for (const HeadLevels& head : blender.levels_) {
       for (const VertexRun& run : block.runs) {
-        const TileFields tile = tile_at(head.fields, run.first);
+        const TileFields tile = head.fields.at(run.first);
         if (tile.count == 0 || run.count < kFieldTile)
           continue;  // of a part of a tile most is not needed
         pieces_.push_back({tile.numbers, tile.count * kTileLines});
@@ -163,7 +163,7 @@ std::vector<std::uint8_t> CrowdBlender::fields_at(const Block& block) const {
   for (std::size_t h = 0; h < levels_.size(); ++h) {
     for (const VertexRun& run : block.runs) {
       const auto first = present.begin() + static_cast<std::ptrdiff_t>(first_field_[h]);
-      std::fill_n(first, tile_at(levels_[h].fields, run.first).count, std::uint8_t{1});
+      std::fill_n(first, levels_[h].fields.at(run.first).count, std::uint8_t{1});
     }
   }
   return present;
@@ -181,7 +181,7 @@ void CrowdBlender::pack(const Block& block, const std::vector<std::uint8_t>& wan
       std::size_t to = 0;
       for (const VertexRun& run : block.runs) {
         const std::size_t count = std::size_t{3} * run.count;
-        const TileFields tile = tile_at(levels_[h].fields, run.first);
+        const TileFields tile = levels_[h].fields.at(run.first);
         const std::size_t p = field - first_field_[h];
         const bool there = p < tile.count;
         unpack(

@@ -15,12 +15,6 @@ constexpr std::size_t kLineTiles = 64 / sizeof(std::uint32_t);
 
 }  // namespace
 
-TileFields tile_at(const LevelFields& fields, std::uint32_t vertex) {
-  const std::size_t tile = vertex / kFieldTile, first = fields.first[tile];
-  return {fields.first[tile + 1] - first, fields.steps.data() + first,
-          fields.numbers.data() + first * kTileValues};
-}
-
 void SingleFaceSums::start(std::span<const std::uint32_t> regions) {
   if (std::ranges::equal(regions, regions_)) return;
   regions_ = regions;
@@ -40,7 +34,7 @@ void SingleFaceSums::start(std::span<const std::uint32_t> regions) {
 void SingleFaceSums::find_tiles(std::uint32_t vertex, std::vector<TileFields>& tiles) const {
   tiles.clear();
   for (const std::uint32_t h : lenders_) {
-    tiles.push_back(tile_at(*fields_.heads[h], vertex));
+    tiles.push_back(fields_.heads[h]->at(vertex));
     __builtin_prefetch(tiles.back().steps);
     __builtin_prefetch(tiles.back().steps + tiles.back().count);
     __builtin_prefetch(fields_.heads[h]->first.data() + vertex / kFieldTile + kLineTiles);

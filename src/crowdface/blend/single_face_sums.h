@@ -17,14 +17,6 @@ struct VertexRun {
   std::uint32_t count = 0;
 };
 
-/// A tile's fields of one head.
-struct TileFields {
-  std::size_t count = 0;
-  const float* steps = nullptr;
-  const std::int16_t* numbers = nullptr;  ///< #count by kTileValues
-};
-TileFields tile_at(const LevelFields& fields, std::uint32_t vertex);
-
 /// All heads' fields and what they are multiplied with in one face.
 struct WeightedFields {
   std::vector<const LevelFields*> heads;

@@ -20,12 +20,12 @@ struct OwnedFields {
 }  // namespace
 
 double LevelFields::value(Index field, Index vertex, Index coordinate) const {
-  const auto v = static_cast<std::size_t>(vertex), tile = v / kFieldTile;
-  const std::size_t at = first[tile] + static_cast<std::size_t>(field);
-  if (at >= first[tile + 1]) return 0;
+  const auto v = static_cast<std::size_t>(vertex), f = static_cast<std::size_t>(field);
+  const TileFields tile = at(v);
+  if (f >= tile.count) return 0;
   const std::size_t place =
-      at * kTileValues + 3 * (v % kFieldTile) + static_cast<std::size_t>(coordinate);
-  return static_cast<double>(steps[at]) * static_cast<double>(numbers[place]);
+      f * kTileValues + 3 * (v % kFieldTile) + static_cast<std::size_t>(coordinate);
+  return static_cast<double>(tile.steps[f]) * static_cast<double>(tile.numbers[place]);
 }
 
 float step_of(std::span<const float> values) {

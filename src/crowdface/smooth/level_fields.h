@@ -12,6 +12,13 @@
 
 namespace crowdface {
 
+/// A tile's fields of one head.
+struct TileFields {
+  std::size_t count = 0;
+  const float* steps = nullptr;
+  const std::int16_t* numbers = nullptr;  ///< #count by kTileValues
+};
+
 /// Fields c_0 … c_{R−1} of one head, #V by 3 each. A tile of vertices has the first of them, as many as it needs;
 /// the others are zero there. Values are whole numbers of 16 bits times a step of their tile and field: a power of two, so
 /// that a product with it is exact, or zero. A value is off by half its step at most.
@@ -26,6 +33,11 @@ struct LevelFields {
 
   static std::size_t tile_count(std::size_t vertices) {
     return (vertices + kFieldTile - 1) / kFieldTile;
+  }
+  /// Of the tile that a vertex stands in.
+  TileFields at(std::size_t vertex) const {
+    const std::size_t tile = vertex / kFieldTile, begin = first[tile];
+    return {first[tile + 1] - begin, steps.data() + begin, numbers.data() + begin * kTileValues};
   }
   double value(Index field, Index vertex, Index coordinate) const;
 };
