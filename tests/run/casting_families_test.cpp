@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 
 #include "run/measured_crowd.h"
+#include "support/expect_error.h"
 
 namespace crowdface {
 namespace {
