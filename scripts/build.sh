@@ -25,14 +25,18 @@ quietly() {
   }
 }
 
+# A compiler takes up to a gigabyte where sources are compiled together.
+jobs=$(awk -v most="$(nproc)" '/^MemAvailable/ { room = int($2 / 1048576) }
+  END { print room < 1 ? 1 : room < most ? room : most }' /proc/meminfo)
+
 start=$SECONDS
 echo "configuring build/$preset"
 quietly cmake --preset "$preset" "${options[@]}"
 echo "building build/$preset (some minutes the first time)"
 if [ -t 1 ]; then
-  cmake --build --preset "$preset" --parallel "$(nproc)" "${targets[@]}"
+  cmake --build --preset "$preset" --parallel "$jobs" "${targets[@]}"
 else
-  quietly cmake --build --preset "$preset" --parallel "$(nproc)" "${targets[@]}"
+  quietly cmake --build --preset "$preset" --parallel "$jobs" "${targets[@]}"
 fi
 # The gallery belongs to the program. It is a comfort: without npm, or without its registry, all else works.
 case " $* " in
