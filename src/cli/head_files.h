@@ -11,9 +11,9 @@
 
 namespace crowdface::cli {
 
-constexpr std::uint64_t kMostMade = 1000;  ///< heads of a command
-constexpr int kMaskSize = 1024;            ///< pixels of a side, as those of textures are
-constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;
+inline constexpr std::uint64_t kMostMade = 1000;                         ///< heads of a command
+inline constexpr int kMaskSize = 1024;                                   ///< pixels of a side
+inline constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;  ///< the same
 
 /// A file of a folder of heads; the command line alone determines what it holds.
 struct HeadFile {

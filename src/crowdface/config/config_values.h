@@ -16,7 +16,7 @@
 
 namespace crowdface {
 
-constexpr double kMaxDistance = 1000;  ///< between heads, mm
+inline constexpr double kMaxDistance = 1000;  ///< between heads, mm
 
 /// The entries of one mapping. Unknown keys are complained of when it is made.
 class MapReader {

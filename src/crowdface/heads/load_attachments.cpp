@@ -60,7 +60,7 @@ void add_positions(const Positions& values, Hasher& hasher) {
   hasher.add_array(std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
 }
 
-Digest digest_of_set(const AttachmentSet& set) {
+Digest digest_of_attachments(const AttachmentSet& set) {
   Hasher hasher;
   add_positions(set.fitted_to, hasher);
   for (const Attachment& item : set.items) {
@@ -123,7 +123,7 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
         "has them");
     log_warning(inputs.warnings.back());
   }
-  set.digest = digest_of_set(set);
+  set.digest = digest_of_attachments(set);
   inputs.attachments = std::move(set);
 }
 

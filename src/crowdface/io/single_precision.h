@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-constexpr std::size_t kVectorSize = 3 * sizeof(float);  ///< of three numbers, bytes
-constexpr Index kRowsPerBlock = 1 << 15;                ///< that a thread encodes at a time
+inline constexpr std::size_t kVectorSize = 3 * sizeof(float);  ///< of three numbers, bytes
+inline constexpr Index kRowsPerBlock = 1 << 15;                ///< that a thread encodes at a time
 
 /// The number as every mesh format holds it: single precision, like the scans, and no negative
 /// zero.

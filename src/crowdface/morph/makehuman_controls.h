@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
+inline constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
 
 /// What a MakeHuman head's targets hang together with.
 struct MakeHumanPerson {

@@ -12,7 +12,8 @@
 
 namespace crowdface {
 
-constexpr double kFarthest = 1e9;  ///< that a landmark may be from the origin, along each axis
+inline constexpr double kFarthest =
+    1e9;  ///< that a landmark may be from the origin, along each axis
 
 /// Named places as a file of landmarks has them: numbers of vertices, from 0, or x y z.
 struct LandmarkFile {

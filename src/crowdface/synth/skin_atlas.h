@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "crowdface/synth/mean_head.h"
 
 namespace crowdface::synth {
+
+inline constexpr std::size_t kTexelsPerBlock = 4096;  ///< that a thread works on at a time
 
 /// What of the skin a texel of the texture shows.
 struct SkinPlace {

@@ -10,8 +10,6 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::size_t kTexelsPerBlock = 4096;
-
 bool is_skin(const SkinPlace& place) {
   return place.covered && place.ball <= 0.5;
 }

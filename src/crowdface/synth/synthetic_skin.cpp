@@ -13,7 +13,6 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kTexelsPerTask = 4096;
 /// Under hair in cards only its roots are in the skin. More of them would be seen on the bald crowns of faces
 /// that are mixed from haired heads.
 constexpr double kRoots = 0.3;
@@ -44,7 +43,7 @@ int SyntheticSkins::size() const {
 std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, state_->scalp_hair);
   std::vector<std::uint8_t> bytes(3 * state_->atlas.size());
-  parallel_for_each(state_->atlas.size(), kTexelsPerTask, [&](std::size_t i) {
+  parallel_for_each(state_->atlas.size(), synth::kTexelsPerBlock, [&](std::size_t i) {
     const synth::ScreenColour colour = paint.at(state_->atlas[i]);
     for (Eigen::Index c = 0; c < 3; ++c) {
       bytes[3 * i + static_cast<std::size_t>(c)] = synth::to_byte(colour[c]);
@@ -65,7 +64,7 @@ std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint6
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, state_->scalp_hair);
   std::vector<std::uint8_t> bytes(state_->atlas.size());
-  parallel_for_each(bytes.size(), kTexelsPerTask, [&](std::size_t i) {
+  parallel_for_each(bytes.size(), synth::kTexelsPerBlock, [&](std::size_t i) {
     bytes[i] = synth::to_byte(paint.roughness_at(state_->atlas[i]));
   });
   return bytes;

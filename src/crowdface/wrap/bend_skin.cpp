@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
@@ -17,7 +18,6 @@ namespace {
 constexpr double kLeastOpen = 0.04;       // a vertex that sees less is inside
 constexpr double kOpennessOfSkin = 0.25;  // from here on the scan counts in full
 constexpr std::size_t kMostScanPoints = 8000;
-constexpr double kLeastPullSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
 /// What one vertex, or one point of the scan, found.
@@ -33,14 +33,12 @@ double robust(double distance, double spread) {
   return root * root;
 }
 
-/// The distance that half of them stay below, times three.
-double spread_of(const std::vector<Pull>& pulls, double least) {
+double spread_of(const std::vector<Pull>& pulls, double reach) {
   std::vector<double> distances;
   for (const Pull& pull : pulls) {
     if (pull.found) distances.push_back(std::abs(dot3(pull.normal, pull.offset)));
   }
-  if (distances.empty()) return least;
-  return std::max(least, 4.5 * value_of_rank(distances, distances.size() / 2));
+  return outlier_distance(std::move(distances), reach);
 }
 
 /// Everything that stays the same while one skin is bent onto one scan.
@@ -158,7 +156,7 @@ class Bending {
       found_on_scan_[v] = place.triangle;
       if (place.found) pulls[v] = {true, place.normal, place.point - point, areas_(v) * seen};
     });
-    const double spread = spread_of(pulls, kLeastPullSpread * reach);
+    const double spread = spread_of(pulls, reach);
     for (std::uint32_t v = 0; v < pulls.size(); ++v) {
       const Pull& pull = pulls[v];
       if (!pull.found) continue;
@@ -183,7 +181,7 @@ class Bending {
       pulls[i] = {true, normal, point - hit.point,
                   options_.backward * scan_weight_ * scan_areas_(s)};
     });
-    const double spread = spread_of(pulls, kLeastPullSpread * reach);
+    const double spread = spread_of(pulls, reach);
     for (std::size_t i = 0; i < pulls.size(); ++i) {
       const Pull& pull = pulls[i];
       if (!pull.found) continue;

@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-constexpr double kFarFromScanMm = 3;  ///< farther off the scan than this skin does not lie on it
+inline constexpr double kFarFromScanMm =
+    3;  ///< farther off the scan than this skin does not lie on it
 
 /// Parts of the skin that a report speaks of one by one.
 struct SkinRegions {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/scan_surface.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -53,6 +57,13 @@ Similarity inverse(const Similarity& motion) {
   undone.scale = 1 / motion.scale;
   undone.translation = -(undone.scale * (undone.rotation * motion.translation));
   return undone;
+}
+
+double outlier_distance(std::vector<double> distances, double reach) {
+  const double least = 0.5 * reach;
+  if (distances.empty()) return least;
+  const std::size_t middle = distances.size() / 2;
+  return std::max(least, 4.5 * value_of_rank(std::move(distances), middle));
 }
 
 }  // namespace crowdface

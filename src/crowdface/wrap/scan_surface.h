@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-constexpr double kLeastCosine = 0.5;  ///< of normals that face alike: within 60°
+inline constexpr double kLeastCosine = 0.5;  ///< of normals that face alike: within 60°
 
 /// A scan made ready to be asked for the surface nearest to a place.
 class ScanSurface {
@@ -47,6 +47,10 @@ class ScanSurface {
   std::vector<bool> rim_;
   SurfaceTree tree_;
 };
+
+/// From how far off what a scan tells counts little: three standard deviations of normal noise, by the median, and half
+/// the reach at least. \param distances  none negative; may be empty
+double outlier_distance(std::vector<double> distances, double reach);
 
 /// y = s R x + t undone: x = Rᵀ (y − t) / s.
 Similarity inverse(const Similarity& motion);

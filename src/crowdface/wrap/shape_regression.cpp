@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
-constexpr double kLeastSpread = 0.5;  ///< of the reach: what is that far off is no outlier yet
 constexpr double kTurn = 0.05, kShiftMm = 5, kPoseGrowth = 0.02;  ///< by which the pose may be off
 constexpr Index kPose = 7;
 
@@ -153,8 +152,7 @@ std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
   }
   asked.resize(kept);
   if (asked.empty()) return asked;
-  const double spread =
-      std::max(kLeastSpread * reach, 4.5 * value_of_rank(distances, distances.size() / 2));
+  const double spread = outlier_distance(std::move(distances), reach);
   for (Asked& one : asked) {  // what is far off the others counts little
     const double share = 1 + one.variance * one.variance / (spread * spread);
     one.variance = noise_mm * noise_mm * share * share;

@@ -9,7 +9,7 @@
 namespace crowdface {
 
 /// Openness from which skin counts as visible, and from which it lies open: not in folds.
-constexpr double kSeen = 0.12, kOpenEnough = 0.3;
+inline constexpr double kSeen = 0.12, kOpenEnough = 0.3;
 
 /// The skin of a template by itself, its vertices numbered anew.
 struct SkinMesh {
