@@ -74,7 +74,7 @@ void blend(const BlendOptions& options) {
   const std::filesystem::path file = output_file(options.out);
   const Job job =
       load_job(options.config.config, options.config.overrides, options.config.cache_path());
-  refuse_to_write_over(input_files(job.config), file);
+  refuse_to_write_over(input_files(job.config), {file});
   const PlanLine line = find_recipe(options.recipe, job.names);
   if (line.settings != job.settings.hex() && !options.any_settings) {
     throw InvalidInput(concat(options.recipe, ": was cast under other settings: expected ",
@@ -90,10 +90,7 @@ void blend(const BlendOptions& options) {
   } else {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.config.cache_path());
   }
-  const Recipe* recipe = &line.face.recipe;
-  Positions positions;
-  FaceBuilder(job.config, job.inputs, prepared)
-      .build(std::span(&recipe, 1), std::span(&positions, 1));
+  const Positions positions = FaceBuilder(job.config, job.inputs, prepared).build(line.face.recipe);
   write_face(job, FaceTextures(job.config, job.inputs), line.face, *format, positions, file);
   log_info(concat(line.face.id, " written to ", options.out));
 }

@@ -81,11 +81,11 @@ void write_masks(const Job& job, const std::filesystem::path& directory) {
   const CrowdRenders renders(job.config, sheet, job.inputs);
   const auto file_of = [&](const std::string& name) { return directory / concat(name, ".png"); };
   const std::vector<std::filesystem::path> inputs = input_files(job.config);
-  for (const std::string& name : job.names.regions) refuse_to_write_over(inputs, file_of(name));
-  refuse_to_write_over(inputs, file_of("all"));
+  for (const std::string& name : job.names.regions) refuse_to_write_over(inputs, {file_of(name)});
+  refuse_to_write_over(inputs, {file_of("all")});
   make_directories(directory);
   const auto write = [&](const std::string& name, const VertexColours& shown) {
-    write_file(file_of(name), renders.render_png(mean, shown));
+    write_file(file_of(name), renders.render_png(mean, &shown));
     log_info(file_of(name).string());
   };
   const auto& alpha = job.inputs.regions.alpha;

@@ -2,9 +2,13 @@
 #include "cli/common_options.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+
+#include <spawn.h>
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -135,6 +139,18 @@ std::uint64_t bytes_from(std::string_view option, const std::string& text) {
 
 void print(std::string_view text) {
   std::cout << printable(text);
+}
+
+void show_page(const std::string& address, Browser browser) {
+  print(concat(address, '\n'));
+  std::cout.flush();
+  if (browser == Browser::kNone) return;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  std::string program = "xdg-open", argument = address;
+  char* const arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ);
 }
 
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,

@@ -71,6 +71,12 @@ std::uint64_t bytes_from(std::string_view option, const std::string& text);
 /// What a command is asked for, on standard output: made printable, as logs are.
 void print(std::string_view text);
 
+enum class Browser { kOpen, kNone };
+
+/// Prints the address of a page that is served now, and opens the browser where there is a screen to show it
+/// on; whether that worked the user sees.
+void show_page(const std::string& address, Browser browser);
+
 /// A whole number between the two, or \throws UsageError naming the option.
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
                            std::uint64_t most);

@@ -5,7 +5,6 @@
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
-#include "cli/open_browser.h"
 
 namespace crowdface::cli {
 namespace {

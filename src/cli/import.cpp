@@ -18,7 +18,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/head_files.h"
-#include "cli/head_tags.h"
 #include "cli/makehuman_dress.h"
 
 namespace crowdface::cli {

@@ -7,7 +7,6 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
-#include "crowdface/core/name.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
@@ -158,12 +157,12 @@ void init(const InitOptions& options) {
                               " OBJ files, found ", files.size()));
   }
   const fs::path file = output_file(out);
-  refuse_to_write_over(files, file);
+  refuse_to_write_over(files, {file});
   const std::string mask = mask_beside(heads);
   std::vector<fs::path> beside = find_tiles(heads / mask);
   beside.push_back(heads / mask);
   beside.push_back(heads / "tags.yaml");
-  refuse_to_write_over(beside, file);
+  refuse_to_write_over(beside, {file});
   refuse_existing(file, options.force);
   StarterFacts facts;
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();

@@ -12,8 +12,6 @@
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/texture/optical_density.h"
 
-#include "cli/head_tags.h"
-
 namespace crowdface::cli {
 namespace {
 
@@ -268,8 +266,7 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
 void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttachment& item,
                                     const FittedMesh& mesh, std::vector<HeadFile>& files) const {
   if (mesh.pictures.empty() || mesh.pictures[0].path.empty()) {
-    throw InvalidInput(
-        concat(item.file.string(), ": expected a material with a picture, found none"));
+    refuse_file(item.file, "expected a material with a picture, found none");
   }
   const std::string picture = concat("textures/", item.name, ".png");
   files.push_back({folder / concat(item.name, ".obj"), [mesh, name = item.name, this] {

@@ -4,11 +4,9 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/pick/pick.h"
+#include "crowdface/pick/pick_api.h"
 #include "crowdface/pictures/gallery_page.h"
 #include "crowdface/wrap/scan_file.h"
-
-#include "cli/open_browser.h"
 
 namespace crowdface::cli {
 namespace {
@@ -22,7 +20,7 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
     throw UsageError(concat("--landmarks ", options.landmarks, ": expected a name.yaml"));
   }
   std::filesystem::path file = output_file(options.landmarks);
-  refuse_to_write_over({options.shape, options.scan}, file);
+  refuse_to_write_over({options.shape, options.scan}, {file});
   return file;
 }
 
@@ -41,9 +39,7 @@ std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
 
 void pick(const WrapOptions& options) {
   constexpr std::uint64_t kLargestPort = 65535;
-  PickOptions picked;
-  picked.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
-  picked.pages = gallery_page_folder();
+  const auto port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   WrapOptions without_landmarks = options;
   without_landmarks.landmarks.clear();  // read with the scan
   const std::vector<PickScans::Entry> entries = entries_of(options);
@@ -59,7 +55,7 @@ void pick(const WrapOptions& options) {
                       entry.landmarks,
                       options.batch.empty() ? std::string() : options.landmarks};
   });
-  pick_landmarks(scans, picked, [&](const std::string& address) {
+  pick_landmarks(scans, gallery_page_folder(), port, [&](const std::string& address) {
     show_page(address, options.no_browser ? Browser::kNone : Browser::kOpen);
   });
 }

@@ -55,7 +55,7 @@ void smooth_file(const SmoothOptions& options) {
   std::vector<std::filesystem::path> outputs;
   for (const std::uint64_t level : levels) {
     outputs.push_back(output_file(output_of(options, level, levels.size() == 1)));
-    refuse_to_write_over({options.in}, outputs.back());
+    refuse_to_write_over({options.in}, {outputs.back()});
   }
   const ObjFile file = read_obj(options.in);
   const SmoothingOperator smoothing(build_adjacency(file.topology), options.boundary,

@@ -16,7 +16,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/head_files.h"
-#include "cli/head_tags.h"
 #include "cli/synth_hair.h"
 
 namespace crowdface::cli {

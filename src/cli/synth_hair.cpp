@@ -2,8 +2,8 @@
 #include "cli/synth_hair.h"
 
 #include <algorithm>
-#include <map>
 #include <memory>
+#include <span>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
@@ -68,26 +68,23 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
   if (wishes_.empty()) section += " []";
   section += '\n';
   // A cut is the same mesh in each colour.
-  std::map<const synth::HairCut*, std::shared_ptr<const Mesh>> meshes;
-  std::vector<const synth::HairCut*> cuts;
-  for (const synth::HairCut& cut : synth::hair_cuts()) {
-    const bool wished = std::ranges::any_of(
-        wishes_, [&](const Wish& wish) { return is_for(cut, wish.female, wish.curly, wish.bald); });
-    if (wished) cuts.push_back(&cut);
-  }
-  std::vector<std::shared_ptr<const Mesh>> of_cuts(cuts.size());
+  const std::span<const synth::HairCut> cuts = synth::hair_cuts();
+  std::vector<std::shared_ptr<const Mesh>> meshes(cuts.size());  // null: nobody wears it
   parallel_for_each(cuts.size(), [&](std::size_t c) {
-    of_cuts[c] = std::make_shared<const Mesh>(synth::head_of_hair(*cuts[c]));
+    const bool wished = std::ranges::any_of(wishes_, [&](const Wish& wish) {
+      return is_for(cuts[c], wish.female, wish.curly, wish.bald);
+    });
+    if (wished) meshes[c] = std::make_shared<const Mesh>(synth::head_of_hair(cuts[c]));
   });
-  for (std::size_t c = 0; c < cuts.size(); ++c) meshes[cuts[c]] = of_cuts[c];
   std::set<std::string> pictures;
   for (const Wish& wish : wishes_) {
-    for (const synth::HairCut& cut : synth::hair_cuts()) {
+    for (std::size_t c = 0; c < cuts.size(); ++c) {
+      const synth::HairCut& cut = cuts[c];
       if (!is_for(cut, wish.female, wish.curly, wish.bald)) continue;
       const std::string name = concat(cut.name, "_", wish.colour);
       const std::string picture = picture_name(wish.colour, wish.curly);
       pictures.insert(picture);
-      files.push_back({folder / concat(name, ".obj"), [mesh = meshes.at(&cut), name] {
+      files.push_back({folder / concat(name, ".obj"), [mesh = meshes[c], name] {
                          return encode_obj(
                              *mesh, concat(name, " on base.obj, made by crowdface synth; cm"),
                              {{"hair", 0}}, concat(name, ".mtl"));

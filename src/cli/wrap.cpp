@@ -17,7 +17,6 @@
 #include "crowdface/pick/suggested_places.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/scan_file.h"
-#include "crowdface/wrap/unseen_landmarks.h"
 
 #include "cli/commands.h"
 #include "cli/pick.h"

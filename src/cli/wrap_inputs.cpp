@@ -6,7 +6,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/list_files.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
@@ -43,10 +43,9 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
                 Hasher& digest) {
   const std::vector<fs::path> files = files_of(options.model, {".obj"});
   if (files.size() < 2) {
-    throw InvalidInput(concat(options.model,
-                              ": expected two heads or more in the template's "
-                              "topology (.obj), found ",
-                              files.size()));
+    refuse_file(options.model,
+                concat("expected two heads or more in the template's topology (.obj), found ",
+                       files.size()));
   }
   std::vector<Positions> heads;
   Problems problems;
@@ -114,8 +113,7 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
 std::vector<fs::path> scans_in(const fs::path& folder) {
   std::vector<fs::path> scans = files_of(folder, {".obj", ".ply", ".stl", ".glb"});
   if (scans.empty()) {
-    throw InvalidInput(
-        concat(folder.string(), ": expected scans (.obj, .ply, .stl, .glb), found none"));
+    refuse_file(folder, "expected scans (.obj, .ply, .stl, .glb), found none");
   }
   std::map<std::string, fs::path> names;
   for (const fs::path& scan : scans) {

@@ -9,7 +9,6 @@
 #include "crowdface/cast/face_area.h"
 #include "crowdface/config/config.h"
 #include "crowdface/config/config_reader.h"
-#include "crowdface/config/config_writer.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"

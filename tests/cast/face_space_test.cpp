@@ -198,7 +198,7 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
           return between_mirrored(blended, mirrored(mirror, blended), w);
         };
         as_built.push_back(built(recipe));
-        const Positions sampled = sample_face(space.sampled(), recipe, Variant::kAsBuilt);
+        const Positions sampled = sample_face(space.sampled(), recipe);
         for (std::size_t s = 0; s < samples_.size(); ++s) {
           const Eigen::RowVector3d there = kMmPerUnit * as_built.back().row(samples_[s]);
           ASSERT_LT((sampled.row(static_cast<Index>(s)) - there).norm(), 0.05);
@@ -358,7 +358,7 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
 TEST_F(FaceSpaceTest, SampledFacesAreThoseOfWholeMeshes) {
   for (const Recipe& recipe : crowd(5)) {
     const Positions built = kMmPerUnit * blend_exact(faces_, *filter_, regions_, recipe);
-    const Positions sampled = sample_face(space_->sampled(), recipe, Variant::kAsBuilt);
+    const Positions sampled = sample_face(space_->sampled(), recipe);
     for (std::size_t s = 0; s < samples_.size(); ++s) {
       EXPECT_LT((sampled.row(static_cast<Index>(s)) - built.row(samples_[s])).norm(), 0.05);
     }

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "crowdface/config/config_reader.h"
-#include "crowdface/config/config_writer.h"
 #include "crowdface/core/text.h"
 
 #include "config/config_test_folder.h"

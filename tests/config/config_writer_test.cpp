@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/config/config_writer.h"
-
 #include <gmock/gmock.h>
+
+#include "crowdface/config/config.h"
 
 #include "config/config_test_folder.h"
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/random.h"
-#include "crowdface/core/utf8.h"
 
 namespace crowdface {
 namespace {

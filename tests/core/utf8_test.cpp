@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/core/utf8.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
 
 namespace crowdface {
 namespace {

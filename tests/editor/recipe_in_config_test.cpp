@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/recipe_in_config.h"
-
 #include <gtest/gtest.h>
 
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/text.h"
+#include "crowdface/editor/config_text.h"
 
 namespace crowdface {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/regions_in_config.h"
-
 #include <gtest/gtest.h>
 
 #include "crowdface/core/file.h"
+#include "crowdface/editor/config_text.h"
 
 #include "support/expect_error.h"
 #include "support/small_crowd.h"

@@ -82,7 +82,10 @@ TEST(SurfaceDistance, PiecesWithOneRimAreOneSurface) {
   Sheet closed = folded_sheet(10);
   closed.positions.col(2).setZero();
   const SurfaceDistance lips(closed.topology, closed.positions);
-  for (std::uint32_t v = 0; v < closed.topology.vertex_count; ++v) EXPECT_EQ(lips.twin(v), v);
+  const Adjacency edges = build_adjacency(closed.topology);
+  for (std::uint32_t v = 0; v < closed.topology.vertex_count; ++v) {
+    EXPECT_EQ(lips.around(v).size(), edges.of(v).size());
+  }
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/parts/clearance.h"
-
 #include <array>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "crowdface/parts/contact_place.h"
 
 namespace crowdface {
 namespace {

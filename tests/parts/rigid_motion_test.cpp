@@ -71,12 +71,9 @@ TEST(RigidMotion, IsTheBestOfItsNeighbours) {
       EXPECT_GT(error(other), error(best));
       // A small turn about axis c.
       other = best;
-      const auto a = static_cast<std::size_t>((c + 1) % 3),
-                 b = static_cast<std::size_t>((c + 2) % 3);
-      for (std::size_t k = 0; k < 3; ++k) {
-        other.rotation[a][k] = best.rotation[a][k] - step * best.rotation[b][k];
-        other.rotation[b][k] = best.rotation[b][k] + step * best.rotation[a][k];
-      }
+      const Index a = (c + 1) % 3, b = (c + 2) % 3;
+      other.rotation.row(a) = best.rotation.row(a) - step * best.rotation.row(b);
+      other.rotation.row(b) = best.rotation.row(b) + step * best.rotation.row(a);
       EXPECT_GT(error(other), error(best));
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/parts/ties.h"
-
 #include <gtest/gtest.h>
+
+#include "crowdface/parts/anchors.h"
 
 namespace crowdface {
 namespace {

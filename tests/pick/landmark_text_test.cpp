@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/pick/landmark_text.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>

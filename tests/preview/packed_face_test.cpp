@@ -61,7 +61,7 @@ Eigen::Vector3d folded(double u, double v) {
 
 TEST(PackedFace, ComesBackWithinHalfAStepAndAHundredthOfADegree) {
   const Ball ball;
-  const ReducedMesh mesh = reduce_mesh(ball.topology, ball.positions, {}, 1000);
+  const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
   const std::array heads = {&ball.positions};
   const PackingFrame frame = PackingFrame::around(heads);
   const std::string bytes =
@@ -95,7 +95,7 @@ TEST(PackedFace, FrameLeavesAQuarterAroundTheHeads) {
 
 TEST(PackedFace, WhatLiesBeyondTheFrameIsMovedToItsRim) {
   const Ball ball;
-  const ReducedMesh mesh = reduce_mesh(ball.topology, ball.positions, {}, 1000);
+  const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
   const PackingFrame frame{Eigen::Vector3d::Constant(5), 1e-6};
   const std::string bytes =
       pack_face(ball.topology, mesh.vertices, FacesAround(ball.topology), frame, ball.positions);
@@ -104,7 +104,7 @@ TEST(PackedFace, WhatLiesBeyondTheFrameIsMovedToItsRim) {
 
 TEST(PackedFace, RefusesAnotherNumberOfVertices) {
   const Ball ball;
-  const ReducedMesh mesh = reduce_mesh(ball.topology, ball.positions, {}, 1000);
+  const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
   EXPECT_THROW(pack_face(ball.topology, mesh.vertices, FacesAround(ball.topology), {},
                          ball.positions.topRows(5)),
                BrokenPrecondition);

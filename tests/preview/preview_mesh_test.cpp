@@ -112,6 +112,15 @@ TEST(PreviewMesh, LooksFollowOneAnotherAndKeepTheirBorder) {
   }
 }
 
+TEST(PreviewMesh, LeavesOutWhatIsNotDrawn) {
+  const Mesh sheet = torn_sheet();
+  std::vector<bool> drawn(kColumns * kRows);
+  drawn[0] = true;
+  const PreviewMesh mesh = preview_mesh(sheet.topology, sheet.uvs, sheet.positions, drawn, 150);
+  EXPECT_EQ(mesh.triangles.size(), 6U);
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+}
+
 TEST(PreviewMesh, RefusesMarksOfOtherFaces) {
   const Mesh sheet = torn_sheet();
   EXPECT_THROW(preview_mesh(sheet.topology, sheet.uvs, sheet.positions, {true}, 150),

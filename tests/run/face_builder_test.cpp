@@ -43,10 +43,7 @@ struct Folder {
     prepared.emplace(prepare(job->config, job->inputs, job->smoothing, folder / "cache"));
   }
   Positions build(const Recipe& recipe) const {
-    const Recipe* one = &recipe;
-    Positions face;
-    FaceBuilder(job->config, job->inputs, *prepared).build(std::span(&one, 1), std::span(&face, 1));
-    return face;
+    return FaceBuilder(job->config, job->inputs, *prepared).build(recipe);
   }
   testing::TemporaryFolder folder;
   std::optional<Job> job;

@@ -75,7 +75,8 @@ TEST_F(Planned, FacesReadBackAreThoseThatWereCast) {
     both.push_back(first->faces[i]);
     if (i < second->faces.size()) both.push_back(second->faces[i]);
   }
-  EXPECT_EQ(joined(plan_text(job, both)), testing::read_text(folder_.out() / "plan.jsonl"));
+  EXPECT_EQ(joined(plan_text(both, job.names, job.settings)),
+            testing::read_text(folder_.out() / "plan.jsonl"));
 }
 
 TEST_F(Planned, AnotherPlanIsNotTaken) {

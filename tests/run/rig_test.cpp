@@ -169,7 +169,7 @@ TEST(GltfRig, BrokenScenesAreRefused) {
     const std::uint32_t binary = sizeof floats;
     std::string bytes;
     append_number(bytes, glb::kMagic);
-    append_number(bytes, glb::kVersion);
+    append_number(bytes, glb::kContainerVersion);
     append_number(bytes,
                   static_cast<std::uint32_t>(glb::kBinaryHeader + gltf.size() + sizeof floats));
     append_number(bytes, static_cast<std::uint32_t>(gltf.size()));

@@ -70,7 +70,7 @@ TEST(PointCarrier, MovesThemWithAFaceThatIsTurnedMovedAndScaled) {
   const PointSet points = heads.points({0});
   const PointCarrier carrier(points, heads.parts, heads.skin);
   RigidMotion motion;
-  motion.rotation = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+  motion.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   motion.scale = 1.25;
   motion.to = {3, -2, 7};
   Positions face = heads[0];

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/core/list_files.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/vector3.h"

@@ -67,7 +67,7 @@ class SkinOverPartsTest : public ::testing::Test {
   }
 
   static constexpr std::uint32_t kInner = kSide * kSide;
-  SkinMesh skin_;
+  SkinTriangles skin_;
   std::vector<ShapeRow> rows_;
 };
 
@@ -83,7 +83,7 @@ TEST_F(SkinOverPartsTest, StaysOverThemOnAnotherFace) {
 
 TEST_F(SkinOverPartsTest, StaysOverThemOnAFaceThatIsTurned) {
   RigidMotion whole;
-  whole.rotation = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+  whole.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   Positions face = sheet(1);
   turn(whole, face);
   Displacements expected = kept(over_template(), sheet(1));

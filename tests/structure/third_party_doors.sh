@@ -34,7 +34,7 @@ door 'ft2build|freetype' 'crowdface/render/text_label\.cpp'
 door 'embree' 'crowdface/render/[a-z_]*\.cpp'
 door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'
 door 'yaml-cpp/' 'crowdface/config/[a-z_]*\.cpp'
-door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|io/glb_skin|crowd/face_json|run/(casting_report|planned|report|report_summary))\.h' \
+door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|io/glb_skin|crowd/(face_json|ledger)|run/(casting_report|planned|report))\.h' \
   'crowdface/(io|morph|wrap|crowd|pictures|run)/[a-z_]*\.cpp' 'crowdface/(editor|page|pick)/[a-z_]*\.(cpp|h)'
 door 'httplib' 'crowdface/page/local_server\.cpp'
 door 'CLI/' 'cli/(command_line|main)\.cpp'

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/wrap/bending.h"
-
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 

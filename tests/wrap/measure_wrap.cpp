@@ -16,7 +16,6 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/validity/triangles.h"
-#include "crowdface/wrap/unseen_landmarks.h"
 #include "crowdface/wrap/wrap.h"
 
 #include "wrap/truth_scan.h"

@@ -23,6 +23,24 @@ Scan cube() {
   return {cube_positions(), triangles_of(cube_topology())};
 }
 
+/// As a binary PLY file.
+std::string encode_scan(const Scan& scan) {
+  std::string bytes =
+      concat("ply\nformat binary_little_endian 1.0\nelement vertex ", scan.positions.rows(),
+             "\nproperty float x\nproperty float y\nproperty float z\nelement face ",
+             scan.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
+  const auto append = [&](const void* raw, std::size_t size) {
+    bytes.append(static_cast<const char*>(raw), size);
+  };
+  const SingleRows points = scan.positions.cast<float>();
+  append(points.data(), sizeof(float) * static_cast<std::size_t>(points.size()));
+  for (const Triangle& t : scan.triangles) {
+    bytes += '\3';
+    append(t.data(), sizeof t);
+  }
+  return bytes;
+}
+
 std::string binary_stl(const Scan& scan) {
   std::string bytes(84, ' ');
   const auto count = static_cast<std::uint32_t>(scan.triangles.size());

@@ -11,7 +11,6 @@
 #include "crowdface/synth/synthetic_head.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/unfold.h"
-#include "crowdface/wrap/unseen_landmarks.h"
 
 #include "support/expect_error.h"
 #include "wrap/truth_scan.h"

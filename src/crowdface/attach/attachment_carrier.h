@@ -27,7 +27,6 @@ class AttachmentCarrier {
   /// \param normals  of the face, from FittedSkin::normals.
   Positions carry(const Positions& face, const Positions& normals) const;
 
-  const SkinGaps& gaps() const { return *gaps_; }
   std::size_t memory_bytes() const;
 
  private:

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <utility>
 
 #include "crowdface/core/require.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 
 namespace crowdface {
 namespace {
@@ -23,16 +27,10 @@ constexpr double kFewestReach = 1.4;
 constexpr double kSpacings = 3;
 constexpr std::size_t kCoarsest = 150;
 
-double bump(double distance) {
-  const double rest = 1 - distance * distance;
-  return rest > 0 ? rest * rest : 0;
-}
-
-using Cell = std::array<std::int64_t, 3>;
-
 struct InCell {
-  Cell cell;
+  std::array<std::int64_t, 3> cell;
   std::uint32_t vertex;
+  auto operator<=>(const InCell&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 }  // namespace
@@ -51,9 +49,7 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
   const Positions vectors = face_area_vectors(topology, mesh_);
   std::vector<bool> is_skin(areas_.size(), false);
   for (const std::uint32_t v : skin_) is_skin[v] = true;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const std::uint32_t v : skin_) middle += row3(mesh_, v);
-  middle /= static_cast<double>(skin_.size());
+  const Eigen::Vector3d middle = centre_of(mesh_, skin_);
   double volume = 0;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = topology.face(f);
@@ -64,27 +60,22 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
     volume += dot3(vector, row3(mesh_, face[0]) - middle);
   }
   side_ = volume < 0 ? -1 : 1;
-  std::vector<double> areas;
   double area = 0;
-  for (const std::uint32_t v : skin_) {
-    areas.push_back(areas_[v]);
-    area += areas_[v];
-  }
+  for (const std::uint32_t v : skin_) area += areas_[v];
   const double spacing = std::sqrt(area / static_cast<double>(skin_.size()));
   require(spacing > 0, "fitted skin: no area");
   add_level(spacing, skin_, areas_);
-  while (levels_.back()->vertices.size() > kCoarsest) {
-    const std::size_t before = levels_.back()->vertices.size();
-    add_coarser(2 * levels_.back()->spacing);
-    if (levels_.back()->vertices.size() == before) break;
+  while (levels_.back().vertices.size() > kCoarsest) {
+    const std::size_t before = levels_.back().vertices.size();
+    add_coarser(2 * levels_.back().spacing);
+    if (levels_.back().vertices.size() == before) break;
   }
 }
 
 void FittedSkin::add_level(double spacing, std::vector<std::uint32_t> vertices,
                            std::vector<double> areas) {
   PointGrid grid(mesh_, vertices);
-  levels_.push_back(std::make_unique<const Level>(
-      Level{spacing, std::move(vertices), std::move(areas), std::move(grid)}));
+  levels_.push_back({spacing, std::move(vertices), std::move(areas), std::move(grid)});
 }
 
 /// One vertex for each cell, the one nearest to the middle of its skin, with the area of all.
@@ -98,9 +89,7 @@ void FittedSkin::add_coarser(double spacing) {
                       static_cast<std::int64_t>(std::floor(at.z()))},
                      v});
   }
-  std::sort(cells.begin(), cells.end(), [](const InCell& a, const InCell& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.vertex < b.vertex;
-  });
+  std::ranges::sort(cells);
   std::vector<std::uint32_t> vertices;
   std::vector<double> areas(areas_.size(), 0.0);
   for (std::size_t begin = 0; begin < cells.size();) {
@@ -126,12 +115,12 @@ void FittedSkin::add_coarser(double spacing) {
     }
     begin = end;
   }
-  std::sort(vertices.begin(), vertices.end());
+  std::ranges::sort(vertices);
   add_level(spacing, std::move(vertices), std::move(areas));
 }
 
 double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
-  const Level& finest = *levels_.front();
+  const Level& finest = levels_.front();
   const double nearest = finest.grid.nearest(point).distance;
   const double reach = kReachGrowth * nearest + least;
   const std::size_t fewest = std::min(kFewest, finest.vertices.size());
@@ -144,17 +133,15 @@ double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
     }
     if (distances.size() >= fewest) break;
   }
-  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(fewest - 1),
-                   distances.end());
-  return std::max(reach, kFewestReach * distances[fewest - 1]);
+  return std::max(reach, kFewestReach * value_of_rank(std::move(distances), fewest - 1));
 }
 
 void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                              Patch& patch) const {
   if (share <= 0) return;
   for (const std::uint32_t v : level.grid.about(point, patch.reach)) {
-    const double weight =
-        share * level.areas[v] * bump(length3(row3(mesh_, v) - point) / patch.reach);
+    const double away = std::min(1.0, length3(row3(mesh_, v) - point) / patch.reach);
+    const double weight = share * level.areas[v] * biweight(away);
     if (weight <= 0) continue;
     patch.vertices.push_back(v);
     patch.weights.push_back(weight);
@@ -169,15 +156,15 @@ FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double 
   Patch patch;
   patch.reach = reach_at(point, least);
   std::size_t level = 0;
-  while (level + 1 < levels_.size() && patch.reach > 2 * kSpacings * levels_[level]->spacing) {
+  while (level + 1 < levels_.size() && patch.reach > 2 * kSpacings * levels_[level].spacing) {
     ++level;
   }
   double next = 0;
   if (level + 1 < levels_.size()) {
-    next = std::clamp(patch.reach / (kSpacings * levels_[level]->spacing) - 1, 0.0, 1.0);
+    next = std::clamp(patch.reach / (kSpacings * levels_[level].spacing) - 1, 0.0, 1.0);
   }
-  add_samples(*levels_[level], point, 1 - next, patch);
-  if (next > 0) add_samples(*levels_[level + 1], point, next, patch);
+  add_samples(levels_[level], point, 1 - next, patch);
+  if (next > 0) add_samples(levels_[level + 1], point, next, patch);
   return patch;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -36,11 +35,11 @@ class FittedSkin {
 
   const Positions& mesh() const { return mesh_; }
   std::span<const std::uint32_t> vertices() const { return skin_; }
-  const PointGrid& grid() const { return levels_.front()->grid; }
+  const PointGrid& grid() const { return levels_.front().grid; }
   const std::vector<double>& areas() const { return areas_; }
   double mm() const { return mm_; }
   /// How far vertices of the skin are apart.
-  double spacing() const { return levels_.front()->spacing; }
+  double spacing() const { return levels_.front().spacing; }
 
   /// A part of the skin, by vertices that stand for all of it.
   struct Patch {
@@ -84,7 +83,7 @@ class FittedSkin {
   NormalFans fans_;
   double side_ = 1;  ///< −1: faces are wound so that their normals look inwards
   std::vector<double> areas_;
-  std::vector<std::unique_ptr<const Level>> levels_;  ///< each of twice the spacing before it
+  std::vector<Level> levels_;  ///< each of twice the spacing before it
 };
 
 }  // namespace crowdface

@@ -2,10 +2,10 @@
 #include "crowdface/attach/rigid_seat.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/small_program.h"
 
 namespace crowdface {
@@ -25,14 +25,8 @@ RigidSeat::RigidSeat(const FittedSkin& skin, const Positions& points, const Skin
   std::vector<std::uint32_t> all(static_cast<std::size_t>(points.rows()));
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
-  for (const std::uint32_t p : all) middle_ += row3(points, p);
-  middle_ /= static_cast<double>(all.size());
-  double squares = 0;
-  for (const std::uint32_t p : all) {
-    const Eigen::Vector3d from = row3(points, p) - middle_;
-    squares += dot3(from, from);
-  }
-  radius_ = std::max(std::sqrt(squares / static_cast<double>(all.size())), skin.mm());
+  middle_ = centre_of(points, all);
+  radius_ = std::max(radius_about(middle_, points, all), skin.mm());
   const PointGrid grid(points, all);
   const std::size_t fewest = std::min(kFewestOfSocket, skin.vertices().size());
   for (double reach = kSeatReachMm * skin.mm(); socket_.vertices.size() < fewest; reach *= 2) {
@@ -70,19 +64,15 @@ RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
                 x[6] / radius);
 }
 
-RigidMotion RigidSeat::motion(const Positions& face, const Positions& normals) const {
-  if (socket_.vertices.size() < 3) return {};
+Positions RigidSeat::seat(const Positions& face, const Positions& normals) const {
+  if (socket_.vertices.size() < 3) return moved({});
   RigidMotion motion = fit_rigid_motion(skin_.mesh(), face, socket_.vertices, socket_.weights);
   for (int round = 0; round < kSeatRounds; ++round) {
     const auto missing = gaps_.missing(face, normals, moved(motion));
     if (missing.empty()) break;
     motion = nudge_off(motion, missing);
   }
-  return motion;
-}
-
-Positions RigidSeat::seat(const Positions& face, const Positions& normals) const {
-  return moved(motion(face, normals));
+  return moved(motion);
 }
 
 }  // namespace crowdface

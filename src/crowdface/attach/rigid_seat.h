@@ -16,9 +16,7 @@ class RigidSeat {
   /// \param skin, points, gaps  must outlive this object; points #P by 3, beside the fitted mesh.
   RigidSeat(const FittedSkin& skin, const Positions& points, const SkinGaps& gaps);
 
-  /// \param normals  of the face, from FittedSkin::normals
-  RigidMotion motion(const Positions& face, const Positions& normals) const;
-  /// The points after that.
+  /// The points on a face. \param normals  of the face, from FittedSkin::normals
   Positions seat(const Positions& face, const Positions& normals) const;
 
  private:

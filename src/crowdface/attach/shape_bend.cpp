@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <functional>
 #include <numeric>
 #include <queue>
-#include <tuple>
 #include <utility>
 
-#include "crowdface/attach/bend_places.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/rigid_motion.h"
@@ -50,7 +50,7 @@ class Roots {
     EdgeDistances along(adjacency, skin.mesh());
     for (Open& at : nearest) at.is_between = is_between(at, along);
     std::vector<Open> starts = nearest;
-    std::sort(starts.begin(), starts.end());
+    std::ranges::sort(starts);
     const Adjacency neighbours = build_adjacency(topology);
     for (const Open& start : starts) {
       if (!is_found_[start.point]) spread(start, nearest, neighbours);
@@ -64,11 +64,7 @@ class Roots {
     double distance;
     std::uint32_t point, vertex;
 
-    friend bool operator<(const Open& a, const Open& b) {
-      return std::tie(a.is_between, a.distance, a.point, a.vertex) <
-             std::tie(b.is_between, b.distance, b.point, b.vertex);
-    }
-    friend bool operator>(const Open& a, const Open& b) { return b < a; }
+    auto operator<=>(const Open&) const = default;  // NOLINT(modernize-use-nullptr)
   };
 
   bool is_between(const Open& at, EdgeDistances& along) const {
@@ -128,28 +124,27 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   const Positions anchors = anchors_of(roots, points, kOffMm * skin.mm());
   const PointGrid grid(anchors, all);
   EdgeDistances along(adjacency, skin.mesh());
-  std::vector<std::vector<Share>> of_point(all.size());
+  std::vector<std::vector<BendPlaces::Share>> of_point(all.size());
   std::vector<bool> covered(all.size(), false);
   for (std::uint32_t p = 0; p < all.size(); ++p) {
     if (covered[p]) continue;
     const Eigen::Vector3d middle = row3(anchors, p);
-    const auto number = static_cast<std::uint32_t>(places_.size());
-    places_.push_back(skin.patch_around(middle, kPatchReachMm * skin.mm()));
-    FittedSkin::Patch& patch = places_.back();
+    const auto number = static_cast<std::uint32_t>(places_.patches.size());
+    places_.patches.push_back(skin.patch_around(middle, kPatchReachMm * skin.mm()));
+    FittedSkin::Patch& patch = places_.patches.back();
     const double near = kAlong * patch.reach;
     along.search(std::array{roots[p].vertex}, near);
     const double heard = BendPlaces::kHeard * BendPlaces::kApart * patch.reach;
     for (const std::uint32_t q : grid.about(middle, heard)) {
       const double distance = length3(row3(anchors, q) - middle) / heard;
       if (distance >= 1 || along.distance(roots[q].vertex) > near) continue;
-      const double rest = 1 - distance * distance;
-      of_point[q].push_back({number, static_cast<float>(rest * rest)});
+      of_point[q].push_back({number, static_cast<float>(biweight(distance))});
       if (distance * BendPlaces::kHeard < 1) covered[q] = true;
     }
     covered[p] = true;
     keep_near(along, near, patch);
   }
-  for (const std::vector<Share>& shares : of_point) shares_.add_group(shares);
+  for (const auto& shares : of_point) places_.shares.add_group(shares);
 }
 
 /// Leaves out of a patch what is not near along the skin, unless too little were left.
@@ -169,21 +164,21 @@ Displacements ShapeBend::in_shape(const Positions& face, const Positions& worn,
   for (const std::uint32_t v : shape.vertices) is_moved[v] = true;
   Positions acting = face;
   shape.add_to(acting);
-  std::vector<bool> hears(places_.size(), false);
-  std::vector<RigidMotion> motions(places_.size());
-  for (std::size_t n = 0; n < places_.size(); ++n) {
-    const FittedSkin::Patch& patch = places_[n];
+  std::vector<RigidMotion> motions(places_.patches.size());
+  std::vector<bool> hears(motions.size(), false);
+  for (std::size_t n = 0; n < motions.size(); ++n) {
+    const FittedSkin::Patch& patch = places_.patches[n];
     hears[n] = std::ranges::any_of(patch.vertices, [&](std::uint32_t v) { return is_moved[v]; });
     if (hears[n]) motions[n] = fit_rigid_motion(face, acting, patch.vertices, patch.weights);
   }
   Displacements moves;
-  std::vector<Eigen::Vector3d> rows;
-  for (std::uint32_t p = 0; p < shares_.group_count(); ++p) {
+  moves.moves.resize(worn.rows(), 3);
+  for (std::uint32_t p = 0; p < places_.shares.group_count(); ++p) {
     const Eigen::Vector3d point = row3(worn, p);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
     bool any = false;
-    for (const Share& share : shares_.of(p)) {
+    for (const BendPlaces::Share& share : places_.shares.of(p)) {
       const double weight = static_cast<double>(share.weight);
       weights += weight;
       if (!hears[share.place]) continue;
@@ -191,22 +186,11 @@ Displacements ShapeBend::in_shape(const Positions& face, const Positions& worn,
       sum += weight * (motions[share.place].apply(point) - point);
     }
     if (!any) continue;
+    moves.moves.row(static_cast<Index>(moves.vertices.size())) = (sum / weights).transpose();
     moves.vertices.push_back(p);
-    rows.emplace_back(sum / weights);
   }
-  moves.moves.resize(static_cast<Index>(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    moves.moves.row(static_cast<Index>(i)) = rows[i].transpose();
-  }
+  moves.moves.conservativeResize(static_cast<Index>(moves.vertices.size()), 3);
   return moves;
-}
-
-std::size_t ShapeBend::memory_bytes() const {
-  std::size_t bytes = shares_.items.size() * sizeof(Share);
-  for (const FittedSkin::Patch& place : places_) {
-    bytes += sizeof(place) + place.vertices.size() * (sizeof(std::uint32_t) + sizeof(double));
-  }
-  return bytes;
 }
 
 }  // namespace crowdface

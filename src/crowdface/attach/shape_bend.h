@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "crowdface/attach/fitted_skin.h"
-#include "crowdface/core/grouped.h"
+#include "crowdface/attach/bend_places.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/edge_distances.h"
@@ -34,17 +29,12 @@ class ShapeBend {
   Displacements in_shape(const Positions& face, const Positions& worn,
                          const Displacements& shape) const;
 
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const { return places_.memory_bytes(); }
 
  private:
   static void keep_near(const EdgeDistances& along, double limit, FittedSkin::Patch& patch);
 
-  struct Share {
-    std::uint32_t place;
-    float weight;
-  };
-  std::vector<FittedSkin::Patch> places_;
-  Grouped<Share> shares_;  ///< #P
+  BendPlaces places_;
 };
 
 }  // namespace crowdface

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "crowdface/core/parallel.h"
-#include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -20,7 +19,7 @@ constexpr double kCloseMm = 2, kLooseMm = 6;
 constexpr double kLeastMm = 2;
 /// How often what is pushed takes its neighbours along.
 constexpr int kRounds = 8;
-constexpr Index kGapsPerBlock = 512;
+constexpr std::uint32_t kGapsPerBlock = 512;
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -28,20 +27,16 @@ constexpr double kNowhere = std::numeric_limits<double>::infinity();
 SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Positions& points)
     : skin_(skin),
       heights_(static_cast<std::size_t>(points.rows()), kNowhere),
-      starts_(heights_.size(), 0) {
+      starts_(heights_.size(), 0),
+      neighbours_(build_adjacency(topology)) {
   const Positions normals = skin.normals(skin.mesh());
-  parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      const Eigen::Vector3d point = row3(points, p);
-      const PointGrid::Nearest nearest = skin.grid().nearest(point);
-      starts_[i] = nearest.vertex;
-      if (nearest.distance > kFarMm * skin.mm() + 2 * skin.spacing()) continue;
-      heights_[i] = skin.place_near(skin.mesh(), normals, nearest.vertex, point).height;
-    }
+  parallel_for_each(heights_.size(), kGapsPerBlock, [&](std::size_t p) {
+    const Eigen::Vector3d point = row3(points, static_cast<Index>(p));
+    const PointGrid::Nearest nearest = skin.grid().nearest(point);
+    starts_[p] = nearest.vertex;
+    if (nearest.distance > kFarMm * skin.mm() + 2 * skin.spacing()) return;
+    heights_[p] = skin.place_near(skin.mesh(), normals, nearest.vertex, point).height;
   });
-  const Adjacency adjacency = build_adjacency(topology);
-  for (std::uint32_t p = 0; p < heights_.size(); ++p) neighbours_.add_group(adjacency.of(p));
 }
 
 std::size_t SkinGaps::memory_bytes() const {
@@ -51,19 +46,6 @@ std::size_t SkinGaps::memory_bytes() const {
 
 double SkinGaps::least_height(std::uint32_t point) const {
   return std::min(heights_[point], kLeastMm * skin_.mm());
-}
-
-std::vector<double> SkinGaps::heights(const Positions& face, const Positions& normals,
-                                      const Positions& points) const {
-  std::vector<double> found(heights_.size(), kNowhere);
-  parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      if (heights_[i] == kNowhere) continue;
-      found[i] = skin_.place_near(face, normals, starts_[i], row3(points, p)).height;
-    }
-  });
-  return found;
 }
 
 std::vector<SkinGaps::Missing> SkinGaps::missing(const Positions& face, const Positions& normals,
@@ -80,31 +62,27 @@ std::vector<SkinGaps::Missing> SkinGaps::missing(const Positions& face, const Po
 
 void SkinGaps::restore(const Positions& face, const Positions& normals, Positions& points) const {
   Positions moves = Positions::Zero(points.rows(), 3), outward = moves;
-  parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      const auto i = static_cast<std::uint32_t>(p);
-      if (heights_[i] == kNowhere) continue;
-      const SkinPlace place = skin_.place_near(face, normals, starts_[i], row3(points, p));
-      const double off = std::abs(heights_[i]) / skin_.mm();
-      const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
-      double move = held * (heights_[i] - place.height);
-      if (heights_[i] >= 0) move = std::max(move, least_height(i) - place.height);
-      moves.row(p) = move * place.outward.transpose();
-      outward.row(p) = place.outward.transpose();
-    }
+  const auto count = static_cast<std::uint32_t>(heights_.size());
+  parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
+    if (heights_[p] == kNowhere) return;
+    const SkinPlace place = skin_.place_near(face, normals, starts_[p], row3(points, p));
+    const double off = std::abs(heights_[p]) / skin_.mm();
+    const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
+    double move = held * (heights_[p] - place.height);
+    if (heights_[p] >= 0) move = std::max(move, least_height(p) - place.height);
+    moves.row(p) = move * place.outward.transpose();
+    outward.row(p) = place.outward.transpose();
   });
   for (int round = 0; round < kRounds; ++round) {
     const Positions before = moves;
-    parallel_blocks(points.rows(), kGapsPerBlock, [&](Index begin, Index end) {
-      for (Index p = begin; p < end; ++p) {
-        const auto around = neighbours_.of(p);
-        if (around.empty()) continue;
-        Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-        for (const std::uint32_t other : around) mean += row3(before, other);
-        mean /= static_cast<double>(around.size());
-        const bool is_push = dot3(mean, row3(outward, p)) >= 0;
-        if (is_push && length3(mean) > length3(row3(before, p))) moves.row(p) = mean.transpose();
-      }
+    parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
+      const auto around = neighbours_.of(p);
+      if (around.empty()) return;
+      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+      for (const std::uint32_t other : around) mean += row3(before, other);
+      mean /= static_cast<double>(around.size());
+      const bool is_push = dot3(mean, row3(outward, p)) >= 0;
+      if (is_push && length3(mean) > length3(row3(before, p))) moves.row(p) = mean.transpose();
     });
   }
   points += moves;

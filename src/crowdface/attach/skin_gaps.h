@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crowdface/attach/fitted_skin.h"
-#include "crowdface/core/grouped.h"
+#include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -32,20 +32,15 @@ class SkinGaps {
   /// near to it. What is pushed takes its neighbours with it.
   void restore(const Positions& face, const Positions& normals, Positions& points) const;
 
-  /// The gap of each point on the fitted mesh, #P; far from the skin it is not known and infinite.
-  const std::vector<double>& heights() const { return heights_; }
   std::size_t memory_bytes() const;
-  /// The gap of each point beside a face, likewise.
-  std::vector<double> heights(const Positions& face, const Positions& normals,
-                              const Positions& points) const;
 
  private:
   double least_height(std::uint32_t point) const;
 
   const FittedSkin& skin_;
-  std::vector<double> heights_;        ///< #P
+  std::vector<double> heights_;  ///< #P, of the gaps; far from the skin not known and infinite
   std::vector<std::uint32_t> starts_;  ///< #P, vertices of the skin near them
-  Grouped<std::uint32_t> neighbours_;  ///< #P, along edges
+  Adjacency neighbours_;               ///< #P
 };
 
 }  // namespace crowdface

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/attach/smooth_bend.h"
 
+#include <algorithm>
 #include <numeric>
-#include <utility>
 
-#include "crowdface/attach/bend_places.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/rigid_motion.h"
 
@@ -15,6 +15,26 @@ namespace {
 constexpr std::size_t kPlacesPerBlock = 64;
 constexpr Index kPointsPerBlock = 1024;
 
+/// The points that are places.
+std::vector<std::uint32_t> find_places(const FittedSkin& skin, const Positions& points,
+                                       const PointGrid& grid,
+                                       std::vector<FittedSkin::Patch>& patches) {
+  std::vector<std::uint32_t> places;
+  std::vector<bool> covered(static_cast<std::size_t>(points.rows()), false);
+  for (std::uint32_t p = 0; p < covered.size(); ++p) {
+    if (covered[p]) continue;
+    const Eigen::Vector3d middle = row3(points, p);
+    places.push_back(p);
+    patches.push_back(skin.patch_around(middle));
+    const double apart = BendPlaces::kApart * patches.back().reach;
+    for (const std::uint32_t other : grid.about(middle, apart)) {
+      if (length3(row3(points, other) - middle) < apart) covered[other] = true;
+    }
+    covered[p] = true;
+  }
+  return places;
+}
+
 }  // namespace
 
 SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
@@ -23,43 +43,37 @@ SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(points, all);
-  BendPlaces places = find_places(skin, points, grid);
-  shares_ = grouped<Share>(all.size(), [&](const auto& put) {
-    for (std::uint32_t n = 0; n < places.points.size(); ++n) {
-      visit_hearers(points, grid, places, n, [&](std::uint32_t p, double weight) {
-        put(p, Share{n, static_cast<float>(weight)});
-      });
+  const std::vector<std::uint32_t> places = find_places(skin, points, grid, places_.patches);
+  places_.shares = grouped<BendPlaces::Share>(all.size(), [&](const auto& put) {
+    for (std::uint32_t n = 0; n < places.size(); ++n) {
+      const Eigen::Vector3d middle = row3(points, places[n]);
+      const double heard = BendPlaces::kHeard * BendPlaces::kApart * places_.patches[n].reach;
+      for (const std::uint32_t p : grid.about(middle, heard)) {
+        const double distance = length3(row3(points, p) - middle) / heard;
+        const double weight = biweight(std::min(1.0, distance));
+        if (weight > 0) put(p, {n, static_cast<float>(weight)});
+      }
     }
   });
-  places_ = std::move(places.patches);
-}
-
-std::size_t SmoothBend::memory_bytes() const {
-  std::size_t bytes = shares_.items.size() * sizeof(Share);
-  for (const FittedSkin::Patch& place : places_) {
-    bytes += sizeof(place) + place.vertices.size() * (sizeof(std::uint32_t) + sizeof(double));
-  }
-  return bytes;
 }
 
 Positions SmoothBend::bend(const Positions& face) const {
-  std::vector<RigidMotion> motions(places_.size());
-  parallel_for_each(places_.size(), kPlacesPerBlock, [&](std::size_t n) {
-    motions[n] = fit_rigid_motion(skin_.mesh(), face, places_[n].vertices, places_[n].weights);
+  std::vector<RigidMotion> motions(places_.patches.size());
+  parallel_for_each(motions.size(), kPlacesPerBlock, [&](std::size_t n) {
+    const FittedSkin::Patch& patch = places_.patches[n];
+    motions[n] = fit_rigid_motion(skin_.mesh(), face, patch.vertices, patch.weights);
   });
   Positions bent(points_.rows(), 3);
-  parallel_blocks(points_.rows(), kPointsPerBlock, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      const Eigen::Vector3d point = row3(points_, p);
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      double weights = 0;
-      for (const Share& share : shares_.of(p)) {
-        const double weight = static_cast<double>(share.weight);
-        sum += weight * motions[share.place].apply(point);
-        weights += weight;
-      }
-      bent.row(p) = (sum / weights).transpose();
+  parallel_for_each(points_.rows(), kPointsPerBlock, [&](Index p) {
+    const Eigen::Vector3d point = row3(points_, p);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weights = 0;
+    for (const BendPlaces::Share& share : places_.shares.of(p)) {
+      const double weight = static_cast<double>(share.weight);
+      sum += weight * motions[share.place].apply(point);
+      weights += weight;
     }
+    bent.row(p) = (sum / weights).transpose();
   });
   return bent;
 }

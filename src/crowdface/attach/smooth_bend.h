@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "crowdface/attach/fitted_skin.h"
-#include "crowdface/core/grouped.h"
+#include "crowdface/attach/bend_places.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -23,19 +19,12 @@ class SmoothBend {
   /// \param face  #V by 3. \return #P by 3.
   Positions bend(const Positions& face) const;
 
-  std::size_t places() const { return places_.size(); }
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const { return places_.memory_bytes(); }
 
  private:
-  struct Share {
-    std::uint32_t place;
-    float weight;  ///< those of a point add up to about one
-  };
-
   const FittedSkin& skin_;
   const Positions& points_;
-  std::vector<FittedSkin::Patch> places_;
-  Grouped<Share> shares_;  ///< #P
+  BendPlaces places_;
 };
 
 }  // namespace crowdface

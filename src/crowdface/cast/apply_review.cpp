@@ -43,8 +43,7 @@ std::vector<Redraw> read_marks(const Review& review, CrowdCast& cast) {
     if (mark.note) cast.crowd[static_cast<std::size_t>(found->second)].notes.review = mark.note;
     if (mark.verdict == ReviewMark::Verdict::kReject) redraws.push_back({found->second, &mark});
   }
-  std::sort(redraws.begin(), redraws.end(),
-            [](const Redraw& a, const Redraw& b) { return a.face < b.face; });
+  std::ranges::sort(redraws, {}, &Redraw::face);
   return redraws;
 }
 
@@ -68,8 +67,7 @@ class Redrawing {
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
       if (!settled[i]) continue;
-      const bool relative = family != nullptr && family_of(cast_, static_cast<Index>(i)) == family;
-      if (relative) {
+      if (family != nullptr && family_of(cast_, static_cast<Index>(i)) == family) {
         own.push_back(cast_.points[i]);
       } else {
         others.add(cast_.crowd[i], cast_.points[i]);
@@ -147,19 +145,15 @@ class Redrawing {
       free -= judge_.space().region_share(static_cast<Index>(part / bands)) /
               static_cast<double>(bands);
     }
-    const double all =
-        family == nullptr ? half_median_mm_ : std::min(half_median_mm_, 0.5 * widest(own));
+    const double all = family == nullptr
+                           ? half_median_mm_
+                           : std::min(half_median_mm_, 0.5 * quartiles(pair_distances(own)).max);
     const double least = all * std::sqrt(std::max(free, 0.0));
     return {least, least / 2, least / 4, 0};
   }
 
-  static double widest(const std::vector<FaceSpace::Point>& points) {
-    return quartiles(pair_distances(points)).max;
-  }
-
   const FamilyOptions& options_of(const FamilyCast& family) const {
-    return *std::find_if(casting_.families.begin(), casting_.families.end(),
-                         [&](const FamilyOptions& options) { return options.name == family.name; });
+    return *std::ranges::find(casting_.families, family.name, &FamilyOptions::name);
   }
 
   const FaceKind& kind_of(std::uint64_t index) const {
@@ -168,10 +162,8 @@ class Redrawing {
 
   CastFace drawn_face(const CastFace& old, std::uint32_t attempt) const {
     if (!old.index) {  // hand-written: what it leaves open
-      const auto hand = std::find_if(casting_.recipes.begin(), casting_.recipes.end(),
-                                     [&](const HandRecipe& recipe) { return recipe.id == old.id; });
-      return draw_recipe(casting_, *hand, {0, attempt, concat("recipe/", old.id)},
-                         kind_of_group(casting_));
+      const auto hand = std::ranges::find(casting_.recipes, old.id, &HandRecipe::id);
+      return draw_hand_recipe(casting_, *hand, attempt);
     }
     return draw_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
@@ -208,10 +200,8 @@ class Redrawing {
 
   void settle(std::size_t at, FaceSearch::Found found, const CastFace& old,
               const std::vector<bool>& settled) {
-    Nearest nearest;
-    const FacePointIndex::Nearest head = judge_.nearest_head(found.point);
-    nearest.head = head.face;
-    nearest.head_mm = head.mm;
+    const auto [head, head_mm] = judge_.nearest_head(found.point);
+    Nearest nearest{head, head_mm, std::nullopt, 0};
     double mm = HUGE_VAL;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
       if (!settled[i]) continue;

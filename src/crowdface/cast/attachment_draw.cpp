@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "crowdface/cast/quotas.h"
+#include "crowdface/cast/sampling.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
@@ -16,9 +17,8 @@ using Items = std::vector<const AttachmentItem*>;
 
 template <class Wanted>
 Items those(const Items& items, const Wanted& wanted) {
-  Items found;
-  std::copy_if(items.begin(), items.end(), std::back_inserter(found),
-               [&](const AttachmentItem* item) { return wanted(*item); });
+  Items found = items;
+  std::erase_if(found, [&](const AttachmentItem* item) { return !wanted(*item); });
   return found;
 }
 
@@ -34,18 +34,6 @@ bool narrow(Items& items, const Wanted& wanted) {
 /// Whether a tag speaks of a colour: "brown" or "brown_hair" of brown.
 bool says_colour(const std::string& tag, const std::string& colour) {
   return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
-}
-
-/// \param drawn  from 0 to 1
-const AttachmentItem* one_of(const Items& items, double drawn) {
-  double sum = 0;
-  for (const AttachmentItem* item : items) sum += item->share;
-  double left = drawn * sum;
-  for (const AttachmentItem* item : items) {
-    if (left < item->share) return item;
-    left -= item->share;
-  }
-  return items.back();
 }
 
 /// How often each item, by name, was given to some faces.
@@ -162,7 +150,7 @@ class AttachmentDrawing {
     if (const auto own = turns_.find(alike(face)); own != turns_.end())
       leave_due(own->second, next);
     if (face.index) leave_due(all_turns_, next);
-    return one_of(next, drawn);
+    return weighted_choice(next, drawn, &AttachmentItem::share);
   }
 
   /// Leaves what quotas allow. \return whether the face wears any.

@@ -96,10 +96,8 @@ void find_nearest(const FaceJudge& judge, CrowdCast& cast) {
   for (const FaceSpace::Point& point : cast.points) index.add(point);
   parallel_for_each(index.size(), [&](Index i) {
     const FaceSpace::Point& point = cast.points[static_cast<std::size_t>(i)];
-    Nearest nearest;
-    const FacePointIndex::Nearest head = judge.nearest_head(point);
-    nearest.head = head.face;
-    nearest.head_mm = head.mm;
+    const auto [head, head_mm] = judge.nearest_head(point);
+    Nearest nearest{head, head_mm, std::nullopt, 0};
     if (i > 0) {
       const FacePointIndex::Nearest face = index.nearest(point, HUGE_VAL, 0, i);
       nearest.crowd = cast.crowd[static_cast<std::size_t>(face.face)].id;

@@ -30,16 +30,16 @@ Quartiles quartiles(std::vector<double> values) {
   return {values.size(), values.front(), at(1), at(2), at(3), values.back()};
 }
 
-std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points, std::size_t most) {
-  const auto chosen = some_of(points, most);
+std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points) {
+  const auto chosen = some_of(points, 1500);
   return pairwise(chosen.size(), [&](std::size_t i, std::size_t j) {
     return FaceSpace::distance(chosen[i], chosen[j]);
   });
 }
 
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
-                                   const std::vector<FaceSpace::Point>& points, std::size_t most) {
-  const auto chosen = some_of(points, most);
+                                   const std::vector<FaceSpace::Point>& points) {
+  const auto chosen = some_of(points, 300);
   std::vector<FaceSpace::RegionPoint> in_region(chosen.size());
   parallel_for_each(chosen.size(),
                     [&](std::size_t i) { in_region[i] = space.in_region(chosen[i], region); });

@@ -15,13 +15,11 @@ struct Quartiles {
 };
 Quartiles quartiles(std::vector<double> values);
 
-/// The distances between all pairs of faces; of more faces than `most` those of every so-many-th.
-std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points,
-                                   std::size_t most = 1500);
+/// The distances between all pairs of faces; of more faces than 1500 those of every so-many-th.
+std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points);
 
-/// The same over one region.
+/// The same over one region, of at most 300 faces.
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
-                                   const std::vector<FaceSpace::Point>& points,
-                                   std::size_t most = 300);
+                                   const std::vector<FaceSpace::Point>& points);
 
 }  // namespace crowdface

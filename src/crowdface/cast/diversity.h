@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +48,29 @@ struct DiversityOptions {
   std::uint64_t pool_for_each() const { return static_cast<std::uint64_t>(std::max(pool, 10)); }
 };
 
+/// What a face must not be. The limits let through what faces between the heads do (scans have
+/// slivers, and lips that touch) and refuse extrapolation that goes too far; docs/casting.md has
+/// figures for choosing others.
+struct BelievabilityOptions {
+  /// Whether whole meshes are looked at besides the samples: when they are built, only to be
+  /// reported, as by then the plan is made; or while casting.
+  enum class Meshes {
+    kAuto,  ///< up to 200,000 polygons
+    kAll,
+    kNone,
+    kJudge,  ///< each candidate's mesh is built and judged before it is accepted; reported as well
+  };
+  Meshes meshes = Meshes::kAuto;
+  bool check = true;               ///< false: no candidate is judged by any of these
+  double max_deviation = 2.5;      ///< from the heads' mean, see Plausibility
+  double max_stretch = 3;          ///< of all but one in a hundred triangles of the skin
+  double max_flipped = 0.003;      ///< share of the skin's triangles turned over or collapsed
+  double max_intersecting = 0.01;  ///< share that passes through others where the target's does not
+  double max_gap_mm = 0.5;  ///< how much farther lips may part than any head's, see SkinContacts
+  /// Skin that may show its back beyond the target's, see skin_check.h.
+  double max_exposed_mm2 = 3;
+};
+
 /// Why a candidate was thrown away.
 enum class Reason {
   kMinDistance,         ///< too near to another face of the crowd
@@ -62,8 +86,21 @@ enum class Reason {
   kRejected,            ///< too like the face that a review rejected
 };
 constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;
-/// "min_distance", "min_distance_to_faces", …: the config key that asks for it, where there is one.
-std::string_view name_of(Reason reason);
+/// The config key that asks for it, where there is one.
+inline std::string_view name_of(Reason reason) {
+  constexpr std::string_view kNames[kReasonCount] = {"min_distance",
+                                                     "min_distance_to_faces",
+                                                     "max_weight",
+                                                     "max_deviation",
+                                                     "max_flipped",
+                                                     "max_stretch",
+                                                     "max_intersecting",
+                                                     "max_gap",
+                                                     "max_exposed",
+                                                     "family",
+                                                     "min_distance_to_rejected"};
+  return kNames[static_cast<std::size_t>(reason)];
+}
 
 /// How many candidates were thrown away, by reason.
 struct Rejections {
@@ -75,17 +112,11 @@ struct Rejections {
     for (std::size_t r = 0; r < kReasonCount; ++r) count[r] += other.count[r];
   }
   std::uint64_t total() const {
-    std::uint64_t sum = 0;
-    for (const std::uint64_t n : count) sum += n;
-    return sum;
+    return std::accumulate(count.begin(), count.end(), std::uint64_t{0});
   }
   /// The reason with most rejections, of equals the first.
   Reason most_frequent() const {
-    std::size_t most = 0;
-    for (std::size_t r = 1; r < kReasonCount; ++r) {
-      if (count[r] > count[most]) most = r;
-    }
-    return static_cast<Reason>(most);
+    return static_cast<Reason>(std::ranges::max_element(count) - count.begin());
   }
 };
 

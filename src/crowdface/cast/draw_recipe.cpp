@@ -6,7 +6,6 @@
 
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
-#include "crowdface/core/error.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
 #include "crowdface/plane/layout.h"
@@ -44,17 +43,6 @@ class FaceDraws {
   std::uint64_t seed_;
   const DrawKey& key_;
 };
-
-Index draw_target(const std::vector<WeightedHead>& targets, const FaceDraws& draws) {
-  double total = 0;
-  for (const WeightedHead& target : targets) total += target.weight;
-  double left = draws.unit("target", "") * total;
-  for (const WeightedHead& target : targets) {
-    if (left < target.weight) return target.head;
-    left -= target.weight;
-  }
-  return targets.back().head;  // rounding used up the last weight
-}
 
 /// Uniform in the unit disc, by drawing from the square until it hits: no sine that a plan could
 /// depend on. Misses 64 times once in 10⁴³ faces; then the centre.
@@ -245,7 +233,10 @@ CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawK
   face.id = hand.id;
   face.group = kind.group;
   face.notes.attempt = key.attempt;
-  face.recipe.target = hand.target ? *hand.target : draw_target(kind.targets, draws);
+  face.recipe.target =
+      hand.target
+          ? *hand.target
+          : weighted_choice(kind.targets, draws.unit("target", ""), &WeightedHead::weight).head;
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
     const HandRecipe::Region& region =
         k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
@@ -268,8 +259,9 @@ CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t at
   return face;
 }
 
-CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand) {
-  return draw_recipe(casting, hand, {0, 0, concat("recipe/", hand.id)}, kind_of_group(casting));
+CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand, std::uint32_t attempt) {
+  return draw_recipe(casting, hand, {0, attempt, concat("recipe/", hand.id)},
+                     kind_of_group(casting));
 }
 
 }  // namespace crowdface

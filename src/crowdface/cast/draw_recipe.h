@@ -8,7 +8,6 @@
 #include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/family.h"
-#include "crowdface/cast/group.h"
 #include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/cast/typical_head.h"
@@ -78,6 +77,7 @@ CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t at
 
 /// A hand-written recipe; what it leaves open is drawn under its own name.
 /// \throws BrokenPrecondition if its weights cannot be normalised.
-CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand);
+CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand,
+                          std::uint32_t attempt = 0);
 
 }  // namespace crowdface

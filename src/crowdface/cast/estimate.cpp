@@ -17,7 +17,6 @@ constexpr std::uint64_t kPoolPerFace = 5;
 
 /// How many of the pool, in order, first fit keeps at this distance; it stops at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
-  if (pool.points.empty()) return 0;
   FacePointIndex kept(pool.points[0].as_built.size());
   for (const FaceSpace::Point& point : pool.points) {
     if (static_cast<std::uint64_t>(kept.size()) >= enough) break;

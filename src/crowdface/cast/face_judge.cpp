@@ -54,13 +54,13 @@ std::optional<Reason> FaceJudge::closely(const Recipe& whole) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
   Recipe recipe = whole;  // its mirror image has what it has
   recipe.mirrored = false;
-  const Positions samples = sample_face(space_.sampled(), recipe, Variant::kAsBuilt);
+  const Positions samples = sample_face(space_.sampled(), recipe);
   std::optional<ProxySkin::Target> mixture;
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
     mixture.emplace(skin_->target(sample_target(space_.sampled(), recipe)));
   }
   const ProxySkin::Target& target = mixture ? *mixture : skin_->head(recipe.target);
-  SkinDefects defects{skin_->local(samples, target), 0};
+  SkinDefects defects{target.triangles.compare(samples), 0};
   if (const auto why = limit_passed(believability_, defects)) return why;
   defects.intersecting = skin_->intersecting_triangles(samples, target);
   if (const auto why = limit_passed(believability_, defects)) return why;

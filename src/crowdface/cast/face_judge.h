@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 
-#include "crowdface/cast/believability.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_point_index.h"
 #include "crowdface/cast/plausibility.h"

@@ -1,7 +1,148 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/face_point_index.h"
 
+#include <algorithm>
+#include <array>
+#include <numeric>
+
 namespace crowdface {
+namespace {
+
+constexpr Index kNewest = 2048;  ///< as fast one after the other as in a tree
+constexpr std::size_t kLeaf = 2 * PointBlocks::kLanes;
+
+}  // namespace
+
+/// The leading coordinates of the points that become a tree, and their order in it.
+struct PointTree::Building {
+  std::vector<std::array<float, LeadingBox::kDimensions>> leading;
+  std::vector<std::pair<const PointBlocks*, Index>> sources;
+  std::vector<std::size_t> order;
+
+  Index number(std::size_t at) const { return sources[at].first->number(sources[at].second); }
+};
+
+PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& points)
+    : points_(dimensions) {
+  Building building;
+  for (const PointBlocks* blocks : points) {
+    for (Index at = 0; at < blocks->size(); ++at) {
+      auto& leading = building.leading.emplace_back();
+      for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
+        leading[d] = blocks->value(at, static_cast<Index>(d));
+      }
+      building.sources.emplace_back(blocks, at);
+    }
+  }
+  building.order.resize(building.leading.size());
+  std::iota(building.order.begin(), building.order.end(), std::size_t{0});
+  build(building, 0, building.order.size());
+  std::vector<float> values(static_cast<std::size_t>(points_.padded_dimensions()));
+  for (const std::size_t at : building.order) {
+    const auto& [blocks, source] = building.sources[at];
+    for (std::size_t d = 0; d < values.size(); ++d) {
+      values[d] = blocks->value(source, static_cast<Index>(d));
+    }
+    points_.add(building.number(at), values.data());
+  }
+}
+
+std::int32_t PointTree::build(Building& building, std::size_t begin, std::size_t end) {
+  const auto at = static_cast<std::int32_t>(nodes_.size());
+  Node node;
+  LeadingBox& box = node.box;
+  const auto first = building.order.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto last = building.order.begin() + static_cast<std::ptrdiff_t>(end);
+  const auto [least, greatest] = std::minmax_element(
+      first, last, [&](auto a, auto b) { return building.number(a) < building.number(b); });
+  node.least = building.number(*least);
+  node.greatest = building.number(*greatest);
+  std::size_t widest = 0;
+  for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
+    const auto [low, high] = std::minmax_element(first, last, [&](auto a, auto b) {
+      return building.leading[a][d] < building.leading[b][d];
+    });
+    box.low[d] = building.leading[*low][d];
+    box.high[d] = building.leading[*high][d];
+    if (box.high[d] - box.low[d] > box.high[widest] - box.low[widest]) widest = d;
+  }
+  nodes_.push_back(node);
+  if (end - begin <= kLeaf) {
+    nodes_.back().block = static_cast<std::int32_t>(begin / PointBlocks::kLanes);
+    nodes_.back().blocks =
+        static_cast<std::int32_t>((end - begin + PointBlocks::kLanes - 1) / PointBlocks::kLanes);
+    return at;
+  }
+  // Leaves begin with whole blocks.
+  const std::size_t middle = begin + std::max(std::size_t{1}, (end - begin) / 2 / kLeaf) * kLeaf;
+  std::nth_element(first, building.order.begin() + static_cast<std::ptrdiff_t>(middle), last,
+                   [&](auto a, auto b) {
+                     const float left = building.leading[a][widest];
+                     const float right = building.leading[b][widest];
+                     return left != right ? left < right : building.number(a) < building.number(b);
+                   });
+  const std::int32_t left = build(building, begin, middle);
+  const std::int32_t right = build(building, middle, end);
+  nodes_[static_cast<std::size_t>(at)].left = left;
+  nodes_[static_cast<std::size_t>(at)].right = right;
+  return at;
+}
+
+void PointTree::search(std::int32_t at, const std::vector<float>& query, Index begin, Index end,
+                       double enough, NearestPoint& best) const {
+  const Node& node = nodes_[static_cast<std::size_t>(at)];
+  if (node.least >= end || node.greatest < begin) return;
+  if (node.left < 0) {
+    for (std::int32_t b = node.block; b < node.block + node.blocks; ++b) {
+      points_.search(query, b, begin, end, best);
+    }
+    return;
+  }
+  std::array<std::pair<float, std::int32_t>, 2> children;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const std::int32_t child = c == 0 ? node.left : node.right;
+    children[c] = {nodes_[static_cast<std::size_t>(child)].box.squared_distance(query), child};
+  }
+  if (children[1].first < children[0].first) std::swap(children[0], children[1]);
+  for (const auto& [squared, child] : children) {
+    if (static_cast<double>(squared) * (1 - PointBlocks::kRounding) > best.squared) return;
+    search(child, query, begin, end, enough, best);
+    if (best.squared < enough) return;
+  }
+}
+
+void PointTrees::add(const Eigen::VectorXf& point) {
+  newest_.add(size_++, newest_.padded(point).data());
+  if (newest_.size() < kNewest) return;
+  std::vector<const PointBlocks*> joined = {&newest_};
+  Index count = newest_.size();
+  std::size_t kept = trees_.size();
+  while (kept > 0 && trees_[kept - 1].points().size() <= count) {
+    joined.push_back(&trees_[--kept].points());
+    count += joined.back()->size();
+  }
+  PointTree tree(dimensions_, joined);
+  trees_.erase(trees_.begin() + static_cast<std::ptrdiff_t>(kept), trees_.end());
+  trees_.push_back(std::move(tree));
+  newest_.clear();
+}
+
+NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
+                                 double enough) const {
+  NearestPoint best{-1, limit};
+  const std::vector<float> padded = newest_.padded(query);
+  for (const PointTree& tree : trees_) {
+    tree.search(padded, begin, end, enough, best);
+    if (best.point >= 0 && best.squared < enough) return best;
+  }
+  const Index first_newest = size_ - newest_.size();
+  const Index last = std::min(end - first_newest, newest_.size());
+  for (Index block = std::max(begin - first_newest, Index{0}) / PointBlocks::kLanes;
+       block * PointBlocks::kLanes < last; ++block) {
+    newest_.search(padded, block, begin, end, best);
+  }
+  return best;
+}
 
 void FacePointIndex::add(const FaceSpace::Point& point) {
   as_built_.add(point.as_built);

@@ -18,9 +18,8 @@ std::vector<double> sampling_density(const Topology& topology, const Components&
                                      const Positions& mean, Axis front) {
   const std::vector<double> face = face_areas(topology, components, mean, FaceArea::kFront, front);
   const std::vector<double> skin = face_areas(topology, components, mean, FaceArea::kSkin, front);
-  std::vector<double> vertices(skin.size());
-  std::transform(skin.begin(), skin.end(), vertices.begin(),
-                 [](double area) { return area > 0 ? 1.0 : 0.0; });
+  std::vector<double> vertices;
+  for (const double area : skin) vertices.push_back(area > 0 ? 1 : 0);
   std::vector<double> density(skin.size(), 0.0);
   const auto add = [&](const std::vector<double>& part, double share) {
     double total = 0;
@@ -79,14 +78,12 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
   return samples;
 }
 
-FaceSamples with_partners(FaceSamples samples, const MirrorMap& mirror) {
-  const std::size_t count = samples.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (mirror.is_vertex(samples[i])) samples.push_back(mirror.corners[samples[i]][0]);
+FaceSamples with_partners(const FaceSamples& samples, const MirrorMap& mirror) {
+  std::set<std::uint32_t> all(samples.begin(), samples.end());
+  for (const std::uint32_t v : samples) {
+    if (mirror.is_vertex(v)) all.insert(mirror.corners[v][0]);
   }
-  std::sort(samples.begin(), samples.end());
-  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-  return samples;
+  return {all.begin(), all.end()};
 }
 
 FaceSamples with_corners(FaceSamples samples, const MirrorMap& mirror) {

@@ -23,7 +23,7 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
                                 const Positions& mean, Axis front, Index count);
 
 /// The samples and those on the other side of the head that are vertices, ascending.
-FaceSamples with_partners(FaceSamples samples, const MirrorMap& mirror);
+FaceSamples with_partners(const FaceSamples& samples, const MirrorMap& mirror);
 /// The samples, and after them all other vertices whose positions their mirror images are made of.
 FaceSamples with_corners(FaceSamples samples, const MirrorMap& mirror);
 

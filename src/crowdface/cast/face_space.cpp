@@ -171,23 +171,24 @@ const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
   return fields_.data() + at * mean_shape_.size();
 }
 
-FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Variant variant) const {
+FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapolation) const {
   const double w = mirror_share(recipe);
-  if (w == 0) return shape_in_side(recipe, variant, 0);
+  if (w == 0) return shape_in_side(recipe, extrapolation, 0);
   require(sides() == 2, "a mirrored face, and no mirror images of heads");
-  if (w == 1) return shape_in_side(recipe, variant, 1);
-  return static_cast<float>(1 - w) * shape_in_side(recipe, variant, 0) +
-         static_cast<float>(w) * shape_in_side(recipe, variant, 1);
+  if (w == 1) return shape_in_side(recipe, extrapolation, 1);
+  return static_cast<float>(1 - w) * shape_in_side(recipe, extrapolation, 0) +
+         static_cast<float>(w) * shape_in_side(recipe, extrapolation, 1);
 }
 
 /// The face before it is mirrored, or all of its mirror image.
-FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Variant variant, Index side) const {
+FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Extrapolation extrapolation,
+                                          Index side) const {
   const Index first = side * head_count();
   auto shape = target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
     return shapes_[static_cast<std::size_t>(first + head)];
   });
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    for (const LevelShares& at : level_shares(recipe, k, extrapolation_of(variant))) {
+    for (const LevelShares& at : level_shares(recipe, k, extrapolation)) {
       for (const LevelTerm& term : level_terms(heads_.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
           const auto f = static_cast<float>(part.weight * term.factor);
@@ -234,7 +235,7 @@ void FaceSpace::build_directions(std::size_t bands) {
         n < heads ? aligned(shapes_[static_cast<std::size_t>(n)])
                   : aligned(shape_of(
                         training_recipe(heads_, bands, static_cast<std::uint64_t>(n - heads)),
-                        Variant::kAsBuilt));
+                        Extrapolation::kAsGiven));
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
   directions_ = span_basis(std::move(rows), kFaceTolerance, sides() * kMostDirections).directions;
@@ -256,14 +257,14 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
 
 FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
   Point point;
-  point.as_built = coordinates(shape_of(recipe, Variant::kAsBuilt));
+  point.as_built = coordinates(shape_of(recipe, Extrapolation::kAsGiven));
   const auto unit_band = [](const BandRecipe& band) { return band.extrapolation == 1; };
   const bool unit =
       std::all_of(recipe.regions.begin(), recipe.regions.end(), [&](const RegionRecipe& region) {
         return unit_band(region) &&
                std::all_of(region.finer.begin(), region.finer.end(), unit_band);
       });
-  point.unit = unit ? point.as_built : coordinates(shape_of(recipe, Variant::kUnit));
+  point.unit = unit ? point.as_built : coordinates(shape_of(recipe, Extrapolation::kNone));
   return point;
 }
 

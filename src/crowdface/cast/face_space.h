@@ -79,8 +79,8 @@ class FaceSpace {
   void build_basis();
   void build_directions(std::size_t bands);
   void build_region_metrics();
-  Shape shape_of(const Recipe& recipe, Variant variant) const;
-  Shape shape_in_side(const Recipe& recipe, Variant variant, Index side) const;
+  Shape shape_of(const Recipe& recipe, Extrapolation extrapolation) const;
+  Shape shape_in_side(const Recipe& recipe, Extrapolation extrapolation, Index side) const;
   std::vector<float> aligned(const Shape& shape) const;
   Eigen::VectorXf coordinates(const Shape& shape) const;
   const float* field(std::size_t region, Index head, Index row) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "crowdface/core/interrupt.h"
@@ -104,34 +105,30 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
 double silhouette(const std::vector<FamilyCast>& families, std::size_t family,
                   const std::vector<FaceSpace::Point>& points) {
   const FamilyCast& own = families[family];
-  const auto mean_distance = [&](Index from, const std::vector<Index>& to) {
-    double sum = 0;
-    for (const Index other : to) {
-      sum += FaceSpace::distance(points[static_cast<std::size_t>(from)],
-                                 points[static_cast<std::size_t>(other)]);
+  using Faces = std::pair<Index, Index>;  // [first, second)
+  const auto mean_distance = [&](Index from, std::initializer_list<Faces> to) {
+    double sum = 0, count = 0;
+    for (const auto& [begin, end] : to) {
+      for (Index other = begin; other < end; ++other) {
+        if (other == from) continue;
+        sum += FaceSpace::distance(points[static_cast<std::size_t>(from)],
+                                   points[static_cast<std::size_t>(other)]);
+        count += 1;
+      }
     }
-    return to.empty() ? 0.0 : sum / static_cast<double>(to.size());
+    return count == 0 ? 0.0 : sum / count;
   };
-  const auto range = [](Index begin, Index end, Index without) {
-    std::vector<Index> faces;
-    for (Index i = begin; i < end; ++i) {
-      if (i != without) faces.push_back(i);
-    }
-    return faces;
-  };
+  const auto all = static_cast<Index>(points.size());
   double sum = 0;
   for (Index i = own.begin; i < own.end; ++i) {
-    const double a = mean_distance(i, range(own.begin, own.end, i));
+    const double a = mean_distance(i, {{own.begin, own.end}});
     double b = HUGE_VAL;
     for (std::size_t f = 0; f < families.size(); ++f) {
       if (f == family || families[f].begin == families[f].end) continue;
-      b = std::min(b, mean_distance(i, range(families[f].begin, families[f].end, -1)));
+      b = std::min(b, mean_distance(i, {{families[f].begin, families[f].end}}));
     }
-    if (families.size() == 1) {
-      std::vector<Index> others = range(0, own.begin, -1);
-      const auto after = range(own.end, static_cast<Index>(points.size()), -1);
-      others.insert(others.end(), after.begin(), after.end());
-      if (!others.empty()) b = mean_distance(i, others);
+    if (families.size() == 1 && own.end - own.begin < all) {
+      b = mean_distance(i, {{0, own.begin}, {own.end, all}});
     }
     if (b < HUGE_VAL && std::max(a, b) > 0) sum += (b - a) / std::max(a, b);
   }

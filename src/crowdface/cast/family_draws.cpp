@@ -47,8 +47,7 @@ FaceKind kind_of(const Parent& parent, const Casting& casting) {
   FaceKind kind = kind_of_group(casting, parent.group);
   std::vector<WeightedHead> own;
   for (const WeightedHead& target : kind.targets) {
-    const auto& heads = parent.targets;
-    if (std::find(heads.begin(), heads.end(), target.head) != heads.end()) own.push_back(target);
+    if (contains(parent.targets, target.head)) own.push_back(target);
   }
   if (!own.empty()) kind.targets = std::move(own);
   return kind;
@@ -367,24 +366,20 @@ CastFace FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t a
 std::optional<Reason> FamilyDraws::refuses(const FamilyCast& cast, const FaceSpace::Point& point,
                                            const std::vector<FaceSpace::Point>& own,
                                            const Kinship& kinship) const {
-  return fits(cast, point, own, kinship) ? std::nullopt : std::optional(Reason::kFamily);
-}
-
-bool FamilyDraws::fits(const FamilyCast& cast, const FaceSpace::Point& point,
-                       const std::vector<FaceSpace::Point>& own, const Kinship& kinship) const {
-  if (FaceSpace::distance(point, cast.founder_point) > reach_mm(cast)) return false;
-  if (kinship.intrudes(point, relatives_)) return false;
-  if (!takes_after_parents(cast, point)) return false;
-  if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return false;
+  if (FaceSpace::distance(point, cast.founder_point) > reach_mm(cast)) return Reason::kFamily;
+  if (kinship.intrudes(point, relatives_)) return Reason::kFamily;
+  if (!takes_after_parents(cast, point)) return Reason::kFamily;
+  if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
   double farthest = 0;
   for (const FaceSpace::Point& relative : own) {
     const double mm = FaceSpace::distance(point, relative);
-    if (mm < family_.min_distance_mm) return false;
+    if (mm < family_.min_distance_mm) return Reason::kFamily;
     farthest = std::max(farthest, mm);
     // The relative, too, must stay nearer to this one than to any stranger.
-    if (strangers_.nearest(relative).mm <= mm) return false;
+    if (strangers_.nearest(relative).mm <= mm) return Reason::kFamily;
   }
-  return strangers_.nearest(point).mm > farthest;
+  if (strangers_.nearest(point).mm <= farthest) return Reason::kFamily;
+  return std::nullopt;
 }
 
 /// Parents who are far apart have no child that is near both: then near half of either will do.

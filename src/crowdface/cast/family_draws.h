@@ -85,8 +85,6 @@ class FamilyDraws {
   CastFace towards(const CastFace& from, const Draft& draft, double t) const;
   CastFace as_far_as_drawn(const FamilyCast& cast, const Draft& draft) const;
   double reach_mm(const FamilyCast& cast) const;
-  bool fits(const FamilyCast& cast, const FaceSpace::Point& point,
-            const std::vector<FaceSpace::Point>& own, const Kinship& kinship) const;
   bool takes_after_parents(const FamilyCast& cast, const FaceSpace::Point& point) const;
 
   const Casting& casting_;

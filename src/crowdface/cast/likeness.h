@@ -5,9 +5,14 @@
 #include <vector>
 
 #include "crowdface/cast/face_space.h"
-#include "crowdface/cast/neighbour.h"
 
 namespace crowdface {
+
+/// Another face and how far it is.
+struct Neighbour {
+  std::size_t face = 0;
+  double mm = 0;
+};
 
 /// Who looks like whom in a whole crowd, whatever the order it was cast in.
 struct Likeness {

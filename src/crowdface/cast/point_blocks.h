@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,12 +24,31 @@ struct NearestPoint {
   }
 };
 
+/// Where points lie in their leading coordinates; those that they do not have are zero.
+struct LeadingBox {
+  static constexpr std::size_t kDimensions = 8;
+  std::array<float, kDimensions> low, high;
+
+  float squared_distance(const std::vector<float>& query) const {
+    std::array<float, kDimensions> squares;
+    for (std::size_t d = 0; d < kDimensions; ++d) {
+      const float beyond = std::max(std::max(low[d] - query[d], query[d] - high[d]), 0.F);
+      squares[d] = beyond * beyond;
+    }
+    float sum = 0;
+    for (const float square : squares) sum += square;
+    return sum;
+  }
+};
+
 /// Numbered points in blocks of sixteen, coordinate by coordinate, so that a query meets sixteen of
 /// them at a time; sums over the leading coordinates, where faces differ most, rule nearly all out.
 class PointBlocks {
  public:
   using Index = Eigen::Index;
   static constexpr Index kLanes = 16;
+  /// What is farther than what was found by more than sums of floats can err is left out.
+  static constexpr double kRounding = 1e-4;
 
   explicit PointBlocks(Index dimensions);
 

@@ -83,10 +83,6 @@ ProxySkin::Target ProxySkin::target(const Positions& samples) const {
           NewIntersections(triangles_, samples.rows(), intersecting(triangles_, samples, pairs_))};
 }
 
-LocalDefects ProxySkin::local(const Positions& samples, const Target& target) const {
-  return target.triangles.compare(samples);
-}
-
 Index ProxySkin::intersecting_triangles(const Positions& samples, const Target& target) const {
   return target.intersections.count(intersecting(triangles_, samples, pairs_));
 }

@@ -18,14 +18,12 @@ class ProxySkin {
 
   /// What a face is compared with: a head's samples, or those of a mixture.
   struct Target {
-    TargetTriangles triangles;
+    TargetTriangles triangles;  ///< for flips and stretch
     NewIntersections intersections;
   };
   const Target& head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
   Target target(const Positions& samples) const;
 
-  /// Flips and stretch against the target.
-  LocalDefects local(const Positions& samples, const Target& target) const;
   /// Triangles that pass through others where the target's do not, among parts of the skin that lie
   /// near each other on the mean head without being neighbours on it: lips, lids, nostrils, folds.
   Index intersecting_triangles(const Positions& samples, const Target& target) const;

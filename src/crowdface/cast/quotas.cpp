@@ -43,9 +43,9 @@ std::vector<int> schedule_quotas(const std::vector<Quota>& quotas, std::uint64_t
   // Later than that nothing can fall due that is not due already (docs/casting.md).
   const auto kinds = static_cast<double>(quotas.size());
   const std::uint64_t horizon =
-      quotas.size() <= 1 ? 0
-      : all_taken        ? 0
-                         : static_cast<std::uint64_t>(std::min((kinds + 1) / (1 - total), 1e4)) + 1;
+      quotas.size() <= 1 || all_taken
+          ? 0
+          : static_cast<std::uint64_t>(std::min((kinds + 1) / (1 - total), 1e4)) + 1;
   std::vector<std::uint64_t> served(quotas.size(), 0);
   std::uint64_t all_served = 0;
   for (std::uint64_t n = 1; n <= count; ++n) {

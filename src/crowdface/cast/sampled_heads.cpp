@@ -22,6 +22,62 @@ void find_stretches(SampledHeads& sampled) {
   }
 }
 
+/// Puts rows of whole heads, in millimetres, and their mean there.
+/// \param whole  of a head: its positions, or those of its mirror image
+template <class Whole>
+void take_samples(const FaceSet& faces, const FaceSamples& samples, const Whole& whole,
+                  SampledHeads& sampled) {
+  const auto count = static_cast<Index>(samples.size());
+  sampled.mean = Positions::Zero(count, 3);
+  for (const Head& head : faces.heads) {
+    const Positions& positions = whole(head);
+    Positions& rows = sampled.heads.emplace_back(count, 3);
+    for (Index s = 0; s < count; ++s) {
+      rows.row(s) = sampled.mm_per_unit * positions.row(samples[static_cast<std::size_t>(s)]);
+    }
+    sampled.mean += rows;
+  }
+  sampled.mean /= static_cast<double>(faces.heads.size());
+}
+
+Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
+  return target_matrix<Positions>(recipe, [&](Index head) -> const Positions& {
+    return heads.heads[static_cast<std::size_t>(head)];
+  });
+}
+
+Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
+  Positions face = target_samples(heads, recipe);
+  // In single precision, as the trajectories are: casting does this for every face it accepts.
+  std::vector<float> change(static_cast<std::size_t>(face.size()));
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    std::fill(change.begin(), change.end(), 0.F);
+    // S_L G − G at the region's samples, for each of its levels.
+    for (const LevelShares& at : level_shares(recipe, k)) {
+      for (const LevelTerm& term : level_terms(heads.levels, at.level)) {
+        for (const SourceWeight& part : at.shares) {
+          const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
+          const float* row = trajectory.data() + term.row * trajectory.cols();
+          const auto f = static_cast<float>(part.weight * term.factor * heads.mm_per_unit);
+          for (const auto& [begin, end] : heads.stretches[k]) {
+            float* out = change.data();
+            for (Index i = 3 * begin; i < 3 * end; ++i) out[i] += f * row[i];
+          }
+        }
+      }
+    }
+    for (const auto& [begin, end] : heads.stretches[k]) {
+      for (Index s = begin; s < end; ++s) {
+        const double alpha = heads.alpha(s, static_cast<Index>(k));
+        for (Index c = 0; c < 3; ++c) {
+          face(s, c) += alpha * static_cast<double>(change[static_cast<std::size_t>(3 * s + c)]);
+        }
+      }
+    }
+  }
+  return face;  // Eq. 7
+}
+
 /// What of(heads) says, or its mirror image, or something between.
 template <class Of>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Of& of) {
@@ -42,15 +98,8 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
   sampled.trajectories = trajectories;
   sampled.levels = trajectory_levels(max_level);
   sampled.mm_per_unit = mm_per_unit;
-  sampled.mean = Positions::Zero(count, 3);
-  for (const Head& head : faces.heads) {
-    Positions& rows = sampled.heads.emplace_back(count, 3);
-    for (Index s = 0; s < count; ++s) {
-      rows.row(s) = mm_per_unit * head.positions.row(samples[static_cast<std::size_t>(s)]);
-    }
-    sampled.mean += rows;
-  }
-  sampled.mean /= static_cast<double>(faces.heads.size());
+  take_samples(
+      faces, samples, [](const Head& head) -> const Positions& { return head.positions; }, sampled);
   sampled.alpha.resize(count, regions.alpha.cols());
   for (Index s = 0; s < count; ++s) {
     sampled.alpha.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
@@ -68,16 +117,8 @@ std::shared_ptr<const SampledHeads> sample_images(
   auto image = std::make_shared<SampledHeads>();
   image->levels = heads.levels;
   image->mm_per_unit = heads.mm_per_unit;
-  image->mean = Positions::Zero(count, 3);
-  for (const Head& head : faces.heads) {
-    const Positions whole = mirrored(mirror, head.positions);
-    Positions& rows = image->heads.emplace_back(count, 3);
-    for (Index s = 0; s < count; ++s) {
-      rows.row(s) = heads.mm_per_unit * whole.row(samples[static_cast<std::size_t>(s)]);
-    }
-    image->mean += rows;
-  }
-  image->mean /= static_cast<double>(faces.heads.size());
+  take_samples(
+      faces, samples, [&](const Head& head) { return mirrored(mirror, head.positions); }, *image);
   image->alpha = Columns::Zero(count, regions.alpha.cols());
   image->own.resize(faces.heads.size());
   for (Trajectory& own : image->own) {
@@ -114,60 +155,14 @@ std::shared_ptr<const SampledHeads> sample_images(
   return image;
 }
 
-Extrapolation extrapolation_of(Variant variant) {
-  return variant == Variant::kUnit ? Extrapolation::kNone : Extrapolation::kAsGiven;
-}
-
-namespace {
-
-Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
-  return target_matrix<Positions>(recipe, [&](Index head) -> const Positions& {
-    return heads.heads[static_cast<std::size_t>(head)];
-  });
-}
-
-Positions blended_samples(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
-  Positions face = target_samples(heads, recipe);
-  // In single precision, as the trajectories are: casting does this for every face it accepts.
-  std::vector<float> change(static_cast<std::size_t>(face.size()));
-  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    std::fill(change.begin(), change.end(), 0.F);
-    // S_L G − G at the region's samples, for each of its levels.
-    for (const LevelShares& at : level_shares(recipe, k, extrapolation_of(variant))) {
-      for (const LevelTerm& term : level_terms(heads.levels, at.level)) {
-        for (const SourceWeight& part : at.shares) {
-          const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
-          const float* row = trajectory.data() + term.row * trajectory.cols();
-          const auto f = static_cast<float>(part.weight * term.factor * heads.mm_per_unit);
-          for (const auto& [begin, end] : heads.stretches[k]) {
-            float* out = change.data();
-            for (Index i = 3 * begin; i < 3 * end; ++i) out[i] += f * row[i];
-          }
-        }
-      }
-    }
-    for (const auto& [begin, end] : heads.stretches[k]) {
-      for (Index s = begin; s < end; ++s) {
-        const double alpha = heads.alpha(s, static_cast<Index>(k));
-        for (Index c = 0; c < 3; ++c) {
-          face(s, c) += alpha * static_cast<double>(change[static_cast<std::size_t>(3 * s + c)]);
-        }
-      }
-    }
-  }
-  return face;  // Eq. 7
-}
-
-}  // namespace
-
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe) {
   return mirrored_as(heads, recipe,
                      [&](const SampledHeads& of) { return target_samples(of, recipe); });
 }
 
-Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant) {
+Positions sample_face(const SampledHeads& heads, const Recipe& recipe) {
   return mirrored_as(heads, recipe,
-                     [&](const SampledHeads& of) { return blended_samples(of, recipe, variant); });
+                     [&](const SampledHeads& of) { return blended_samples(of, recipe); });
 }
 
 }  // namespace crowdface

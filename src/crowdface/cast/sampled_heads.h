@@ -40,18 +40,11 @@ std::shared_ptr<const SampledHeads> sample_images(
     const FaceSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads);
 
-/// Which of the two faces a recipe stands for when distances are measured.
-enum class Variant {
-  kAsBuilt,
-  kUnit,  ///< every extrapolation factor set to 1
-};
-Extrapolation extrapolation_of(Variant variant);
-
 /// The samples of a recipe's target, #S by 3 in millimetres, mirrored as the face is.
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe);
 
 /// The samples of a recipe's face, #S by 3 in millimetres, not aligned (Eq. 7).
 /// \throws BrokenPrecondition if it is mirrored, or its asymmetry is not 1, and there are no images.
-Positions sample_face(const SampledHeads& heads, const Recipe& recipe, Variant variant);
+Positions sample_face(const SampledHeads& heads, const Recipe& recipe);
 
 }  // namespace crowdface

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,6 +74,19 @@ struct WeightedHead {
   double weight = 1;
 };
 
+/// One of some things, drawn in proportion to their weights. \param drawn  from 0 to 1
+template <class Things, class Weight>
+const auto& weighted_choice(const Things& things, double drawn, const Weight& weight) {
+  double total = 0;
+  for (const auto& thing : things) total += std::invoke(weight, thing);
+  double left = drawn * total;
+  for (const auto& thing : things) {
+    if (left < std::invoke(weight, thing)) return thing;
+    left -= std::invoke(weight, thing);
+  }
+  return things.back();  // rounding used up the last weight
+}
+
 /// Whether faces are mirrored as wholes.
 enum class Mirroring {
   kNone,
@@ -93,14 +108,34 @@ struct SamplingOptions {
 };
 
 /// How many bands a region's detail has.
-std::size_t band_count(const SamplingOptions& sampling);
+inline std::size_t band_count(const SamplingOptions& sampling) {
+  return std::max<std::size_t>(1, sampling.bands.size());
+}
 /// Whether any face may be other than blended: mirrored, or more or less asymmetric.
-bool mirrors(const SamplingOptions& sampling);
+inline bool mirrors(const SamplingOptions& sampling) {
+  return sampling.asymmetry != Range{1, 1} || sampling.mirror != Mirroring::kNone;
+}
 /// Where a band of a region begins.
-const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling, std::size_t region,
-                                            std::size_t band);
+inline const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling,
+                                                   std::size_t region, std::size_t band) {
+  const bool own = !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
+  return own ? *sampling.bands[band].regions[region].smoothness
+             : sampling.regions[region].smoothness;
+}
 /// Heads that lend to a band.
-const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampling, std::size_t band);
+inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampling,
+                                                   std::size_t band) {
+  const bool own = band < sampling.bands.size() && sampling.bands[band].sources;
+  return own ? *sampling.bands[band].sources : sampling.sources;
+}
+
+/// Sampled faces that are drawn by numbers of their own.
+struct Group {
+  std::string name;
+  std::optional<std::uint64_t> count;  ///< so many faces, before all that have a share
+  double share = 0;                    ///< without a count: of the faces after those, 0 … 1
+  SamplingOptions sampling;
+};
 
 /// A face spelled out by hand; what is left out is drawn as for a sampled face.
 struct HandRecipe {

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/starter_config.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
@@ -17,17 +19,12 @@ constexpr std::size_t kMostAttachments = 1000;
 constexpr double kMostShare = 1e6;
 constexpr const char* kMean = "mean";
 
-bool is_obj(const std::filesystem::path& file) {
-  return mesh_format_of(file) == MeshFormat::kObj;
-}
-
 void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
   if (is_word(node, kMean)) return;
   const auto text = read_text(node, "mean, the name of a head or an OBJ file", draft.complaints);
   if (!text) return;
-  if (is_obj(*text)) {
-    const auto file = path("an OBJ file").read(node, draft);
-    if (file && expect_file(node, *file, draft)) attachments.file = *file;
+  if (mesh_format_of(*text) == MeshFormat::kObj) {
+    attachments.file = obj_file().read(node, draft).value_or("");
   } else {
     attachments.head = find_head(*text, node.place, node.path, draft);
   }
@@ -36,16 +33,6 @@ void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft&
 std::string write_fitted_to(const Attachments& attachments, const ConfigWriting& writing) {
   if (attachments.head) return writing.head(*attachments.head);
   return attachments.file.empty() ? kMean : path("").write(attachments.file, writing);
-}
-
-void read_mesh_file(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
-  const auto file = path("an OBJ file").read(node, draft);
-  if (!file) return;
-  if (!is_obj(*file)) {
-    draft.complaints.expected(node, "a file whose name ends in .obj");
-  } else if (expect_file(node, *file, draft)) {
-    item.file = *file;
-  }
 }
 
 /// Some head must have all of them, or the item is for nobody.
@@ -68,10 +55,6 @@ Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
 }
 
 const Keys<Attachment>& item_keys() {
-  const auto names = [](const char* expected) { return list(name(), expected); };
-  const auto write_file = [](const Attachment& item, const ConfigWriting& writing) {
-    return path("").write(item.file, writing);
-  };
   const auto write_tags = [](const Attachment& item, const ConfigWriting&) {
     return item.tags.empty() ? "" : flow_names(item.tags);
   };
@@ -80,28 +63,27 @@ const Keys<Attachment>& item_keys() {
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
-      {"file", read_mesh_file, write_file, "an OBJ file"},
+      key("file", &Attachment::file, obj_file(), "an OBJ file"),
       {"tags", read_item_tags, write_tags},
       word_key("moves", &Attachment::moves),
       of_item("share", &AttachmentItem::share, number(0, kMostShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
-      of_item("excludes", &AttachmentItem::excludes, names("a list of kinds and names, [hair]"))
+      of_item("excludes", &AttachmentItem::excludes,
+              list(name(), "a list of kinds and names, [hair]"))
           .written_if(excludes)};
   return keys;
 }
 
 /// Whether files of a face are called so already.
 bool is_taken(const std::string& name, const Config& config) {
-  const auto& shapes = config.shapes.names;
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
-  return is_level || name == "shapes" || std::ranges::find(shapes, name) != shapes.end();
+  return is_level || name == "shapes" || contains(config.shapes.names, name);
 }
 
 void check_item(const YamlNode& node, const Attachment& item, ConfigDraft& draft) {
   const auto& items = draft.config.attachments.items;
-  const auto same_name = [&](const Attachment& other) { return other.name == item.name; };
-  if (std::ranges::any_of(items, same_name)) {
+  if (std::ranges::find(items, item.name, &Attachment::name) != items.end()) {
     draft.complaints.about(node, concat("two attachments are called ", quoted(item.name)));
   } else if (is_taken(item.name, draft.config)) {
     draft.complaints.about(node, concat("faces have other files that are called ",
@@ -125,19 +107,15 @@ void read_items(const YamlNode& node, Attachments& attachments, ConfigDraft& dra
 }
 
 std::string write_items(const Attachments& attachments, const ConfigWriting& writing) {
-  std::vector<std::string> items;
-  for (const Attachment& item : attachments.items) {
-    items.push_back(flow_map(write_keys(item_keys(), item, writing)));
-  }
-  return block_list(items);
+  return block_list(texts_of(attachments.items, [&](const Attachment& item) {
+    return flow_map(write_keys(item_keys(), item, writing));
+  }));
 }
 
 std::vector<std::string> kinds_of(const Attachments& attachments) {
   std::vector<std::string> kinds;
   for (const Attachment& item : attachments.items) {
-    if (std::ranges::find(kinds, item.kind) == kinds.end()) {
-      kinds.push_back(item.kind);
-    }
+    if (!contains(kinds, item.kind)) kinds.push_back(item.kind);
   }
   return kinds;
 }
@@ -147,7 +125,7 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   const std::vector<std::string> kinds = kinds_of(attachments);
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
-    if (std::ranges::find(kinds, entry.key) == kinds.end()) {
+    if (!contains(kinds, entry.key)) {
       draft.complaints.about(entry.value, concat("no attachment is of the kind ", quoted(entry.key),
                                                  suggestion(entry.key, kinds)));
     } else if (share) {
@@ -207,13 +185,14 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   }
 }
 
-std::string write_shares(const std::map<std::string, double>& shares,
-                         const ConfigWriting& writing) {
-  std::vector<std::string> entries;
-  for (const auto& [word, share] : shares) {
-    entries.push_back(entry(write_scalar(word), number(0, 1).write(share, writing)));
-  }
-  return entries.empty() ? "" : flow_map(entries);
+/// Shares by kind or the like; none are left out.
+auto write_shares(std::map<std::string, double> Attachments::*shares) {
+  return [=](const Attachments& attachments, const ConfigWriting&) {
+    const auto entries = texts_of(attachments.*shares, [](const auto& share) {
+      return entry(write_scalar(share.first), format_number(share.second));
+    });
+    return entries.empty() ? "" : flow_map(entries);
+  };
 }
 
 const Keys<Attachments>& attachments_keys() {
@@ -221,14 +200,8 @@ const Keys<Attachments>& attachments_keys() {
       {"fitted_to", read_fitted_to, write_fitted_to},
       {"items", read_items, write_items,
        "a list of attachments, [{name: bob, kind: hair, file: bob.obj}]"},
-      {"none", read_none,
-       [](const Attachments& attachments, const ConfigWriting& writing) {
-         return write_shares(attachments.none, writing);
-       }},
-      {"quotas", read_item_quotas,
-       [](const Attachments& attachments, const ConfigWriting& writing) {
-         return write_shares(attachments.quotas, writing);
-       }}};
+      {"none", read_none, write_shares(&Attachments::none)},
+      {"quotas", read_item_quotas, write_shares(&Attachments::quotas)}};
   return keys;
 }
 
@@ -240,7 +213,7 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
     const YamlEntry* excludes = item.find("excludes");
     if (excludes == nullptr) continue;
     for (const YamlNode& name : excludes->value.items) {
-      if (std::ranges::find(known, name.text) != known.end()) continue;
+      if (contains(known, name.text)) continue;
       draft.complaints.about(name, concat("no attachment is called ", quoted(name.text),
                                           " or of that kind", suggestion(name.text, known)));
     }

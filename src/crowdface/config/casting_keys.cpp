@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/starter_config.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -37,7 +39,7 @@ void refuse_shared_heads(const YamlEntry& entry, const Quota& quota, ConfigDraft
   for (const Quota& other : draft.config.diversity.quotas) {
     if (other.band != quota.band) continue;
     for (const Eigen::Index head : quota.heads) {
-      if (std::ranges::find(other.heads, head) == other.heads.end()) continue;
+      if (!contains(other.heads, head)) continue;
       const std::string& name = draft.config.faces.names[static_cast<std::size_t>(head)];
       draft.complaints.add(entry.key_place,
                            concat(entry.value.path, ": the head ", quoted(name), " counts for ",
@@ -72,7 +74,7 @@ const Keys<Quota>& quota_keys() {
 bool counts_for_any(const std::vector<Quota>& quotas, std::optional<std::size_t> band,
                     Eigen::Index head) {
   return std::ranges::any_of(quotas, [&](const Quota& quota) {
-    return quota.band == band && std::ranges::find(quota.heads, head) != quota.heads.end();
+    return quota.band == band && contains(quota.heads, head);
   });
 }
 
@@ -114,8 +116,7 @@ void refuse_nothing_left(const YamlNode& node, ConfigDraft& draft) {
 bool can_be_met(const Quota& quota, const ConfigDraft& draft) {
   return std::ranges::any_of(quota.heads, [&](Eigen::Index head) {
     if (!quota.band) return is_target(head, draft);
-    const auto& sources = sources_of(draft.config.sampling, *quota.band);
-    return std::ranges::find(sources, head) != sources.end();
+    return contains(sources_of(draft.config.sampling, *quota.band), head);
   });
 }
 
@@ -151,13 +152,11 @@ void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft&
 }
 
 std::string write_quotas(const DiversityOptions& diversity, const ConfigWriting& writing) {
-  std::vector<std::string> quotas;
-  for (const Quota& quota : diversity.quotas) {
-    const std::string value = quota.band ? flow_map(write_keys(quota_keys(), quota, writing))
-                                         : format_number(quota.share);
-    quotas.push_back(entry(write_scalar(quota.name), value));
-  }
-  return flow_map(quotas);
+  return flow_map(texts_of(diversity.quotas, [&](const Quota& quota) {
+    return entry(write_scalar(quota.name), quota.band
+                                               ? flow_map(write_keys(quota_keys(), quota, writing))
+                                               : format_number(quota.share));
+  }));
 }
 
 const Keys<BelievabilityOptions>& believability_keys() {

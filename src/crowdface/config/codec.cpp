@@ -2,9 +2,12 @@
 #include "crowdface/config/codec.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/core/units.h"
+#include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
 namespace {
@@ -27,8 +30,7 @@ Codec<double> fraction() {
   codec.read = [=, number = codec.read](const YamlNode& node,
                                         ConfigDraft& draft) -> std::optional<double> {
     if (node.kind != YamlNode::Kind::kScalar || parse_double(node.text)) return number(node, draft);
-    draft.complaints.expected(node, "a fraction from 0 to 1 or a size, such as \"8 mm\"");
-    return std::nullopt;
+    return draft.complaints.expected(node, "a fraction from 0 to 1 or a size, such as \"8 mm\"");
   };
   return codec;
 }
@@ -56,6 +58,78 @@ Codec<double> iteration_count() {
           [](double count, const auto&) { return concat(static_cast<std::uint64_t>(count)); }};
 }
 
+/// One value or a range of them, in this unit.
+Codec<SmoothnessDistribution> in_unit(Unit unit, const Codec<double>& one) {
+  const Codec<Range> ranges = range(one);
+  return {[=](const YamlNode& node, ConfigDraft& draft) {
+            const auto read = ranges.read(node, draft);
+            return read ? std::optional<SmoothnessDistribution>({unit, *read}) : std::nullopt;
+          },
+          [=](const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
+            return ranges.write(smoothness.range, writing);
+          }};
+}
+
+/// `{name: weight}`: a head's own entry counts alone, the weights of several tags add up.
+std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft) {
+  std::map<Eigen::Index, double> by_tag, by_name;
+  for (const YamlEntry& entry : node.entries) {
+    const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
+    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
+    if (weight == 0.0) {
+      draft.complaints.expected(entry.value, "a weight above 0 (leave the head out for none)");
+    }
+    for (const Eigen::Index head : heads) {
+      const bool named = draft.config.faces.names[static_cast<std::size_t>(head)] == entry.key;
+      (named ? by_name : by_tag)[head] += weight.value_or(1);
+    }
+  }
+  by_name.merge(by_tag);  // keeps what is there
+  std::vector<WeightedHead> targets;
+  for (const auto& [head, weight] : by_name) targets.push_back({head, weight});
+  return targets;
+}
+
+std::vector<Eigen::Index> read_heads(const YamlNode& node, ConfigDraft& draft) {
+  std::set<Eigen::Index> chosen;  // each once, ascending
+  if (is_word(node, "all")) {
+    for (std::size_t i = 0; i < draft.config.faces.names.size(); ++i) {
+      chosen.insert(static_cast<Eigen::Index>(i));
+    }
+  } else if (node.items.empty()) {
+    draft.complaints.expected(node, "all or a list of heads and tags");
+  }
+  for (const YamlNode& item : node.items) {
+    const auto name = read_name(item, draft.complaints);
+    if (!name) continue;
+    const auto heads = find_heads(*name, item.place, node.path, draft);
+    chosen.insert(heads.begin(), heads.end());
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+std::string write_heads(const std::vector<Eigen::Index>& heads, const ConfigWriting& writing) {
+  if (heads.size() == writing.config.faces.names.size()) return "all";
+  return flow_list(texts_of(heads, [&](Eigen::Index head) { return writing.head(head); }));
+}
+
+std::vector<WeightedHead> read_weighted_heads(const YamlNode& node, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kMap && !node.entries.empty()) return read_weights(node, draft);
+  std::vector<WeightedHead> heads;
+  for (const Eigen::Index head : read_heads(node, draft)) heads.push_back({head, 1});
+  return heads;
+}
+
+std::string write_weighted_heads(const std::vector<WeightedHead>& targets,
+                                 const ConfigWriting& writing) {
+  const bool weighted =
+      std::ranges::any_of(targets, [](const WeightedHead& t) { return t.weight != 1; });
+  if (weighted) return write_weights(targets, writing);
+  std::vector<Eigen::Index> heads;
+  for (const WeightedHead& target : targets) heads.push_back(target.head);
+  return write_heads(heads, writing);
+}
+
 }  // namespace
 
 std::string ConfigWriting::head(Eigen::Index index) const {
@@ -76,7 +150,20 @@ Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high) {
 
 Codec<double> length(double high_mm) {
   return plain<double>(
-      [=](const YamlNode& node, Complaints& out) { return read_length_mm(node, high_mm, out); },
+      [=](const YamlNode& node, Complaints& out) -> std::optional<double> {
+        const bool is_scalar = node.kind == YamlNode::Kind::kScalar;
+        if (is_scalar && parse_double(node.text)) {
+          out.about(node, concat("expected a length with its unit, such as \"8 mm\", found ",
+                                 quoted(node.text), "; mm, cm, m or in?"));
+          return std::nullopt;
+        }
+        const auto value = is_scalar ? parse_length_mm(node.text) : std::nullopt;
+        if (!value || *value < 0 || *value > high_mm) {
+          return out.expected(node, concat("a length from 0 mm to ", plain_number(high_mm),
+                                           " mm with its unit, such as ", "\"8 mm\""));
+        }
+        return *value == 0 ? 0.0 : *value;  // -0 is 0
+      },
       [](double value_mm) { return concat(value_mm, " mm"); });
 }
 
@@ -92,9 +179,22 @@ Codec<double> above_zero(const Codec<double>& codec, const std::string& expected
 }
 
 Codec<Range> range(const Codec<double>& one) {
-  return {[=](const YamlNode& node, ConfigDraft& draft) {
-            return read_range(node, draft.complaints,
-                              [&](const YamlNode& item) { return one.read(item, draft); });
+  return {[=](const YamlNode& node, ConfigDraft& draft) -> std::optional<Range> {
+            if (node.kind != YamlNode::Kind::kList) {
+              const auto value = one.read(node, draft);
+              return value ? std::optional<Range>({*value, *value}) : std::nullopt;
+            }
+            if (node.items.size() != 2) {
+              return draft.complaints.expected(node, "one value or a list of two, [low, high]");
+            }
+            const auto low = one.read(node.items[0], draft);
+            const auto high = one.read(node.items[1], draft);
+            if (!low || !high) return std::nullopt;
+            if (*low <= *high) return Range{*low, *high};
+            draft.complaints.about(
+                node, concat("expected [low, high], found ", quoted(node.items[0].text), " before ",
+                             quoted(node.items[1].text)));
+            return std::nullopt;
           },
           [=](const Range& range, const ConfigWriting& writing) {
             const std::string low = one.write(range.low, writing);
@@ -123,8 +223,9 @@ Codec<Range> extrapolation() {
 }
 
 Codec<SmoothnessDistribution> smoothness() {
-  return {[fractions = range(fraction()), sizes = range(relief_size())](
-              const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
+  const auto fractions = in_unit(Unit::kFraction, fraction());
+  const auto sizes = in_unit(Unit::kSize, relief_size());
+  return {[=](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
             const bool is_list = node.kind == YamlNode::Kind::kList && !node.items.empty();
             const bool size = is_size(is_list ? node.items[0] : node);
             if (is_list && std::ranges::any_of(node.items, [&](const YamlNode& item) {
@@ -134,35 +235,21 @@ Codec<SmoothnessDistribution> smoothness() {
                                      "expected two fractions or two sizes, found one of each");
               return std::nullopt;
             }
-            const auto range = (size ? sizes : fractions).read(node, draft);
-            if (!range) return std::nullopt;
-            return SmoothnessDistribution{size ? Unit::kSize : Unit::kFraction, *range};
+            return (size ? sizes : fractions).read(node, draft);
           },
-          [fractions = range(fraction()), sizes = range(relief_size())](
-              const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
-            return (smoothness.unit == Unit::kSize ? sizes : fractions)
-                .write(smoothness.range, writing);
+          [=](const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
+            return (smoothness.unit == Unit::kSize ? sizes : fractions).write(smoothness, writing);
           }};
 }
 
 Codec<SmoothnessDistribution> iterations() {
-  const Codec<Range> counts = range(iteration_count());
-  return {[=](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
-            const auto range = counts.read(node, draft);
-            if (!range) return std::nullopt;
-            return SmoothnessDistribution{Unit::kIterations, *range};
-          },
-          [=](const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
-            return counts.write(smoothness.range, writing);
-          }};
+  return in_unit(Unit::kIterations, iteration_count());
 }
 
 std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing) {
-  std::vector<std::string> entries;
-  for (const auto& [head, weight] : weights) {
-    entries.push_back(entry(writing.head(head), format_number(weight)));
-  }
-  return flow_map(entries);
+  return flow_map(texts_of(weights, [&](const WeightedHead& one) {
+    return entry(writing.head(one.head), format_number(one.weight));
+  }));
 }
 
 Codec<std::string> name() {
@@ -183,10 +270,27 @@ Codec<Eigen::Index> head() {
           [](Eigen::Index index, const ConfigWriting& writing) { return writing.head(index); }};
 }
 
+Codec<std::vector<Eigen::Index>> head_list() {
+  return {read_heads, write_heads};
+}
+
+Codec<std::vector<WeightedHead>> weighted_heads() {
+  return {read_weighted_heads, write_weighted_heads};
+}
+
 Codec<PlanePoint> point() {
-  return plain<PlanePoint>(read_point, [](const PlanePoint& at) {
-    return flow_list({format_number(at.x()), format_number(at.y())});
-  });
+  return {[coordinate = number(-kMaxPlaneCoordinate, kMaxPlaneCoordinate)](
+              const YamlNode& node, ConfigDraft& draft) -> std::optional<PlanePoint> {
+            if (node.kind != YamlNode::Kind::kList || node.items.size() != 2) {
+              return draft.complaints.expected(node, "a list of two numbers, [x, y]");
+            }
+            const auto x = coordinate.read(node.items[0], draft);
+            const auto y = coordinate.read(node.items[1], draft);
+            return x && y ? std::optional(PlanePoint(*x, *y)) : std::nullopt;
+          },
+          [](const PlanePoint& at, const ConfigWriting&) {
+            return flow_list({format_number(at.x()), format_number(at.y())});
+          }};
 }
 
 Codec<std::filesystem::path> path(const std::string& expected) {
@@ -196,10 +300,21 @@ Codec<std::filesystem::path> path(const std::string& expected) {
             return resolve(draft.folder, *text);
           },
           [](const std::filesystem::path& file, const ConfigWriting& writing) {
+            if (file.empty()) return std::string();
             const auto absolute = std::filesystem::absolute(file).lexically_normal();
             const auto relative = absolute.lexically_relative(writing.folder);
             return write_scalar(relative.empty() ? absolute.string() : relative.string());
           }};
+}
+
+Codec<std::filesystem::path> obj_file() {
+  return such_that(path("an OBJ file"),
+                   [](const std::filesystem::path& file, const YamlNode& node, ConfigDraft& draft) {
+                     if (mesh_format_of(file) == MeshFormat::kObj)
+                       return expect_file(node, file, draft);
+                     draft.complaints.expected(node, "a file whose name ends in .obj");
+                     return false;
+                   });
 }
 
 }  // namespace crowdface

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config_draft.h"
 #include "crowdface/config/config_values.h"
 
@@ -50,11 +51,17 @@ Codec<std::string> name();
 /// A text that is not empty; `expected` as in "an image file".
 Codec<std::string> text(const std::string& expected);
 Codec<Eigen::Index> head();
+/// Heads by name or tag, or `all`. Ascending, each once.
+Codec<std::vector<Eigen::Index>> head_list();
+/// The same, or `{name: weight}`.
+Codec<std::vector<WeightedHead>> weighted_heads();
 Codec<PlanePoint> point();
 /// "{head: weight}".
 std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing);
-/// A path, relative to the config's folder; `expected` as in "a folder".
+/// A path, relative to the config's folder; `expected` as in "a folder". The empty one is left out.
 Codec<std::filesystem::path> path(const std::string& expected);
+/// An OBJ file that is there.
+Codec<std::filesystem::path> obj_file();
 
 /// The values of a codec that fit. \param fits  whether (value, node, draft) does; complains if not.
 template <class Value, class Fits>
@@ -88,9 +95,8 @@ Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expe
             return std::optional(values);
           },
           [=](const std::vector<Value>& values, const ConfigWriting& writing) {
-            std::vector<std::string> items;
-            for (const Value& value : values) items.push_back(item.write(value, writing));
-            return flow_list(items);
+            return flow_list(
+                texts_of(values, [&](const Value& value) { return item.write(value, writing); }));
           }};
 }
 
@@ -101,8 +107,7 @@ Codec<std::vector<Value>> words(const std::string& expected, std::size_t fewest 
   codec.read = [=, read = codec.read](const YamlNode& node,
                                       ConfigDraft& draft) -> std::optional<std::vector<Value>> {
     if (node.kind != YamlNode::Kind::kList || node.items.size() < fewest) {
-      draft.complaints.expected(node, expected);
-      return std::nullopt;
+      return draft.complaints.expected(node, expected);
     }
     refuse_repeated(node, draft.complaints);
     return read(node, draft);

@@ -18,8 +18,9 @@ void Complaints::about(const YamlNode& node, const std::string& what, ExitCode k
   add(node.place, node.path.empty() ? what : concat(node.path, ": ", what), kind);
 }
 
-void Complaints::expected(const YamlNode& node, const std::string& expected) {
+std::nullopt_t Complaints::expected(const YamlNode& node, const std::string& expected) {
   about(node, concat("expected ", expected, ", found ", describe(node)));
+  return std::nullopt;
 }
 
 bool Complaints::expect_list(const YamlNode& node, const std::string& what) {
@@ -38,8 +39,7 @@ void Complaints::tell(Problems& problems) const {
   const auto key = [](const Complaint& c) {
     return std::tuple(c.place.line == 0, c.place.line, c.place.column);
   };
-  std::ranges::stable_sort(sorted,
-                           [&](const Complaint& a, const Complaint& b) { return key(a) < key(b); });
+  std::ranges::stable_sort(sorted, {}, key);
   for (std::size_t i = 0; i < std::min(sorted.size(), kMostTold); ++i) {
     problems.add(sorted[i].kind, concat(sorted[i].place.text(), ": ", sorted[i].what));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ class Complaints {
   void add(const YamlPlace& place, std::string what, ExitCode kind = ExitCode::kUsage);
   /// "PATH: WHAT" at the node; silent about a node that a complaint was made of already.
   void about(const YamlNode& node, const std::string& what, ExitCode kind = ExitCode::kUsage);
-  /// "PATH: expected EXPECTED, found …" at the node.
-  void expected(const YamlNode& node, const std::string& expected);
+  /// "PATH: expected EXPECTED, found …" at the node. \return nothing, for who reads a value to return.
+  std::nullopt_t expected(const YamlNode& node, const std::string& expected);
   /// Whether the node is a list, or a mapping; the same complaint if not.
   bool expect_list(const YamlNode& node, const std::string& what);
   bool expect_map(const YamlNode& node, const std::string& what);

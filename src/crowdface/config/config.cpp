@@ -2,8 +2,13 @@
 #include "crowdface/config/config.h"
 
 #include "crowdface/core/text.h"
+#include "crowdface/render/contact_sheet.h"
 
 namespace crowdface {
+
+CellSize Config::ContactSheet::plain_cell_size() const {
+  return {cell * static_cast<int>(views.size()), cell, 2};
+}
 
 std::vector<std::string> Config::region_names() const {
   return regions.names.empty() ? std::vector<std::string>{"all"} : regions.names;

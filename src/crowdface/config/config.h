@@ -12,25 +12,25 @@
 #include "crowdface/attach/attachment_move.h"
 #include "crowdface/blend/normalization.h"
 #include "crowdface/cast/attachment_draw.h"
-#include "crowdface/cast/believability.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/family.h"
-#include "crowdface/cast/group.h"
 #include "crowdface/cast/plan_names.h"
 #include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/usda_text.h"
-#include "crowdface/parts/contacts.h"
 #include "crowdface/parts/follower.h"
+#include "crowdface/parts/skin_contacts.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/view.h"
 #include "crowdface/smooth/smoothing_operator.h"
 
 namespace crowdface {
+
+struct CellSize;  // render/contact_sheet.h
 
 /// What to do about heads that do not stand in one frame.
 enum class Align {
@@ -217,6 +217,9 @@ struct Config {
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< png is always among them
     int shapes = 0;  ///< faces that are shown with each of their shapes, on pages of their own
     SheetTexture texture = SheetTexture::kAuto;
+
+    /// A cell without a distance map, with two lines of text, as heads and families have them.
+    CellSize plain_cell_size() const;
   };
   struct Output {
     std::filesystem::path directory;
@@ -236,5 +239,10 @@ struct Config {
   std::vector<std::string> part_names() const;
   PlanNames plan_names() const;
 };
+
+/// The config as YAML with every default spelled out, keys in a fixed order: the same config gives
+/// the same bytes. Read from a file in `directory`, it gives the same config again.
+/// \param directory  where the text will be written; paths in it are relative to this folder.
+std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
 }  // namespace crowdface

@@ -6,13 +6,11 @@
 namespace crowdface {
 namespace {
 
-bool same_item(const YamlNode& a, const YamlNode& b);
-
 /// The first node of `b`, or else of `a`, that the other lacks or has otherwise.
 const YamlNode* first_difference(const YamlNode& a, const YamlNode& b) {
   if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size()) return &b;
   for (std::size_t i = 0; i < a.items.size(); ++i) {
-    if (!same_item(a.items[i], b.items[i])) return &b;
+    if (first_difference(a.items[i], b.items[i]) != nullptr) return &b;
   }
   for (const YamlEntry& entry : b.entries) {
     const YamlEntry* old = a.find(entry.key);
@@ -23,10 +21,6 @@ const YamlNode* first_difference(const YamlNode& a, const YamlNode& b) {
     if (b.find(entry.key) == nullptr) return &entry.value;
   }
   return nullptr;
-}
-
-bool same_item(const YamlNode& a, const YamlNode& b) {
-  return first_difference(a, b) == nullptr;
 }
 
 /// Reviews go with a crowd: a folder keeps them, and further ones add to them.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/config/config_values.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 
 namespace crowdface {
@@ -34,9 +35,7 @@ std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& 
 }
 
 bool has_tags(const std::vector<std::string>& of_head, const std::vector<std::string>& tags) {
-  return std::ranges::all_of(tags, [&](const std::string& tag) {
-    return std::ranges::find(of_head, tag) != of_head.end();
-  });
+  return std::ranges::all_of(tags, [&](const std::string& tag) { return contains(of_head, tag); });
 }
 
 std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
@@ -67,7 +66,7 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
   std::vector<std::string> known = draft.config.faces.names;
   const auto& tags = draft.config.faces.tags;
   for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i] == name || std::ranges::find(tags[i], name) != tags[i].end()) {
+    if (known[i] == name || contains(tags[i], name)) {
       heads.push_back(static_cast<Eigen::Index>(i));
     }
   }

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "crowdface/config/codec.h"
-#include "crowdface/config/starter_facts.h"
 
 namespace crowdface {
+
+struct StarterFacts;
 
 /// A key in a starter config.
 struct StarterLines {
@@ -55,9 +56,7 @@ using Keys = std::vector<Key<Section>>;
 
 template <class Section>
 std::vector<std::string> names_of(const Keys<Section>& keys) {
-  std::vector<std::string> names;
-  for (const Key<Section>& key : keys) names.emplace_back(key.name);
-  return names;
+  return texts_of(keys, [](const Key<Section>& key) { return key.name; });
 }
 
 /// "key: value   # beside" under its comment, each line after an '\n'.
@@ -67,7 +66,7 @@ std::string starter_lines(std::string_view key, const StarterLines& lines);
 template <class Section>
 bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section,
                ConfigDraft& draft) {
-  const MapReader map(&node, names_of(keys), draft.complaints);
+  const MapReader map(node, names_of(keys), draft.complaints);
   for (const Key<Section>& key : keys) {
     const YamlNode* value =
         key.required.empty() ? map.find(key.name) : map.require(key.name, key.required);
@@ -92,11 +91,9 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
                            const ConfigWriting& writing) {
-  std::vector<std::string> items;
-  for (const Section& section : sections) {
-    items.push_back(block_map(write_keys(keys, section, writing)));
-  }
-  return block_list(items);
+  return block_list(texts_of(sections, [&](const Section& section) {
+    return block_map(write_keys(keys, section, writing));
+  }));
 }
 
 /// The keys that a starter config has, as the value of their section; empty if it has none.
@@ -174,12 +171,10 @@ const Keys<SamplingOptions>& sampling_keys();
 const Keys<Config::Output>& output_keys();
 void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_faces(const Config& config, const ConfigWriting& writing);
-Starter faces_starter();
+std::optional<StarterLines> faces_starter(const StarterFacts& facts);
 void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_regions(const Config& config, const ConfigWriting& writing);
 std::optional<StarterLines> regions_starter(const StarterFacts& facts);
-void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_parts(const Config& config, const ConfigWriting& writing);
 void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_shapes(const Config& config, const ConfigWriting& writing);
 void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft);

@@ -24,8 +24,7 @@ void put_first(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
   for (const std::filesystem::path& file : kept) {
     reviews.items.push_back(option_node("review", std::filesystem::absolute(file).string()));
   }
-  const auto named = std::ranges::find_if(
-      root.entries, [](const YamlEntry& entry) { return entry.key == "review"; });
+  const auto named = std::ranges::find(root.entries, "review", &YamlEntry::key);
   if (named == root.entries.end()) {
     root.entries.push_back({"review", {}, std::move(reviews)});
     return;

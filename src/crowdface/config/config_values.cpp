@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include "crowdface/blend/recipe_bounds.h"
-#include "crowdface/core/name.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/text.h"
-#include "crowdface/core/units.h"
 
 namespace crowdface {
 namespace {
@@ -26,10 +24,7 @@ std::string unknown_key(const YamlNode& map, const std::string& key,
 /// The number's text if it may be read as one: neither in quotes nor with a leading zero.
 std::optional<std::string> number_text(const YamlNode& node, const std::string& expected,
                                        Complaints& out) {
-  if (node.kind != YamlNode::Kind::kScalar) {
-    out.expected(node, expected);
-    return std::nullopt;
-  }
+  if (node.kind != YamlNode::Kind::kScalar) return out.expected(node, expected);
   if (node.quoted && parse_double(node.text)) {
     out.about(node, concat("expected ", expected, ", found text, ", quoted(node.text),
                            "; leave the quotes out"));
@@ -50,11 +45,6 @@ std::optional<std::string> number_text(const YamlNode& node, const std::string& 
   return node.text;
 }
 
-/// A bound without exponent: -1000000, not -1e+06.
-std::string plain(double value) {
-  return format_fixed(value, 0);
-}
-
 /// Every line but the first two further in.
 std::string indented(std::string_view text) {
   std::string out;
@@ -62,30 +52,20 @@ std::string indented(std::string_view text) {
   return out;
 }
 
-bool has_control_character(std::string_view text) {
-  return std::ranges::any_of(text, [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
-  });
-}
-
 }  // namespace
 
-MapReader::MapReader(const YamlNode* node, std::vector<std::string> keys, Complaints& complaints)
+MapReader::MapReader(const YamlNode& node, const std::vector<std::string>& keys,
+                     Complaints& complaints)
     : node_(node), complaints_(complaints) {
-  if (node_ == nullptr) return;
-  if (node_->kind != YamlNode::Kind::kMap) {
-    complaints_.expected(*node_, concat("a mapping with the keys ", join(keys)));
-    node_ = nullptr;
-    return;
-  }
-  for (const YamlEntry& entry : node_->entries) {
-    if (std::ranges::find(keys, entry.key) != keys.end()) continue;
-    complaints_.add(entry.key_place, unknown_key(*node_, entry.key, keys));
+  complaints_.expect_map(node_, concat("a mapping with the keys ", join(keys)));
+  for (const YamlEntry& entry : node_.entries) {
+    if (contains(keys, entry.key)) continue;
+    complaints_.add(entry.key_place, unknown_key(node_, entry.key, keys));
   }
 }
 
 const YamlNode* MapReader::find(std::string_view key) const {
-  const YamlEntry* entry = node_ == nullptr ? nullptr : node_->find(key);
+  const YamlEntry* entry = node_.find(key);
   if (entry == nullptr) return nullptr;
   if (entry->value.kind == YamlNode::Kind::kNothing) {
     complaints_.about(entry->value, "no value; write one, or leave the key out");
@@ -95,21 +75,23 @@ const YamlNode* MapReader::find(std::string_view key) const {
 }
 
 const YamlNode* MapReader::require(std::string_view key, std::string_view hint) const {
-  if (node_ != nullptr && !has(key)) {
-    complaints_.add(node_->place, concat(child_path(*node_, key), ": missing; ", hint));
+  if (node_.kind == YamlNode::Kind::kMap && node_.find(key) == nullptr) {
+    complaints_.add(node_.place, concat(child_path(node_, key), ": missing; ", hint));
   }
   return find(key);
 }
 
+std::string plain_number(double value) {
+  return format_fixed(value, 0);
+}
+
 std::optional<double> read_number(const YamlNode& node, double low, double high, Complaints& out) {
-  const std::string expected = concat("a number from ", plain(low), " to ", plain(high));
+  const std::string expected =
+      concat("a number from ", plain_number(low), " to ", plain_number(high));
   const auto text = number_text(node, expected, out);
   if (!text) return std::nullopt;
   const auto value = parse_double(*text);
-  if (!value || *value < low || *value > high) {
-    out.expected(node, expected);
-    return std::nullopt;
-  }
+  if (!value || *value < low || *value > high) return out.expected(node, expected);
   return *value == 0 ? 0.0 : *value;  // -0 is 0
 }
 
@@ -119,78 +101,25 @@ std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low,
   const auto text = number_text(node, expected, out);
   if (!text) return std::nullopt;
   const auto value = parse_unsigned(*text);
-  if (!value || *value < low || *value > high) {
-    out.expected(node, expected);
-    return std::nullopt;
-  }
+  if (!value || *value < low || *value > high) return out.expected(node, expected);
   return value;
-}
-
-std::optional<double> read_length_mm(const YamlNode& node, double high_mm, Complaints& out) {
-  if (node.kind == YamlNode::Kind::kScalar && parse_double(node.text)) {
-    out.about(node, concat("expected a length with its unit, such as \"8 mm\", found ",
-                           quoted(node.text), "; mm, cm, m or in?"));
-    return std::nullopt;
-  }
-  const auto value =
-      node.kind == YamlNode::Kind::kScalar ? parse_length_mm(node.text) : std::nullopt;
-  if (!value || *value < 0 || *value > high_mm) {
-    out.expected(node, concat("a length from 0 mm to ", plain(high_mm),
-                              " mm with its unit, such as ", "\"8 mm\""));
-    return std::nullopt;
-  }
-  return *value == 0 ? 0.0 : *value;
 }
 
 std::optional<std::string> read_text(const YamlNode& node, const std::string& expected,
                                      Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar || node.text.empty() ||
       has_control_character(node.text)) {
-    out.expected(node, expected);
-    return std::nullopt;
+    return out.expected(node, expected);
   }
   return node.text;
 }
 
 std::optional<std::string> read_name(const YamlNode& node, Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar || !is_name(node.text)) {
-    out.expected(node,
-                 "a name of 1 to 64 letters (a-z), digits, '_', '-' or '.', not starting with '.'");
-    return std::nullopt;
+    return out.expected(
+        node, "a name of 1 to 64 letters (a-z), digits, '_', '-' or '.', not starting with '.'");
   }
   return node.text;
-}
-
-std::optional<PlanePoint> read_point(const YamlNode& node, Complaints& out) {
-  if (node.kind != YamlNode::Kind::kList || node.items.size() != 2) {
-    out.expected(node, "a list of two numbers, [x, y]");
-    return std::nullopt;
-  }
-  const auto x = read_number(node.items[0], -kMaxPlaneCoordinate, kMaxPlaneCoordinate, out);
-  const auto y = read_number(node.items[1], -kMaxPlaneCoordinate, kMaxPlaneCoordinate, out);
-  if (!x || !y) return std::nullopt;
-  return PlanePoint(*x, *y);
-}
-
-std::optional<Range> read_range(const YamlNode& node, Complaints& out,
-                                const std::function<std::optional<double>(const YamlNode&)>& read) {
-  if (node.kind != YamlNode::Kind::kList) {
-    const auto value = read(node);
-    return value ? std::optional<Range>({*value, *value}) : std::nullopt;
-  }
-  if (node.items.size() != 2) {
-    out.expected(node, "one value or a list of two, [low, high]");
-    return std::nullopt;
-  }
-  const auto low = read(node.items[0]);
-  const auto high = read(node.items[1]);
-  if (!low || !high) return std::nullopt;
-  if (*low > *high) {
-    out.about(node, concat("expected [low, high], found ", quoted(node.items[0].text), " before ",
-                           quoted(node.items[1].text)));
-    return std::nullopt;
-  }
-  return Range{*low, *high};
 }
 
 void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out) {
@@ -213,6 +142,12 @@ bool is_word(const YamlNode& node, std::string_view word) {
   return node.kind == YamlNode::Kind::kScalar && node.text == word;
 }
 
+bool has_control_character(std::string_view text) {
+  return std::ranges::any_of(text, [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
+  });
+}
+
 std::string flow_list(const std::vector<std::string>& items) {
   return concat('[', join(items), ']');
 }
@@ -222,9 +157,7 @@ std::string flow_map(const std::vector<std::string>& entries) {
 }
 
 std::string flow_names(const std::vector<std::string>& names) {
-  std::vector<std::string> items;
-  for (const std::string& name : names) items.push_back(write_scalar(name));
-  return flow_list(items);
+  return flow_list(texts_of(names, write_scalar));
 }
 
 std::string block_list(const std::vector<std::string>& items) {

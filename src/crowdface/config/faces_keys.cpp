@@ -4,8 +4,10 @@
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/input_files.h"
+#include "crowdface/config/starter_config.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
-#include "crowdface/core/name.h"
+#include "crowdface/core/text.h"
 #include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
@@ -26,7 +28,7 @@ void add_head(const fs::path& file, const YamlNode& node, Faces& faces, ConfigDr
   } else if (name == "all" || name == "target") {
     draft.complaints.about(node, concat("no head can be called ", quoted(name),
                                         ", the word has its own meaning; rename ", shown));
-  } else if (std::ranges::find(faces.names, name) != faces.names.end()) {
+  } else if (contains(faces.names, name)) {
     draft.complaints.about(
         node, concat("two heads are called ", quoted(name), "; the second is ", shown));
   }
@@ -73,15 +75,14 @@ void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
 }
 
 std::string write_files(const Faces& faces, const ConfigWriting& writing) {
-  std::vector<std::string> files;
-  for (const fs::path& file : faces.files) files.push_back(path("").write(file, writing));
-  return block_list(files);
+  return block_list(
+      texts_of(faces.files, [&](const fs::path& file) { return path("").write(file, writing); }));
 }
 
 /// A tag may not be read as a head, nor as the word for all of them.
 void check_tag(const YamlNode& node, const Faces& faces, Complaints& out) {
   const std::string& tag = node.text;
-  if (std::ranges::find(faces.names, tag) != faces.names.end()) {
+  if (contains(faces.names, tag)) {
     out.about(node, concat("the tag ", quoted(tag), " is also the name of a head"));
   } else if (tag == "all" || tag == "target") {
     out.about(node, concat("no tag can be called ", quoted(tag)));
@@ -96,7 +97,7 @@ std::vector<std::string> read_tags_of_head(const YamlNode& node, const Faces& fa
     const auto tag = read_name(item, out);
     if (!tag) continue;
     check_tag(item, faces, out);
-    if (std::ranges::find(tags, *tag) != tags.end()) {
+    if (contains(tags, *tag)) {
       out.about(item, concat("the tag ", quoted(*tag), " is named twice"));
     }
     tags.push_back(*tag);
@@ -219,12 +220,10 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   config.sampling.young_heads = heads_with({"young"}, faces);
 }
 
-Starter faces_starter() {
-  return [](const StarterFacts& facts) -> std::optional<StarterLines> {
-    return StarterLines{starter_keys(faces_keys(), facts), "",
-                        concat("The heads: OBJ files that share one topology. This folder holds ",
-                               facts.names.size(), ": ", name_some(facts.names), ".")};
-  };
+std::optional<StarterLines> faces_starter(const StarterFacts& facts) {
+  return StarterLines{starter_keys(faces_keys(), facts), "",
+                      concat("The heads: OBJ files that share one topology. This folder holds ",
+                             facts.names.size(), ": ", name_some(facts.names), ".")};
 }
 
 std::string write_faces(const Config& config, const ConfigWriting& writing) {

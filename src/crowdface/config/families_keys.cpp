@@ -5,33 +5,20 @@
 
 #include "crowdface/cast/family_draws.h"
 #include "crowdface/config/config_keys.h"
+#include "crowdface/core/contains.h"
 
 namespace crowdface {
 namespace {
 
 constexpr std::uint64_t kMostMembers = 1000;
 
-/// Whether a family before this one has a member of that id, with or without the crowd's name.
-bool is_member(const std::string& id, const ConfigDraft& draft) {
-  const std::string& crowd = draft.config.crowd.name;
-  for (const FamilyOptions& family : draft.config.families) {
-    for (int m = 1; m <= family.members; ++m) {
-      const std::string full = member_id(crowd, family.name, m);
-      if (id == full || full == concat(crowd, '_', id)) return true;
-    }
-  }
-  return false;
-}
-
-/// Whether a family before this one has a parent of that id who is drawn.
-bool is_drawn_parent(const std::string& id, const ConfigDraft& draft) {
-  for (const FamilyOptions& family : draft.config.families) {
-    for (const Parent& parent : family.parents) {
-      const bool same = id == parent.id || id == parent_id(draft.config.crowd.name, parent);
-      if (parent.drawn && same) return true;
-    }
-  }
-  return false;
+/// Whether a family before this one has a member, or a parent who is drawn, of that id, with or without
+/// the crowd's name.
+bool is_of_a_family(const std::string& id, const Config& config) {
+  return std::ranges::any_of(config.families, [&](const FamilyOptions& family) {
+    const std::vector<std::string> ids = ids_of(family, config.crowd.name);
+    return contains(ids, id) || contains(ids, concat(config.crowd.name, '_', id));
+  });
 }
 
 Codec<std::size_t> group() {
@@ -70,7 +57,7 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   if (head != heads.end()) return Parent{head - heads.begin(), *name};
   const auto& recipes = draft.config.recipes;
   const bool known = std::ranges::find(recipes, *name, &HandRecipe::id) != recipes.end() ||
-                     is_member(*name, draft) || is_drawn_parent(*name, draft);
+                     is_of_a_family(*name, draft.config);
   if (!known && draft.heads_known) {
     draft.complaints.about(node,
                            concat("expected drawn, a head, a recipe's id or a member of ",
@@ -81,7 +68,7 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
 
 void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
   constexpr const char* kHint = "drawn, a head, a recipe or a member of another family";
-  const MapReader map(&node, {std::string(word_of(0)), std::string(word_of(1))}, draft.complaints);
+  const MapReader map(node, {std::string(word_of(0)), std::string(word_of(1))}, draft.complaints);
   const YamlNode* mother = map.require(word_of(0), kHint);
   const YamlNode* father = map.require(word_of(1), kHint);
   if (mother == nullptr || father == nullptr) return;
@@ -97,12 +84,8 @@ std::string write_parent(const Parent& parent, const ConfigWriting& writing) {
 
 std::string write_parents(const FamilyOptions& family, const ConfigWriting& writing) {
   if (family.parents.empty()) return "";
-  std::vector<std::string> entries;
-  for (int p = 0; p < 2; ++p) {
-    const Parent& parent = family.parents[static_cast<std::size_t>(p)];
-    entries.push_back(entry(word_of(p), write_parent(parent, writing)));
-  }
-  return flow_map(entries);
+  return flow_map({entry(word_of(0), write_parent(family.parents[0], writing)),
+                   entry(word_of(1), write_parent(family.parents[1], writing))});
 }
 
 void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
@@ -116,7 +99,7 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
   for (const std::string& part : draft.config.part_names()) {
     if (!draft.config.sampling.bands.empty()) names.push_back(part);
   }
-  const MapReader map(&node, names, draft.complaints);
+  const MapReader map(node, names, draft.complaints);
   for (const std::string& name : names) {
     const YamlNode* from = map.find(name);
     if (from == nullptr) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/starter_config.h"
 #include "crowdface/core/contains.h"
 
 namespace crowdface {

@@ -4,7 +4,8 @@
 #include <charconv>
 
 #include "crowdface/config/config_keys.h"
-#include "crowdface/config/sheet_page_size.h"
+#include "crowdface/config/starter_config.h"
+#include "crowdface/render/contact_sheet.h"
 
 namespace crowdface {
 namespace {
@@ -92,7 +93,8 @@ void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
         child.kind == YamlNode::Kind::kScalar ? parse_percent(child.text) : std::nullopt;
     if (!percent || (!output.lods.empty() && *percent >= output.lods.back()) ||
         output.lods.size() == kMostLevels) {
-      return draft.complaints.expected(child, kExpected);
+      draft.complaints.expected(child, kExpected);
+      return;
     }
     output.lods.push_back(*percent);
   }
@@ -105,18 +107,26 @@ void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
 }
 
 std::string write_lods(const Output& output, const ConfigWriting&) {
-  std::vector<std::string> items;
-  for (const double percent : output.lods) items.push_back(concat(percent, " %"));
-  return flow_list(items);
+  return flow_list(texts_of(output.lods, [](double percent) { return concat(percent, " %"); }));
 }
 
 std::string write_surfaces(const Output& output, const ConfigWriting&) {
-  std::vector<std::string> entries;
-  for (const auto& [name, surface] : output.surfaces) {
-    entries.push_back(entry(write_scalar(name), surface.colour ? write_colour(*surface.colour)
-                                                               : word_of(surface.kind)));
+  return flow_map(texts_of(output.surfaces, [](const auto& named) {
+    const auto& [name, surface] = named;
+    return entry(write_scalar(name),
+                 surface.colour ? write_colour(*surface.colour) : word_of(surface.kind));
+  }));
+}
+
+/// Of how many faces the shapes are shown.
+bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {
+  if (faces > 0 && draft.config.shapes.names.empty()) {
+    draft.complaints.about(node, "there are no shapes: the key shapes is missing, or none");
   }
-  return flow_map(entries);
+  if (faces > 0 && draft.config.output.meshes.empty()) {
+    draft.complaints.about(node, "shapes are shown on meshes, and output.meshes asks for none");
+  }
+  return true;
 }
 
 const Keys<Sheet>& contact_sheet_keys() {
@@ -138,24 +148,22 @@ const Keys<Sheet>& contact_sheet_keys() {
          return length(kLongestScaleMm).write(sheet.compare.scale_mm, writing);
        }},
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]")),
-      {"shapes",
-       [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
-         const auto faces = whole(0, 64).read(node, draft);
-         sheet.shapes = static_cast<int>(faces.value_or(0));
-         if (sheet.shapes == 0) return;
-         if (draft.config.shapes.names.empty()) {
-           draft.complaints.about(node, "there are no shapes: the key shapes is missing, or none");
-         }
-         if (draft.config.output.meshes.empty()) {
-           draft.complaints.about(node,
-                                  "shapes are shown on meshes, and output.meshes asks for none");
-         }
-       },
-       [](const Sheet& sheet, const ConfigWriting& writing) {
-         return whole(0, 64).write(static_cast<std::uint64_t>(sheet.shapes), writing);
-       }},
+      key("shapes", &Sheet::shapes, such_that(whole(0, 64), can_be_shown)),
       word_key("texture", &Sheet::texture)};
   return keys;
+}
+
+/// Whether a page as the config wants it is not too large to be made.
+bool fits_on_a_page(const Sheet& sheet) {
+  CellSize cell = sheet.plain_cell_size();
+  cell.label_lines = std::max(cell.label_lines, static_cast<int>(sheet.labels.size()));
+  SheetOptions options{.columns = sheet.columns, .title = "title", .legend = {}, .note = {}};
+  if (sheet.compare.with != With::kNothing) {
+    cell.width += sheet.cell;
+    cell.label_lines += 1;
+    options.legend.emplace();
+  }
+  return sheet.rows <= most_rows(cell, options);
 }
 
 void read_contact_sheet(const YamlNode& node, Output& output, ConfigDraft& draft) {

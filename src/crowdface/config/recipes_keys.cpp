@@ -5,7 +5,7 @@
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
-#include "crowdface/config/hand_recipe.h"
+#include "crowdface/config/edited_entries.h"
 
 namespace crowdface {
 namespace {
@@ -76,7 +76,7 @@ void read_recipe_bands(const YamlNode& node, HandRegion& region, ConfigDraft& dr
     draft.complaints.about(node, "there are no bands; sampling.bands names them");
     return;
   }
-  const MapReader map(&node, names, draft.complaints);
+  const MapReader map(node, names, draft.complaints);
   region.bands.resize(names.size());
   for (std::size_t b = 0; b < names.size(); ++b) {
     if (const YamlNode* own = map.find(names[b]))
@@ -121,7 +121,7 @@ void read_regions_of(const YamlNode& node, HandRecipe& recipe, ConfigDraft& draf
   if (!draft.regions_known) {
     for (const YamlEntry& entry : node.entries) keys.push_back(entry.key);
   }
-  const MapReader map(&node, keys, draft.complaints);
+  const MapReader map(node, keys, draft.complaints);
   if (const YamlNode* all = map.find("all")) {
     recipe.regions.assign(recipe.regions.size(), read_region(*all, draft));
   }

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/starter_config.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -38,9 +40,8 @@ void read_masks(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
 }
 
 std::string write_masks(const Regions& regions, const ConfigWriting& writing) {
-  std::vector<std::string> masks;
-  for (const std::string& mask : regions.mask) masks.push_back(path("").write(mask, writing));
-  return block_list(masks);
+  return block_list(texts_of(
+      regions.mask, [&](const std::string& mask) { return path("").write(mask, writing); }));
 }
 
 /// Region names stand among keys of the config, and in the columns of crowd.csv.
@@ -52,7 +53,7 @@ void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
   if (reserved.contains(*name)) {
     out.about(node,
               concat("no region can be called ", quoted(*name), ", the word has its own meaning"));
-  } else if (std::ranges::find(names, *name) != names.end()) {
+  } else if (contains(names, *name)) {
     out.about(node, concat("the region ", quoted(*name), " is named twice"));
   }
   names.push_back(*name);

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "crowdface/cast/family_draws.h"
-#include "crowdface/config/check_review.h"
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/edited_entries.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 
 namespace crowdface {
@@ -31,10 +32,6 @@ bool is_sampled_id(const std::string& id, const Config& config) {
   const auto index = parse_unsigned(std::string_view(id).substr(start.size()));
   return index && *index >= 1 && *index <= config.crowd.count &&
          id == face_id(config.crowd.name, *index);
-}
-
-bool is_recipe(const std::string& id, const Config& config) {
-  return std::ranges::find(config.recipes, id, &HandRecipe::id) != config.recipes.end();
 }
 
 bool is_drawn_parent(const std::string& id, const Config& config) {
@@ -103,7 +100,7 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   Review review;
   if (!root) return review;
-  const MapReader map(&*root, {"schema", "faces"}, draft.complaints);
+  const MapReader map(*root, {"schema", "faces"}, draft.complaints);
   if (const YamlNode* schema = map.require("schema", "write \"schema: 1\"")) {
     read_whole(*schema, 1, 1, draft.complaints);
   }
@@ -115,9 +112,7 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;
     mark.id = entry.key;
-    const bool known =
-        std::ranges::find(ids, entry.key) != ids.end() || is_sampled_id(entry.key, draft.config);
-    if (!known) {
+    if (!contains(ids, entry.key) && !is_sampled_id(entry.key, draft.config)) {
       draft.complaints.add(entry.key_place,
                            concat("no face of this crowd is called ", quoted(entry.key)));
     }
@@ -127,7 +122,9 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
                            concat(quoted(entry.key), " has children who take after it; give the ",
                                   "family another name in place of rejecting it"));
     }
-    if (mark.verdict == Verdict::kReject && is_recipe(entry.key, draft.config)) {
+    const auto& recipes = draft.config.recipes;
+    if (mark.verdict == Verdict::kReject &&
+        std::ranges::find(recipes, entry.key, &HandRecipe::id) != recipes.end()) {
       draft.complaints.add(entry.key_place,
                            concat(quoted(entry.key), " is written by hand; change ",
                                   "its recipe in place of rejecting it"));
@@ -144,7 +141,7 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
   Review review = read_marks(read_yaml(file.string(), draft.complaints), draft);
   std::string text = draft.complaints.empty() ? read_file(file) : std::string();
   std::vector<std::string>& texts = config.review.texts;
-  if (!text.empty() && std::ranges::find(texts, text) != texts.end()) return;
+  if (!text.empty() && contains(texts, text)) return;
   config.review.files.push_back(file);
   texts.push_back(std::move(text));
   config.review.reviews.push_back(std::move(review));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections of a config, and those with plain values: crowd, smoothing, blending, plane.
+// The sections of a config, and those with plain values: crowd, smoothing, blending, parts, textures,
+// plane.
 #include <algorithm>
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
-#include "crowdface/config/config_writer.h"
+#include "crowdface/config/starter_config.h"
 #include "crowdface/core/contains.h"
 
 namespace crowdface {
@@ -104,11 +105,9 @@ void read_anchors(const YamlNode& node, Plane& plane, ConfigDraft& draft) {
 }
 
 std::string write_anchors(const Plane& plane, const ConfigWriting& writing) {
-  std::vector<std::string> entries;
-  for (const auto& [head, at] : plane.anchors) {
-    entries.push_back(entry(writing.head(head), point().write(at, writing)));
-  }
-  return block_map(entries);
+  return block_map(texts_of(plane.anchors, [&](const auto& anchor) {
+    return entry(writing.head(anchor.first), point().write(anchor.second, writing));
+  }));
 }
 
 const Keys<Plane>& plane_keys() {
@@ -134,39 +133,54 @@ void check_plane(const YamlNode& node, bool sound, ConfigDraft& draft) {
   }
 }
 
-void read_points(const YamlNode& node, Config& config, ConfigDraft& draft) {
-  if (is_word(node, "none")) return;
-  const auto file = path("none, or a YAML file of points").read(node, draft);
-  if (!file) return;
-  expect_file(node, *file, draft);
-  config.points = *file;
+using Parts = Config::Parts;
+
+const Keys<Parts>& parts_keys() {
+  const auto names = list(text("a material, a group or \"component N\""),
+                          "a list of materials, groups or \"component N\"");
+  static const Keys<Parts> keys = {
+      word_key("shape", &Parts::shape), key("skin", &Parts::skin, names),
+      key("rigid", &Parts::rigid, names), key("bound", &Parts::bound, names),
+      key("together", &Parts::together,
+          list(names, "a list of lists of materials, groups or \"component N\""))};
+  return keys;
 }
 
-std::string write_points(const Config& config, const ConfigWriting& writing) {
-  return config.points.empty() ? "none" : path("").write(config.points, writing);
+void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kScalar) {
+    const Words<bool> words = {{"auto", true}, {"none", false}};
+    config.parts.follow = read_choice(node, words, draft.complaints).value_or(true);
+  } else {
+    read_keys(node, parts_keys(), config.parts, draft);
+  }
 }
 
-void read_rig(const YamlNode& node, Config& config, ConfigDraft& draft) {
-  if (is_word(node, "none")) return;
-  const auto file = path("none, or a GLB file with joints").read(node, draft);
-  if (!file) return;
-  expect_file(node, *file, draft);
-  config.rig = *file;
+std::string write_parts(const Config& config, const ConfigWriting& writing) {
+  if (!config.parts.follow) return "none";
+  return block_map(write_keys(parts_keys(), config.parts, writing));
 }
 
-std::string write_rig(const Config& config, const ConfigWriting& writing) {
-  return config.rig.empty() ? "none" : path("").write(config.rig, writing);
+/// A file that is there, or `none`.
+Key<Config> file_key(std::string_view name, std::filesystem::path Config::*member,
+                     const std::string& expected) {
+  return {name,
+          [=](const YamlNode& node, Config& config, ConfigDraft& draft) {
+            if (is_word(node, "none")) return;
+            const auto file = path(expected).read(node, draft);
+            if (file && expect_file(node, *file, draft)) config.*member = *file;
+          },
+          [=](const Config& config, const ConfigWriting& writing) {
+            const std::string file = path("").write(config.*member, writing);
+            return file.empty() ? "none" : file;
+          }};
 }
 
 /// A GLB file holds pictures, and knows no EXR.
 void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
   const Config& config = draft.config;
-  const auto& meshes = config.output.meshes;
-  const bool glb = std::ranges::find(meshes, MeshFormat::kGlb) != meshes.end();
-  const auto& formats = config.textures.formats;
   const bool only_exr = std::ranges::all_of(
-      formats, [](TextureFormat format) { return format == TextureFormat::kExr; });
-  if (!sound || !glb || !only_exr) return;
+      config.textures.formats, [](TextureFormat format) { return format == TextureFormat::kExr; });
+  if (!sound || !contains(config.output.meshes, MeshFormat::kGlb) || !only_exr) return;
   const YamlEntry* entry = node.find("meshes");
   draft.complaints.about(entry != nullptr ? entry->value : node,
                          "glb files hold no EXR; add png or jpeg to textures.formats");
@@ -187,14 +201,14 @@ const Keys<Config>& root_keys() {
       section_key("crowd", &Config::crowd, crowd_keys(),
                   "such as \"crowd: {name: market, count: 24}\""),
       {"faces", read_faces, write_faces, "such as \"faces: {directory: heads, units: cm}\"",
-       faces_starter()},
+       faces_starter},
       {"regions", read_regions, write_regions, {}, regions_starter},
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
       {"parts", read_parts, write_parts},
       {"shapes", read_shapes, write_shapes},
-      {"points", read_points, write_points},
-      {"rig", read_rig, write_rig},
+      file_key("points", &Config::points, "none, or a YAML file of points"),
+      file_key("rig", &Config::rig, "none, or a GLB file with joints"),
       {"attachments", read_attachments, write_attachments, {}, attachments_starter},
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),

@@ -4,9 +4,8 @@
 #include <set>
 
 #include "crowdface/config/config_keys.h"
-#include "crowdface/config/head_lists.h"
 #include "crowdface/core/contains.h"
-#include "crowdface/core/name.h"
+#include "crowdface/core/text.h"
 
 namespace crowdface {
 namespace {
@@ -68,43 +67,30 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
   return split;
 }
 
-template <class Value>
-const Value& value_of(const Value& value) {
-  return value;
-}
-template <class Value>
-const Value& value_of(const std::optional<Value>& value) {
-  return *value;
-}
-
 /// A value for each of a section's regions; those that are empty optionals are not written.
 /// \param parameters  as of split_by_region.
 template <class Section, class Region, class Member, class Value>
 Key<Section> per_region_key(std::string_view name, Member Region::*member,
                             const Codec<Value>& codec, const Names& parameters = {}) {
   return {name,
-          [=](const YamlNode& node, Section& section, ConfigDraft& draft) {
+          [=, own = key(name, member, codec)](const YamlNode& node, Section& section,
+                                              ConfigDraft& draft) {
             const PerRegion split = split_by_region(node, parameters, draft);
             const auto whole = split.whole ? codec.read(*split.whole, draft) : std::nullopt;
             for (Region& region : section.regions) {
               if (whole) region.*member = *whole;
             }
-            for (const auto& [region, own] : split.of_region) {
-              if (const auto value = codec.read(*own, draft)) {
-                section.regions[region].*member = *value;
-              }
+            for (const auto& [region, value] : split.of_region) {
+              own.read(*value, section.regions[region], draft);
             }
           },
-          [=](const Section& section, const ConfigWriting& writing) {
+          [own = key(name, member, codec)](const Section& section, const ConfigWriting& writing) {
             const Names& names = writing.config.regions.names;
             std::vector<std::string> entries;
             for (std::size_t i = 0; i < section.regions.size(); ++i) {
-              const Member& value = section.regions[i].*member;
-              if constexpr (requires { value.has_value(); }) {
-                if (!value) continue;
-              }
-              entries.push_back(entry(names.empty() ? "default" : write_scalar(names[i]),
-                                      codec.write(value_of(value), writing)));
+              const std::string value = own.write(section.regions[i], writing);
+              if (value.empty()) continue;
+              entries.push_back(entry(names.empty() ? "default" : write_scalar(names[i]), value));
             }
             return entries.empty() ? "" : block_map(entries);
           }};
@@ -177,7 +163,7 @@ std::string write_position(const PositionDistribution& position, const ConfigWri
 Codec<SmoothnessDistribution> sampled_smoothness() {
   return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
             if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
-            const MapReader map(&node, {"iterations"}, draft.complaints);
+            const MapReader map(node, {"iterations"}, draft.complaints);
             const YamlNode* count = map.require("iterations", "a whole number or [low, high]");
             return count == nullptr ? std::nullopt : iterations().read(*count, draft);
           },
@@ -255,12 +241,9 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
 
 std::string write_bands(const SamplingOptions& sampling, const ConfigWriting& writing) {
   if (sampling.bands.empty()) return "";
-  std::vector<std::string> entries;
-  for (const BandSampling& band : sampling.bands) {
-    entries.push_back(
-        entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, writing))));
-  }
-  return block_map(entries);
+  return block_map(texts_of(sampling.bands, [&](const BandSampling& band) {
+    return entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, writing)));
+  }));
 }
 
 bool is_mirrored(const SamplingOptions& sampling, const ConfigWriting& writing) {

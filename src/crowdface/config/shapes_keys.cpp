@@ -6,11 +6,10 @@
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/input_files.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
 namespace {
@@ -20,28 +19,11 @@ using Shapes = Config::Shapes;
 
 constexpr std::size_t kMostShapes = 1000;
 
-/// Nothing for what is not asked for.
-std::string write_path(const fs::path& value, const ConfigWriting& writing) {
-  return value.empty() ? "" : path("").write(value, writing);
-}
-
-void read_neutral(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
-  const auto file = path("an OBJ file").read(node, draft);
-  if (!file) return;
-  if (mesh_format_of(*file) != MeshFormat::kObj) {
-    draft.complaints.expected(node, "a file whose name ends in .obj");
-    return;
-  }
-  expect_file(node, *file, draft);
-  shapes.neutral = *file;
-}
-
 /// The OBJ files of a folder by the names of their shapes, in the files' order.
-std::vector<std::pair<std::string, fs::path>> list_shapes(const YamlNode& node,
-                                                          const fs::path& folder,
-                                                          const fs::path& neutral,
-                                                          ConfigDraft& draft) {
-  std::vector<std::pair<std::string, fs::path>> shapes;
+using ShapeFiles = std::vector<std::pair<std::string, fs::path>>;
+ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::path& neutral,
+                       ConfigDraft& draft) {
+  ShapeFiles shapes;
   for (const fs::path& file : list_heads(folder)) {
     std::error_code ignored;
     if (fs::equivalent(file, neutral, ignored)) continue;
@@ -77,7 +59,7 @@ void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& dra
 }
 
 void add_name(const std::string& name, Shapes& shapes) {
-  if (std::ranges::find(shapes.names, name) != shapes.names.end()) return;
+  if (contains(shapes.names, name)) return;
   shapes.names.push_back(name);
   shapes.files.emplace_back();
 }
@@ -94,7 +76,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
   }
   if (!draft.heads_known) return;
   const Config::Faces& faces = draft.config.faces;
-  std::vector<std::vector<std::pair<std::string, fs::path>>> found(faces.files.size());
+  std::vector<ShapeFiles> found(faces.files.size());
   for (std::size_t h = 0; h < faces.files.size(); ++h) {
     const fs::path of_head = *folder / faces.names[h];
     try {
@@ -116,16 +98,13 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
 
 const Keys<Shapes>& shapes_keys() {
   static const Keys<Shapes> keys = {
-      {"neutral", read_neutral,
-       [](const Shapes& shapes, const ConfigWriting& writing) {
-         return write_path(shapes.neutral, writing);
-       }},
+      key("neutral", &Shapes::neutral, obj_file()),
       {"directory", read_shape_directory,
        [](const Shapes& shapes, const ConfigWriting& writing) {
-         return write_path(shapes.directory, writing);
+         return path("").write(shapes.directory, writing);
        }},
       {"heads", read_shape_heads, [](const Shapes& shapes, const ConfigWriting& writing) {
-         return write_path(shapes.heads, writing);
+         return path("").write(shapes.heads, writing);
        }}};
   return keys;
 }

@@ -7,6 +7,19 @@
 
 namespace crowdface {
 
+std::string starter_lines(std::string_view key, const StarterLines& lines) {
+  constexpr std::size_t kCommentColumn = 23;
+  std::string text;
+  for (const std::string_view line : split_lines(lines.above)) text += concat("\n# ", line);
+  if (lines.value.empty()) return text;
+  std::string line = entry(key, lines.value);
+  if (!lines.beside.empty()) {
+    line.resize(std::max(line.size() + 1, kCommentColumn), ' ');
+    line += concat("# ", lines.beside);
+  }
+  return concat(text, '\n', line);
+}
+
 std::string starter_config(const StarterFacts& facts) {
   std::string text =
       "# A first crowd. Run it with: crowdface generate THIS_FILE\n"

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "crowdface/config/yaml.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
@@ -13,11 +14,6 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxKeys = 8;
-
-std::vector<std::string> split_path(std::string_view path) {
-  const std::vector<std::string_view> keys = split(path, '.');
-  return {keys.begin(), keys.end()};
-}
 
 /// Whether no reader of YAML could take the text for anything but this text.
 bool is_plain(std::string_view text) {
@@ -48,23 +44,23 @@ void place_at(YamlNode& node, const YamlPlace& place, const std::string& path) {
 }
 
 /// The node at that key, made if it is not there.
-YamlNode& child(YamlNode& map, const std::string& key, const YamlPlace& place) {
+YamlNode& child(YamlNode& map, std::string_view key, const YamlPlace& place) {
   for (YamlEntry& entry : map.entries) {
     if (entry.key == key) return entry.value;
   }
   YamlNode node;
   node.place = place;
-  node.path = map.path.empty() ? key : concat(map.path, '.', key);
-  map.entries.push_back({key, place, std::move(node)});
+  node.path = map.path.empty() ? std::string(key) : concat(map.path, '.', key);
+  map.entries.push_back({std::string(key), place, std::move(node)});
   return map.entries.back().value;
 }
 
 /// Puts a value where the keys lead.
-void put(YamlNode& root, const std::vector<std::string>& keys, YamlNode value,
+void put(YamlNode& root, const std::vector<std::string_view>& keys, YamlNode value,
          const YamlPlace& place, Complaints& out) {
   if (root.kind != YamlNode::Kind::kMap) return;  // whoever reads the root will say so
   YamlNode* target = &root;
-  for (const std::string& key : keys) {
+  for (const std::string_view key : keys) {
     if (target->kind == YamlNode::Kind::kNothing) target->kind = YamlNode::Kind::kMap;
     if (target->kind != YamlNode::Kind::kMap) {
       out.add(place, concat(target->path, " holds ", describe(*target), ", so ", quoted(key),
@@ -124,9 +120,8 @@ void set_value(YamlNode& root, std::string_view assignment, Complaints& out) {
   const YamlPlace place = place_on_command_line(
       concat("--set ", assignment.substr(0, kLongest), assignment.size() > kLongest ? "…" : ""));
   const std::size_t equals = assignment.find('=');
-  const std::vector<std::string> keys = split_path(assignment.substr(0, equals));
-  if (equals == std::string_view::npos || keys.size() > kMaxKeys ||
-      std::ranges::find(keys, "") != keys.end()) {
+  const std::vector<std::string_view> keys = split(assignment.substr(0, equals), '.');
+  if (equals == std::string_view::npos || keys.size() > kMaxKeys || contains(keys, "")) {
     return out.add(place, "expected key.path=value, such as crowd.count=20");
   }
   // No value at all is a matter for whoever reads the key, as it is in a file.
@@ -145,7 +140,7 @@ void set_text(YamlNode& root, std::string_view key_path, std::string_view text,
   YamlNode node;
   node.kind = YamlNode::Kind::kScalar;
   node.text = text;
-  put(root, split_path(key_path), std::move(node), place_on_command_line(shown), out);
+  put(root, split(key_path, '.'), std::move(node), place_on_command_line(shown), out);
 }
 
 }  // namespace crowdface

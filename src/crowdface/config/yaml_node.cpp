@@ -12,7 +12,7 @@ std::string YamlPlace::text() const {
 }
 
 const YamlEntry* YamlNode::find(std::string_view key) const {
-  const auto found = std::ranges::find_if(entries, [&](const auto& e) { return e.key == key; });
+  const auto found = std::ranges::find(entries, key, &YamlEntry::key);
   return found == entries.end() ? nullptr : &*found;
 }
 

@@ -5,7 +5,6 @@
 
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
-#include "crowdface/core/utf8.h"
 
 namespace crowdface {
 namespace {

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <mutex>
 #include <string_view>
 
-namespace crowdface {
+#include "crowdface/core/descriptor.h"
 
-class Descriptor;
+namespace crowdface {
 
 /// A file that only grows. What `append` has returned from survives a power cut; what it was at when
 /// the process died may be there in part. Any thread may append.
@@ -16,16 +15,13 @@ class AppendFile {
  public:
   /// Creates the file if it is not there. \throws CannotCreate.
   explicit AppendFile(const std::filesystem::path& path);
-  ~AppendFile();
-  AppendFile(const AppendFile&) = delete;
-  AppendFile& operator=(const AppendFile&) = delete;
 
   /// \throws IoError.
   void append(std::string_view bytes);
 
  private:
   std::filesystem::path path_;
-  std::unique_ptr<Descriptor> file_;
+  Descriptor file_;
   std::mutex mutex_;
 };
 

@@ -16,25 +16,19 @@ using Memory = std::unique_ptr<char[]>;
 class BlockShelf {
  public:
   Memory take(std::size_t& size) {
-    {
-      const std::lock_guard lock(mutex_);
-      const auto found = kept_.lower_bound(size);
-      if (found != kept_.end() && found->first <= size + size / kMostSpare) {
-        size = found->first;
-        Memory memory = std::move(found->second);
-        kept_.erase(found);
-        kept_bytes_ -= size;
-        used_bytes_ += size;
-        return memory;
-      }
-      used_bytes_ += size;
+    const std::lock_guard lock(mutex_);
+    Memory memory;
+    const auto found = kept_.lower_bound(size);
+    if (found != kept_.end() && found->first <= size + size / kMostSpare) {
+      size = found->first;
+      memory = std::move(found->second);
+      kept_.erase(found);
+      kept_bytes_ -= size;
+    } else {
+      memory = std::make_unique_for_overwrite<char[]>(size);
     }
-    try {
-      return std::make_unique_for_overwrite<char[]>(size);
-    } catch (...) {
-      forget(size);
-      throw;
-    }
+    used_bytes_ += size;
+    return memory;
   }
   /// What is not kept is freed when the lock is released.
   void give_back(Memory memory, std::size_t size) noexcept {
@@ -62,11 +56,6 @@ class BlockShelf {
 
  private:
   static constexpr std::size_t kMostSpare = 8;  ///< an eighth more than was asked for
-
-  void forget(std::size_t size) {
-    const std::lock_guard lock(mutex_);
-    used_bytes_ -= size;
-  }
 
   std::mutex mutex_;
   std::multimap<std::size_t, Memory> kept_;  ///< by size

@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// For the .cpp files of core that speak to the operating system.
+// For what speaks to the operating system.
 #pragma once
 
 #include <cerrno>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include "crowdface/core/text.h"
 
 namespace crowdface {
 
 /// Why the last system call failed.
 inline std::string reason() {
   return std::generic_category().message(errno);
+}
+
+/// \throws Failure "FILE: WHAT: why the last system call failed".
+template <class Failure>
+[[noreturn]] void throw_with_reason(const std::filesystem::path& file, std::string_view what) {
+  throw Failure(concat(file.string(), ": ", what, ": ", reason()));
 }
 
 /// A file descriptor that closes itself.
@@ -29,16 +39,32 @@ class Descriptor {
     std::swap(fd_, other.fd_);
     return *this;
   }
+
   int get() const { return fd_; }
   bool valid() const { return fd_ >= 0; }
-  /// Leaves it to the caller to close it.
-  int release() { return std::exchange(fd_, -1); }
+
   /// Closes and tells whether that worked: on some file systems a write fails only here.
   bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
  private:
   int fd_;
 };
+
+/// Whether the path, links followed, leads to the very file that is open: that may have been removed or renamed.
+inline bool still_names(const std::filesystem::path& path, const Descriptor& file) {
+  struct stat by_name {
+  }, by_descriptor{};
+  return ::stat(path.c_str(), &by_name) == 0 && ::fstat(file.get(), &by_descriptor) == 0 &&
+         by_name.st_ino == by_descriptor.st_ino && by_name.st_dev == by_descriptor.st_dev;
+}
+
+/// A file that can be read, and how large it is.
+struct OpenedFile {
+  Descriptor descriptor;
+  std::size_t size;
+};
+/// \throws MissingInput if there is no such regular file; IoError if the machine is to blame.
+OpenedFile open_for_reading(const std::filesystem::path& path);
 
 /// Writes all of it, however many calls that takes. \return whether it worked.
 inline bool write_all(int fd, std::string_view bytes) {

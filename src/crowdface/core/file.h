@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,7 +41,7 @@ enum class WhenCut {
   kFill  ///< what is gone reads as zeros, and `was_cut` tells
 };
 
-/// A file's bytes mapped read-only for as long as the object lives; the pages belong to the system,
+/// A file's bytes mapped read-only for as long as the object, or a copy, lives; the pages belong to the system,
 /// so that large inputs cost no memory of ours.
 class MappedFile {
  public:
@@ -51,21 +52,13 @@ class MappedFile {
   /// then on they lie on the disk, and in memory as far as the system has room.
   /// \param folder  where; it is made if it is not there. \throws CannotCreate, IoError.
   static MappedFile of_scratch(std::string_view bytes, const std::filesystem::path& folder);
-  ~MappedFile();
-  MappedFile(MappedFile&& other) noexcept;
-  MappedFile& operator=(MappedFile&& other) noexcept;
-  std::string_view bytes() const { return {data_, size_}; }
+  std::string_view bytes() const;
   /// Whether the file has become shorter: then some of the bytes may be zeros that it never held.
   bool was_cut() const;
 
  private:
-  /// \param name  for messages
-  void map(int descriptor, std::size_t size, WhenCut when_cut, const std::filesystem::path& name);
-
-  const char* data_ = nullptr;
-  std::size_t size_ = 0;
-  int watch_ = -1;       ///< see mapped_file.cpp
-  int descriptor_ = -1;  ///< with kFill
+  struct Mapping;
+  std::shared_ptr<const Mapping> mapping_;  ///< none of an empty file
 };
 
 /// Writes a file so that it is either whole under its final name or not there at all: temporary

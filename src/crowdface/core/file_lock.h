@@ -3,11 +3,10 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
+
+#include "crowdface/core/descriptor.h"
 
 namespace crowdface {
-
-class Descriptor;
 
 /// Who may hold a lock at the same time.
 enum class LockKind {
@@ -26,12 +25,10 @@ class FileLock {
   FileLock(const std::filesystem::path& path, LockKind kind, const std::function<void()>& waiting);
   /// Removes the file, if nobody else holds a lock on it.
   ~FileLock();
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
 
  private:
   std::filesystem::path path_;
-  std::unique_ptr<Descriptor> file_;
+  Descriptor file_;
 };
 
 }  // namespace crowdface

@@ -2,14 +2,13 @@
 #include "crowdface/core/folder.h"
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
 #include <system_error>
 
 #include <dirent.h>
 #include <fcntl.h>
-#include <sys/stat.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 
@@ -44,11 +43,17 @@ std::vector<fs::path> list_folder(const fs::path& folder, std::error_code* error
       errno = 0;
     }
   }
-  if (!opened || errno != 0) {
-    throw IoError(concat(name, ": cannot be read as a folder: ", reason()));
-  }
+  if (!opened || errno != 0) throw_with_reason<IoError>(name, "cannot be read as a folder");
   std::ranges::sort(found);
   return found;
+}
+
+std::vector<fs::path> list_files(const fs::path& folder,
+                                 const std::function<bool(const fs::path&)>& is_wanted,
+                                 std::error_code* error) {
+  std::vector<fs::path> files = list_folder(folder, error);
+  std::erase_if(files, [&](const fs::path& path) { return !is_wanted(path); });
+  return files;
 }
 
 std::vector<fs::path> folders_from(const fs::path& root) {
@@ -70,31 +75,15 @@ bool leads_below(const fs::path& path, const fs::path& folder) {
   return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
 }
 
-struct HeldFolder::Handle {
-  Descriptor descriptor;
-};
-
 HeldFolder::HeldFolder(const fs::path& folder)
     : path_(folder),
-      handle_(std::make_unique<Handle>(Handle{Descriptor(::open(
-          folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_PATH))})) {
-  if (!handle_->descriptor.valid()) {
-    throw CannotCreate(concat(path_.string(), ": cannot be opened as a folder: ", reason()));
-  }
+      opened_(::open(folder.empty() ? "." : folder.c_str(),
+                     O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_PATH)) {
+  if (!opened_.valid()) throw_with_reason<CannotCreate>(path_, "cannot be opened as a folder");
 }
 
-HeldFolder::~HeldFolder() = default;
-
 void HeldFolder::require_same() const {
-  struct stat held {
-  }, named{};
-  if (::fstat(handle_->descriptor.get(), &held) != 0) {
-    throw IoError(concat(path_.string(), ": cannot be looked at: ", reason()));
-  }
-  if (::stat(path_.empty() ? "." : path_.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
-      held.st_ino == named.st_ino) {
-    return;
-  }
+  if (still_names(path_.empty() ? "." : path_, opened_)) return;
   throw IoError(concat(path_.string(),
                        ": was removed, moved or replaced while the run was at work there; run the "
                        "same command again"));

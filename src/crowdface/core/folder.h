@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <functional>
 #include <system_error>
 #include <vector>
+
+#include "crowdface/core/descriptor.h"
 
 namespace crowdface {
 
@@ -13,6 +15,17 @@ namespace crowdface {
 /// \throws IoError unless all of it could be read; without `error` if it may not be read, too.
 std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder,
                                                std::error_code* error = nullptr);
+
+/// What of it is wanted. \throws IoError like list_folder.
+std::vector<std::filesystem::path> list_files(
+    const std::filesystem::path& folder,
+    const std::function<bool(const std::filesystem::path&)>& is_wanted,
+    std::error_code* error = nullptr);
+
+/// Of list_files: whether a path has this ending.
+inline auto has_ending(const char* ending) {
+  return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
+}
 
 /// A folder and all folders below it, parents first; links are not followed.
 /// \throws IoError like list_folder.
@@ -27,16 +40,12 @@ class HeldFolder {
  public:
   /// \throws CannotCreate if it cannot be opened.
   explicit HeldFolder(const std::filesystem::path& folder);
-  ~HeldFolder();
-  HeldFolder(const HeldFolder&) = delete;
-  HeldFolder& operator=(const HeldFolder&) = delete;
   /// \throws IoError if it was removed or moved away, or another bears its name.
   void require_same() const;
 
  private:
-  struct Handle;
   std::filesystem::path path_;
-  std::unique_ptr<Handle> handle_;
+  Descriptor opened_;
 };
 
 }  // namespace crowdface

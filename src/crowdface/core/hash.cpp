@@ -53,15 +53,15 @@ Digest hash_bytes(std::string_view bytes) {
 Hasher::Hasher() : state_(std::make_unique<State>()) {}
 Hasher::~Hasher() = default;
 
-Hasher& Hasher::add_raw(const void* bytes, std::size_t size) {
-  if (size > 0) XXH3_128bits_update(state_->xxh, bytes, size);
+Hasher& Hasher::add_raw(std::string_view bytes) {
+  if (!bytes.empty()) XXH3_128bits_update(state_->xxh, bytes.data(), bytes.size());
   return *this;
 }
 Hasher& Hasher::add_integer(std::uint64_t value) {
-  return add_raw(&value, sizeof value);
+  return add_raw({reinterpret_cast<const char*>(&value), sizeof value});
 }
 Hasher& Hasher::add(std::string_view text) {
-  return add_integer(text.size()).add_raw(text.data(), text.size());
+  return add_integer(text.size()).add_raw(text);
 }
 Hasher& Hasher::add(double value) {
   return add_integer(std::bit_cast<std::uint64_t>(value));

@@ -35,7 +35,7 @@ class Hasher {
 
   Hasher& add(std::string_view text);
   /// Bytes as they are, no length before them: pieces of one text give its `hash_bytes`.
-  Hasher& add_raw(std::string_view bytes) { return add_raw(bytes.data(), bytes.size()); }
+  Hasher& add_raw(std::string_view bytes);
   Hasher& add(double value);
   Hasher& add(const Digest& digest);
   template <std::integral T>
@@ -46,13 +46,12 @@ class Hasher {
   template <class T>
   Hasher& add_array(std::span<const T> values) {
     add_integer(values.size());
-    return add_raw(values.data(), values.size_bytes());
+    return add_raw({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   }
   Digest digest() const;
 
  private:
   Hasher& add_integer(std::uint64_t value);
-  Hasher& add_raw(const void* bytes, std::size_t size);
   struct State;
   std::unique_ptr<State> state_;
 };

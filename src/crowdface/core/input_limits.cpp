@@ -22,15 +22,12 @@ constexpr Named kNamed[] = {{"vertices", &InputLimits::vertices},
                             {"yaml_bytes", &InputLimits::yaml_bytes},
                             {"yaml_depth", &InputLimits::yaml_depth}};
 
-InputLimits& in_force() {
-  static InputLimits limits;
-  return limits;
-}
+InputLimits in_force;
 
 }  // namespace
 
 const InputLimits& input_limits() {
-  return in_force();
+  return in_force;
 }
 
 void set_input_limit(std::string_view assignment) {
@@ -43,7 +40,7 @@ void set_input_limit(std::string_view assignment) {
       throw UsageError(concat("--limit: expected for ", name, " a whole number from 1 to ",
                               known.most, ", found ", quoted(assignment)));
     }
-    in_force().*known.limit = *number;
+    in_force.*known.limit = *number;
     return;
   }
   throw UsageError(concat("--limit: expected NAME=NUMBER with one of the names ",
@@ -51,7 +48,7 @@ void set_input_limit(std::string_view assignment) {
 }
 
 void limit_image_memory(std::uint64_t bytes) {
-  in_force().image_bytes = std::min(in_force().image_bytes, bytes);
+  in_force.image_bytes = std::min(in_force.image_bytes, bytes);
 }
 
 std::string describe_input_limits() {

@@ -19,7 +19,6 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/memory.h"
-#include "crowdface/core/opened_file.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -89,13 +88,6 @@ int begin_watch(char* begin, std::size_t size, WhenCut when_cut, const fs::path&
   return -1;
 }
 
-void end_watch(int number) {
-  if (number < 0) return;
-  Watch& watch = watches[static_cast<std::size_t>(number)];
-  watch.begin = nullptr;
-  watch.taken = false;
-}
-
 /// \throws CannotCreate.
 Descriptor nameless_file(const fs::path& folder) {
   make_directories(folder);
@@ -104,66 +96,67 @@ Descriptor nameless_file(const fs::path& folder) {
   // Not every file system makes files without a name.
   std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
   file = Descriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
-  if (!file.valid()) {
-    throw CannotCreate(concat(folder.string(), ": no file can be made there: ", reason()));
-  }
+  if (!file.valid()) throw_with_reason<CannotCreate>(folder, "no file can be made there");
   ::unlink(name.c_str());
   return file;
 }
 
 }  // namespace
 
+struct MappedFile::Mapping {
+  Mapping(Descriptor file, std::size_t length, WhenCut when_cut, const fs::path& name)
+      : data(::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file.get(), 0)), size(length) {
+    if (data == MAP_FAILED) throw_with_reason<IoError>(name, "cannot be mapped");
+    watch = begin_watch(static_cast<char*>(data), size, when_cut, name);
+    if (when_cut == WhenCut::kFill) kept = std::move(file);
+  }
+  ~Mapping() {
+    if (watch >= 0) {
+      watches[static_cast<std::size_t>(watch)].begin = nullptr;
+      watches[static_cast<std::size_t>(watch)].taken = false;
+    }
+    ::munmap(data, size);
+  }
+
+  void* data;
+  std::size_t size;
+  int watch = -1;
+  Descriptor kept{-1};  ///< with kFill
+};
+
 MappedFile::MappedFile(const fs::path& path, WhenCut when_cut) {
-  OpenedFile file = open_for_reading(path);
-  map(file.descriptor.get(), file.size, when_cut, path);
-  if (size_ > 0 && when_cut == WhenCut::kFill) descriptor_ = file.descriptor.release();
+  auto [file, size] = open_for_reading(path);
+  if (size > 0) {
+    mapping_ = std::make_shared<const Mapping>(std::move(file), size, when_cut, path);
+  }
 }
 
 MappedFile MappedFile::of_scratch(std::string_view bytes, const fs::path& folder) {
-  const Descriptor file = nameless_file(folder);
+  Descriptor file = nameless_file(folder);
   if (!write_all(file.get(), bytes)) {
-    throw IoError(concat(folder.string(), ": a temporary file of ", format_bytes(bytes.size()),
-                         " cannot be written: ", reason()));
+    throw_with_reason<IoError>(
+        folder, concat("a temporary file of ", format_bytes(bytes.size()), " cannot be written"));
   }
   MappedFile mapped;
-  mapped.map(file.get(), bytes.size(), WhenCut::kEnd, folder / "a temporary file");
+  if (!bytes.empty()) {
+    mapped.mapping_ = std::make_shared<const Mapping>(std::move(file), bytes.size(), WhenCut::kEnd,
+                                                      folder / "a temporary file");
+  }
   return mapped;
 }
 
-void MappedFile::map(int descriptor, std::size_t size, WhenCut when_cut, const fs::path& name) {
-  if (size == 0) return;
-  void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-  if (data == MAP_FAILED) throw IoError(concat(name.string(), ": cannot be mapped: ", reason()));
-  watch_ = begin_watch(static_cast<char*>(data), size, when_cut, name);
-  data_ = static_cast<const char*>(data);
-  size_ = size;
-}
-
-MappedFile::~MappedFile() {
-  end_watch(watch_);
-  if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-MappedFile::MappedFile(MappedFile&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)),
-      size_(std::exchange(other.size_, 0)),
-      watch_(std::exchange(other.watch_, -1)),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-  std::swap(data_, other.data_);
-  std::swap(size_, other.size_);
-  std::swap(watch_, other.watch_);
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
+std::string_view MappedFile::bytes() const {
+  if (!mapping_) return {};
+  return {static_cast<const char*>(mapping_->data), mapping_->size};
 }
 
 bool MappedFile::was_cut() const {
-  if (watch_ >= 0 && watches[static_cast<std::size_t>(watch_)].cut) return true;
+  if (!mapping_) return false;
+  const auto& [data, size, watch, kept] = *mapping_;
+  if (watch >= 0 && watches[static_cast<std::size_t>(watch)].cut) return true;
   struct stat status {};
-  return descriptor_ >= 0 &&
-         (::fstat(descriptor_, &status) != 0 || static_cast<std::size_t>(status.st_size) < size_);
+  return kept.valid() &&
+         (::fstat(kept.get(), &status) != 0 || static_cast<std::size_t>(status.st_size) < size);
 }
 
 }  // namespace crowdface

@@ -55,10 +55,6 @@ fs::path output_file(const fs::path& path) {
   return file;
 }
 
-void refuse_to_write_over(const std::vector<fs::path>& inputs, const fs::path& path) {
-  refuse_to_write_over(inputs, std::vector{path});
-}
-
 void refuse_to_write_over(const std::vector<fs::path>& inputs,
                           const std::vector<fs::path>& outputs) {
   std::map<FileId, fs::path> known;

@@ -12,10 +12,7 @@ namespace crowdface {
 /// file bears its name: no folder, no device, no pipe, no link that leads nowhere.
 std::filesystem::path output_file(const std::filesystem::path& path);
 
-/// \throws UsageError if `path` is one of these files, under whatever name.
-void refuse_to_write_over(const std::vector<std::filesystem::path>& inputs,
-                          const std::filesystem::path& path);
-/// The same of many outputs.
+/// \throws UsageError if an output is one of the inputs, under whatever name.
 void refuse_to_write_over(const std::vector<std::filesystem::path>& inputs,
                           const std::vector<std::filesystem::path>& outputs);
 

@@ -15,11 +15,34 @@
 #include <tbb/task_group.h>
 
 #include "crowdface/core/fixed_order.h"
-#include "crowdface/core/hand_over.h"
 #include "crowdface/core/interrupt.h"
+
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 namespace crowdface {
 namespace {
+
+/// Where threads of a library leave work that others of its threads take up. Debian's TBB and Embree
+/// are built without ThreadSanitizer, which has to be told of it; other builds do nothing here.
+class HandOver {
+ public:
+#ifdef __SANITIZE_THREAD__
+  void give() {
+    __tsan_release(&at_);
+  }
+  void take() {
+    __tsan_acquire(&at_);
+  }
+
+ private:
+  char at_ = 0;
+#else
+  void give() {}
+  void take() {}
+#endif
+};
 
 /// What the items of a loop share: they happen after what stands before the loop and before what
 /// follows it, but stay unordered among themselves, so that a race between two of them is reported.

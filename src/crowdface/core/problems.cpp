@@ -1,32 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/problems.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/core/text.h"
 
 namespace crowdface {
 
 void Problems::add(ExitCode kind, std::string message) {
   // The same problem met on two paths is told once.
-  if (std::ranges::find(messages_, message) != messages_.end()) return;
+  if (contains(messages_, message)) return;
   messages_.push_back(std::move(message));
   kinds_.push_back(kind);
 }
 
 ExitCode Problems::code() const {
   for (const ExitCode first : {ExitCode::kUsage, ExitCode::kMissingInput, ExitCode::kBadData}) {
-    if (std::ranges::find(kinds_, first) != kinds_.end()) return first;
+    if (contains(kinds_, first)) return first;
   }
   return kinds_.empty() ? ExitCode::kDone : kinds_.front();
 }
 
 void Problems::throw_if_any() const {
-  if (empty()) return;
-  std::string all;
-  for (const std::string& message : messages_) {
-    if (!all.empty()) all += '\n';
-    all += message;
-  }
-  throw Error(code(), all);
+  if (!empty()) throw Error(code(), join(messages_, "\n"));
 }
 
 }  // namespace crowdface

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reads of file.h and text_pieces.h.
+// What looks at files and reads them, of file.h, text_pieces.h and descriptor.h.
 #include <algorithm>
+
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/opened_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/text_pieces.h"
 
@@ -20,11 +22,52 @@ std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
   for (;;) {
     const ssize_t got = ::read(descriptor.get(), to, size);
     if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR) throw IoError(concat(path.string(), ": reading failed: ", reason()));
+    if (errno != EINTR) throw_with_reason<IoError>(path, "reading failed");
   }
 }
 
 }  // namespace
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+void remove_if_there(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove(path, ignored);
+}
+
+OpenedFile open_for_reading(const fs::path& path) {
+  int fd = -1;
+  do {  // a pipe, which would be waited for, is told below
+    fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  } while (fd < 0 && errno == EINTR);
+  if (fd < 0) {
+    // Not the file's fault, but the machine's: the disk, or too many open files.
+    for (const int failure : {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, ESTALE}) {
+      if (errno == failure) throw_with_reason<IoError>(path, "cannot be opened");
+    }
+    throw_with_reason<MissingInput>(path, "cannot be opened");
+  }
+  struct stat status {};
+  Descriptor descriptor(fd);
+  if (::fstat(fd, &status) != 0) throw_with_reason<IoError>(path, "cannot be looked at");
+  if (!S_ISREG(status.st_mode)) {
+    throw MissingInput(concat(path.string(), ": expected a regular file"));
+  }
+  return {std::move(descriptor), static_cast<std::size_t>(status.st_size)};
+}
 
 std::string read_file(const fs::path& path) {
   const OpenedFile file = open_for_reading(path);
@@ -53,9 +96,9 @@ FileDigest hash_file(const fs::path& path) {
   return digest_of([&](const TakePiece& take) { read_pieces(path, take); });
 }
 
-bool holds(const std::filesystem::path& path, const FileDigest& content) {
+bool holds(const fs::path& path, const FileDigest& content) {
   std::error_code error;
-  if (std::filesystem::file_size(path, error) != content.bytes || error) return false;
+  if (fs::file_size(path, error) != content.bytes || error) return false;
   try {
     return hash_file(path) == content;
   } catch (const Error&) {

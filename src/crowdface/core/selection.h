@@ -3,25 +3,20 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
+#include <ranges>
 #include <vector>
 
 namespace crowdface {
 
 /// Not more than `most` of some things, evenly chosen, in their order.
-template <class T>
-std::vector<T> some_of(std::span<const T> all, std::size_t most) {
+template <class Items>
+std::vector<std::ranges::range_value_t<Items>> some_of(const Items& all, std::size_t most) {
   const std::size_t count = std::min(all.size(), most);
-  std::vector<T> some;
+  std::vector<std::ranges::range_value_t<Items>> some;
   some.reserve(count);
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
 }
-template <class T>
-std::vector<T> some_of(const std::vector<T>& all, std::size_t most) {
-  return some_of(std::span<const T>(all), most);
-}
-
 /// The value that `rank` others stand before in ascending order. \param rank  < values.size().
 inline double value_of_rank(std::vector<double> values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "crowdface/core/utf8.h"
-
 namespace crowdface {
 namespace {
 
@@ -66,7 +64,12 @@ bool is_unprintable(std::string_view character) {
          (byte(1) == 0x81 && within(byte(2), 0xA6, 0xA9));  // U+200E, U+2028…, U+2066…
 }
 
-void append_escaped(std::string_view character, std::string& out) {
+/// Adds a character, or its bytes in hexadecimal if no terminal should be given it.
+void append_printable(std::string_view character, std::string& out) {
+  if (!is_unprintable(character)) {
+    out += character;
+    return;
+  }
   for (const char c : character) out += "\\x" + hex(static_cast<unsigned char>(c), 2);
 }
 
@@ -137,10 +140,10 @@ std::string printable(std::string_view text) {
   out.reserve(text.size());
   for (std::size_t at = 0; at < text.size();) {
     const std::string_view character = character_at(text, at);
-    if (character != "\n" && is_unprintable(character)) {
-      append_escaped(character, out);
-    } else {
+    if (character == "\n") {
       out += character;
+    } else {
+      append_printable(character, out);
     }
     at += character.size();
   }
@@ -154,16 +157,18 @@ std::string quoted(std::string_view text) {
   while (at < text.size()) {
     const std::string_view character = character_at(text, at);
     if (at + character.size() > kLongest) break;
-    if (is_unprintable(character)) {
-      append_escaped(character, out);
-    } else {
-      if (character == "\"" || character == "\\") out += '\\';
-      out += character;
-    }
+    if (character == "\"" || character == "\\") out += '\\';
+    append_printable(character, out);
     at += character.size();
   }
   if (at < text.size()) out += "…";
   return out + '"';
+}
+
+bool is_name(std::string_view text, std::size_t longest) {
+  return !text.empty() && text.size() <= longest && text.front() != '.' && text != "__proto__" &&
+         text.find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == text.npos;
 }
 
 std::optional<std::string> nearest_word(std::string_view word,
@@ -178,6 +183,29 @@ std::optional<std::string> nearest_word(std::string_view word,
     }
   }
   return best;
+}
+
+std::size_t utf8_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if (!is_utf8_continuation(text[i])) return 0;
+  }
+  const auto second = static_cast<unsigned char>(text[1]);
+  const bool refused = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
+                       (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
+  return refused ? 0 : length;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {

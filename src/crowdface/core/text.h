@@ -46,6 +46,13 @@ inline std::string quoted(const char* text) {
   return quoted(std::string_view(text));
 }
 
+inline constexpr std::size_t kLongestName = 64;
+inline constexpr std::size_t kLongestId = 2 * kLongestName + 22;  ///< CROWD_FAMILY_NUMBER
+/// Whether it is a name that can be a file's on any system: at most `longest` letters (a–z), digits,
+/// '_', '-' and '.', not starting with '.', and not empty; nor __proto__, by which a script's objects
+/// keep what is none of theirs.
+bool is_name(std::string_view text, std::size_t longest = kLongestName);
+
 /// The candidate nearest to `word` by edit distance if it is near enough to be what was meant.
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
@@ -53,6 +60,18 @@ std::optional<std::string> nearest_word(std::string_view word,
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
+/// Whether a byte is the second or a later one of a UTF-8 character.
+inline bool is_utf8_continuation(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
+}
+
+/// Bytes of the UTF-8 character that `text`, not empty, starts with; 0 if it is none (RFC 3629: no
+/// overlong forms, no surrogates, nothing above U+10FFFF).
+std::size_t utf8_length(std::string_view text);
+
+/// Whether all of `text` is UTF-8. (A file's name may hold any bytes.)
+bool is_utf8(std::string_view text);
+
 /// What stands between separators, be it nothing; of a text without one, all of it.
 std::vector<std::string_view> split(std::string_view text, char separator);
 /// The lines of a text without their ends.

@@ -58,9 +58,7 @@ class TemporaryFile {
       path_.replace_filename(temporary_name());
       file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
       if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or another machine's
-      if (!file_.valid()) {
-        throw CannotCreate(concat(target.string(), ": cannot be created: ", reason()));
-      }
+      if (!file_.valid()) throw_with_reason<CannotCreate>(target, "cannot be created");
       if (still_there()) return;
     }
     throw CannotCreate(concat(target.string(), ": cannot be created: no name is free"));
@@ -111,7 +109,7 @@ class TemporaryFile {
   }
 
   [[noreturn]] void fail(std::string_view what) const {
-    throw IoError(concat(target_.string(), ": ", what, " failed: ", reason()));
+    throw_with_reason<IoError>(target_, concat(what, " failed"));
   }
 
   static constexpr std::size_t kAtATime = std::size_t{8} << 20U;
@@ -132,7 +130,7 @@ void sync_directory(const fs::path& directory) {
   const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor.valid() && errno == EACCES) return;  // may be written to, but not read
   if (!descriptor.valid() || !sync(descriptor.get())) {
-    throw IoError(concat(directory.string(), ": cannot be synchronised: ", reason()));
+    throw_with_reason<IoError>(directory, "cannot be synchronised");
   }
 }
 

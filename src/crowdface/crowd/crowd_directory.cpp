@@ -10,8 +10,6 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
-#include "crowdface/core/list_files.h"
-#include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/text_pieces.h"
 #include "crowdface/crowd/ledger.h"
@@ -62,8 +60,10 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
 /// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
 /// stay: they are the input's own, and written anew if they are needed.)
 void remove_crowd(const CrowdDirectory& directory) {
-  std::error_code ignored;
-  if (fs::exists(directory.plan(), ignored)) {
+  const auto remove_files = [](const fs::path& folder, const auto& is_ours) {
+    for (const fs::path& file : list_files(folder, is_ours)) remove_file(file);
+  };
+  if (is_there(directory.plan())) {
     const std::vector<std::string> ids = ids_in_plan(directory);
     const std::set<std::string> known(ids.begin(), ids.end());
     const auto is_mesh = [&](const fs::path& path) {
@@ -76,20 +76,16 @@ void remove_crowd(const CrowdDirectory& directory) {
       return known.contains(name.substr(0, plus)) &&
              (mesh_format_of(path).has_value() || name.substr(plus + 1) == kFollowingPoints);
     };
+    const auto is_render = [&](const fs::path& path) {
+      return path.extension() == ".png" && known.contains(path.stem().string());
+    };
     for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
-      for (const fs::path& file : list_files(folder, is_mesh)) remove_file(file);
+      remove_files(folder, is_mesh);
     }
     for (const fs::path& folder : with_numbered_folders(directory.renders())) {
-      for (const fs::path& file : list_files(folder, [&](const fs::path& path) {
-             return path.extension() == ".png" && known.contains(path.stem().string());
-           })) {
-        remove_file(file);
-      }
+      remove_files(folder, is_render);
     }
   }
-  const auto remove_files = [](const fs::path& folder, const auto& is_ours) {
-    for (const fs::path& file : list_files(folder, is_ours)) remove_file(file);
-  };
   for (const fs::path& sheet : crowd_sheets(directory)) remove_file(sheet);
   remove_files(directory.head_render("").parent_path(), has_ending(".png"));
   remove_files(directory.founder_render("").parent_path(), has_ending(".png"));
@@ -122,9 +118,8 @@ void remove_crowd(const CrowdDirectory& directory) {
 /// \throws CannotCreate if something stands in the way of a folder or file of the crowd.
 void refuse_obstacles(const CrowdDirectory& directory) {
   for (const fs::path& folder : crowd_folders(directory)) {
-    std::error_code ignored;
-    if (!fs::exists(folder, ignored)) continue;
-    if (!fs::is_directory(folder, ignored)) {
+    if (!is_there(folder)) continue;
+    if (!is_folder(folder)) {
       throw CannotCreate(concat(folder.string(), ": expected a folder, or nothing"));
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0) {
@@ -132,59 +127,30 @@ void refuse_obstacles(const CrowdDirectory& directory) {
     }
   }
   std::vector<fs::path> files = record_files(directory);
-  for (const fs::path& file :
-       {directory.config(), directory.log(), directory.lock(), directory.sheet(1),
-        directory.sheets() / "index.png", directory.gallery() / kGalleryPageFiles.front()}) {
-    files.push_back(file);
-  }
+  files.insert(files.end(),
+               {directory.config(), directory.log(), directory.lock(), directory.sheet(1),
+                directory.sheets() / "index.png", directory.gallery() / kGalleryPageFiles.front()});
   for (const fs::path& file : files) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored) || fs::is_regular_file(file, ignored)) continue;
+    if (!is_there(file) || is_file(file)) continue;
     throw CannotCreate(concat(file.string(), ": expected a file, or nothing"));
   }
 }
 
 /// Whether a folder that has no config has files that a crowd of ours would replace. A crowd that only lost its config is known by its ledger.
 bool holds_other_files(const CrowdDirectory& directory, const std::string& effective_config) {
-  std::error_code ignored;
-  if (fs::exists(directory.config(), ignored)) return false;
+  if (is_there(directory.config())) return false;
   const std::string name = directory.relative(directory.config());
   for (const fs::path& ledger : directory.ledgers()) {
     for (const LedgerEntry& entry : read_ledger(ledger, name).entries) {
       if (entry.key == hash_bytes(effective_config)) return false;
     }
   }
-  const std::vector<fs::path> papers = record_files(directory), folders = crowd_folders(directory);
-  const bool holds_any =
-      std::any_of(papers.begin(), papers.end(),
-                  [&](const fs::path& file) { return fs::exists(file, ignored); }) ||
-      std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
-        return fs::is_directory(folder, ignored) && !list_folder(folder).empty();
-      });
+  const bool holds_any = std::ranges::any_of(record_files(directory), is_there) ||
+                         std::ranges::any_of(crowd_folders(directory), [](const fs::path& folder) {
+                           return !list_folder(folder).empty();
+                         });
   // Another shard may have begun meanwhile: the config is the first that it writes.
-  return holds_any && !fs::exists(directory.config(), ignored);
-}
-
-/// "ledger-2of7.jsonl" beside "ledger.jsonl".
-fs::path of_shard(const fs::path& path, const Shard& shard) {
-  if (shard.whole()) return path;
-  fs::path result = path;
-  return result.replace_filename(
-      concat(path.stem().string(), '-', shard.name(), path.extension().string()));
-}
-
-std::vector<fs::path> of_all_shards(const fs::path& path) {
-  const std::string start = path.stem().string() + "-", end = path.extension().string();
-  return list_files(path.parent_path(), [&](const fs::path& file) {
-    std::string name = file.filename().string();
-    if (name.size() <= start.size() + end.size() || !name.starts_with(start) ||
-        !name.ends_with(end)) {
-      return false;
-    }
-    name = name.substr(start.size(), name.size() - start.size() - end.size());
-    const std::size_t of = name.find("of");
-    return of != name.npos && parse_shard(name.replace(of, 2, "/"));
-  });
+  return holds_any && !is_there(directory.config());
 }
 
 /// Nothing that a run writes, appends to or removes is reached by a link that leads elsewhere.
@@ -202,29 +168,20 @@ void refuse_links(const CrowdDirectory& directory) {
   }
 }
 
+/// Whether a file in the folder of contact sheets is one that we write, by its name alone.
+bool is_numbered_sheet(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const std::string ending = path.extension().string();
+  if (ending != ".png" && ending != ".exr" && ending != ".pdf") return false;
+  if (stem == "index" || stem == "sheets") return true;
+  for (const std::string_view start : {"sheet_", "heads_", "shapes_", "index_", "sheets_"}) {
+    if (stem.starts_with(start) && parse_unsigned(stem.substr(start.size()))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-fs::path CrowdDirectory::log(const Shard& shard) const {
-  return of_shard(log(), shard);
-}
-fs::path CrowdDirectory::ledger(const Shard& shard) const {
-  return of_shard(ledger(), shard);
-}
-fs::path CrowdDirectory::lock(const Shard& shard) const {
-  return of_shard(lock(), shard);
-}
-std::vector<fs::path> CrowdDirectory::shard_ledgers() const {
-  return of_all_shards(ledger());
-}
-std::vector<fs::path> CrowdDirectory::shard_logs() const {
-  return of_all_shards(log());
-}
-fs::path CrowdDirectory::progress(const Shard& shard) const {
-  return of_shard(root / "progress.json", shard);
-}
-std::vector<fs::path> CrowdDirectory::all_progress() const {
-  return of_all_shards(root / "progress.json");
-}
 std::vector<fs::path> CrowdDirectory::ledgers() const {
   std::vector<fs::path> all = shard_ledgers();
   all.push_back(ledger());
@@ -254,27 +211,6 @@ std::vector<std::string> ids_in_plan(const CrowdDirectory& directory) {
   });
   return ids;
 }
-
-bool is_gallery_page_file(const fs::path& path) {
-  return std::find(kGalleryPageFiles.begin(), kGalleryPageFiles.end(), path.filename().string()) !=
-         kGalleryPageFiles.end();
-}
-
-namespace {
-
-/// Whether a file in the folder of contact sheets is one that we write, by its name alone.
-bool is_numbered_sheet(const fs::path& path) {
-  const std::string stem = path.stem().string();
-  const std::string ending = path.extension().string();
-  if (ending != ".png" && ending != ".exr" && ending != ".pdf") return false;
-  if (stem == "index" || stem == "sheets") return true;
-  for (const std::string_view start : {"sheet_", "heads_", "shapes_", "index_", "sheets_"}) {
-    if (stem.starts_with(start) && parse_unsigned(stem.substr(start.size()))) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
   std::set<std::string> recorded;
@@ -319,9 +255,8 @@ std::vector<std::string> one_of_each_folder(const CrowdDirectory& directory,
 
 std::vector<fs::path> with_numbered_folders(const fs::path& folder) {
   std::vector<fs::path> folders = list_files(folder, [](const fs::path& path) {
-    std::error_code ignored;
     return path.filename().string().find_first_not_of("0123456789") == std::string::npos &&
-           fs::is_directory(path, ignored);
+           is_folder(path);
   });
   folders.insert(folders.begin(), folder);
   return folders;
@@ -333,8 +268,7 @@ fs::path CrowdDirectory::review(std::size_t number) const {
 
 std::vector<fs::path> CrowdDirectory::kept_reviews() const {
   std::vector<fs::path> kept;
-  std::error_code ignored;
-  while (fs::exists(review(kept.size() + 1), ignored)) kept.push_back(review(kept.size() + 1));
+  while (is_there(review(kept.size() + 1))) kept.push_back(review(kept.size() + 1));
   return kept;
 }
 
@@ -343,10 +277,14 @@ fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format,
   return meshes_of(id) / concat(id, part.empty() ? "" : "+", part, extension_of(format));
 }
 
+void require_crowd(const CrowdDirectory& directory) {
+  if (is_there(directory.config())) return;
+  throw MissingInput(concat(directory.config().string(), ": not there; expected a crowd's folder"));
+}
+
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                            Replace replace) {
-  std::error_code ignored;
-  if (fs::exists(directory.config(), ignored) && replace == Replace::kRefuse) {
+  if (is_there(directory.config()) && replace == Replace::kRefuse) {
     if (const auto key = config.difference(read_file(directory.config()))) {
       throw UsageError(concat(directory.root.string(),
                               ": holds another config's crowd (its config.yaml differs from this "
@@ -360,7 +298,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& c
   if (!fs::status_known(fs::status(existing, error))) {  // too long, or links in a circle
     throw CannotCreate(concat(directory.root.string(), ": cannot be made: ", error.message()));
   }
-  while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
+  while (!is_there(existing) && existing.has_relative_path()) {
     existing = existing.parent_path();
   }
   refuse_links(directory);
@@ -371,7 +309,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& c
                             "says they are its own; choose another folder with --out, or replace "
                             "them with --force"));
   }
-  if (!fs::is_directory(existing, ignored) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
+  if (!is_folder(existing) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
     throw CannotCreate(
         concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));
   }
@@ -381,8 +319,7 @@ void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& co
                           Replace replace) {
   check_crowd_directory(directory, config, replace);
   make_directories(directory.root);
-  std::error_code ignored;
-  const bool is_others = fs::exists(directory.config(), ignored)
+  const bool is_others = is_there(directory.config())
                              ? config.difference(read_file(directory.config())).has_value()
                              : holds_other_files(directory, config.text);
   if (is_others && replace == Replace::kForce) remove_crowd(directory);

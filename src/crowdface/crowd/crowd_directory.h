@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "crowdface/cast/cast_face.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/crowd/shard.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_format.h"
@@ -47,17 +48,21 @@ struct CrowdDirectory {
   /// Which job the plan is of, for shards that take it as it is: see planned_faces.
   std::filesystem::path planned() const { return root / "planned.json"; }
   /// How far a shard is, for those who watch.
-  std::filesystem::path progress(const Shard& shard) const;
-  std::vector<std::filesystem::path> all_progress() const;
+  std::filesystem::path progress(const Shard& shard) const {
+    return of_shard(root / "progress.json", shard);
+  }
+  std::vector<std::filesystem::path> all_progress() const {
+    return of_all_shards(root / "progress.json");
+  }
   /// What runs the crowd on other machines: task scripts and what tasks said.
   std::filesystem::path submitted() const { return root / "submit"; }
   /// A shard's own; those above if the shard is the whole crowd.
-  std::filesystem::path log(const Shard& shard) const;
-  std::filesystem::path ledger(const Shard& shard) const;
-  std::filesystem::path lock(const Shard& shard) const;
+  std::filesystem::path log(const Shard& shard) const { return of_shard(log(), shard); }
+  std::filesystem::path ledger(const Shard& shard) const { return of_shard(ledger(), shard); }
+  std::filesystem::path lock(const Shard& shard) const { return of_shard(lock(), shard); }
   /// The ledgers and logs of all shards that have written some, by name.
-  std::vector<std::filesystem::path> shard_ledgers() const;
-  std::vector<std::filesystem::path> shard_logs() const;
+  std::vector<std::filesystem::path> shard_ledgers() const { return of_all_shards(ledger()); }
+  std::vector<std::filesystem::path> shard_logs() const { return of_all_shards(log()); }
   /// Those of all shards, then the crowd's own; they need not be there.
   std::vector<std::filesystem::path> ledgers() const;
   std::filesystem::path meshes() const { return root / "meshes"; }
@@ -128,7 +133,9 @@ std::vector<std::string> ids_in_plan(const CrowdDirectory& directory);
 /// The gallery's page, in its folder; what it shows lies in `data` below.
 inline constexpr std::array<std::string_view, 4> kGalleryPageFiles = {
     "index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"};
-bool is_gallery_page_file(const std::filesystem::path& path);
+inline bool is_gallery_page_file(const std::filesystem::path& path) {
+  return contains(kGalleryPageFiles, path.filename().string());
+}
 
 /// Where the material files of an attachment and the textures that those name lie, from the meshes that all
 /// share.
@@ -142,6 +149,9 @@ inline constexpr std::string_view kSheetsItem = "sheets";
 /// The contact sheets in the folder: those of families, whose names may be anything, by the ledger
 /// alone, the others by their names.
 std::vector<std::filesystem::path> crowd_sheets(const CrowdDirectory& directory);
+
+/// \throws MissingInput if the folder is no crowd's.
+void require_crowd(const CrowdDirectory& directory);
 
 enum class Replace { kRefuse, kForce };
 

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/crowd/crowd_lock.h"
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
-namespace {
-
-namespace fs = std::filesystem;
-
-void remove_all_leftovers(const fs::path& root) {
-  std::size_t removed = 0;
-  for (const fs::path& folder : folders_from(root)) removed += remove_leftovers(folder);
-  if (removed > 0) log_debug(concat(removed, " files that a killed run left half written removed"));
-}
-
-}  // namespace
-
 CrowdLock::CrowdLock(const CrowdDirectory& directory, const Shard& shard) {
   make_directories(directory.root);
   root_ = std::make_unique<HeldFolder>(directory.root);
@@ -33,7 +20,9 @@ CrowdLock::CrowdLock(const CrowdDirectory& directory, const Shard& shard) {
     shard_ = std::make_unique<FileLock>(directory.lock(shard), LockKind::kExclusive,
                                         [&] { tell(concat("shard ", shard.name())); });
   }
-  remove_all_leftovers(directory.root);
+  std::size_t removed = 0;
+  for (const auto& folder : folders_from(directory.root)) removed += remove_leftovers(folder);
+  if (removed > 0) log_debug(concat(removed, " files that a killed run left half written removed"));
 }
 
 }  // namespace crowdface

@@ -8,7 +8,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/list_files.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/text_pieces.h"
 #include "crowdface/crowd/crowd_directory.h"
@@ -35,15 +35,6 @@ std::string_view quoted_after(std::string_view line, std::string_view start) {
   return line.substr(0, line.find('"'));
 }
 
-/// Calls `use` with each line that has its end.
-template <class Use>
-void for_each_line(std::string_view text, const Use& use) {
-  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != text.npos;
-       begin = end + 1) {
-    use(text.substr(begin, end - begin));
-  }
-}
-
 /// Calls `use` with each line of a file that has its end; others may be replacing or removing the file.
 template <class Use>
 void for_each_line_of(const fs::path& path, const Use& use) {
@@ -68,14 +59,6 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
   return ids;
 }
 
-/// "2of7" in "ledger-2of7.jsonl".
-std::optional<Shard> shard_in_name(const fs::path& path) {
-  std::string name = path.stem().string();
-  name = name.substr(name.find('-') + 1);
-  const std::size_t of = name.find("of");
-  return of == name.npos ? std::nullopt : parse_shard(name.replace(of, 2, "/"));
-}
-
 /// How many shards the crowd was last shared among; 1 if it was not.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
   const auto job = parse_shallow_json(text_of(directory.submitted() / "job.json"));
@@ -86,7 +69,8 @@ std::uint64_t shard_count(const CrowdDirectory& directory) {
   std::uint64_t count = 1;
   for (const auto& files : {directory.shard_ledgers(), directory.all_progress()}) {
     for (const fs::path& file : files) {
-      if (const auto shard = shard_in_name(file)) count = std::max(count, shard->count);
+      const std::string stem = file.stem().string();
+      count = std::max(count, shard_of_name(stem.substr(stem.find('-') + 1))->count);
     }
   }
   return count;
@@ -167,7 +151,8 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
 
 TaskEnd end_of_task(std::string_view log) {
   TaskEnd end;
-  for_each_line(log, [&](std::string_view line) {
+  // A last line without its end is being written.
+  for (const std::string_view line : split_lines(log.substr(0, log.rfind('\n') + 1))) {
     if (line.starts_with("=== ended with code ")) {
       end.code = parse_unsigned(line.substr(line.rfind(' ') + 1));
     } else if (line.starts_with("===")) {
@@ -175,20 +160,16 @@ TaskEnd end_of_task(std::string_view log) {
     } else if (line.find("error: ") != line.npos) {
       end.reason = line.substr(line.find("error: ") + std::string_view("error: ").size());
     }
-  });
+  }
   return end;
 }
 
 CrowdStatus crowd_status(const fs::path& crowd_directory) {
   const CrowdDirectory directory{crowd_directory};
-  std::error_code ignored;
-  if (!fs::exists(directory.config(), ignored) && !fs::exists(directory.submitted(), ignored)) {
-    throw MissingInput(
-        concat(directory.config().string(), ": not there; expected a crowd's folder"));
-  }
+  if (!is_there(directory.submitted())) require_crowd(directory);
   CrowdStatus status;
-  status.planned = fs::exists(directory.plan(), ignored);
-  status.gathered = fs::exists(directory.report(), ignored);
+  status.planned = is_there(directory.plan());
+  status.gathered = is_there(directory.report());
   const std::uint64_t shards = status.gathered ? 1 : shard_count(directory);
   for (std::uint64_t index = 1; shards > 1 && index <= shards; ++index) {
     status.shards.push_back(status_of(directory, {index, shards}));

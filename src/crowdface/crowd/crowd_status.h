@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "crowdface/crowd/shard.h"
-#include "crowdface/crowd/shard_notes.h"
 
 namespace crowdface {
 

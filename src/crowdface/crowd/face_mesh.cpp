@@ -18,27 +18,23 @@ Positions read_face(const CrowdDirectory& directory, const std::string& id,
   }
   const MeshFormat format = formats.front();
   const std::filesystem::path path = directory.mesh(id, format);
-  Positions positions;
-  switch (format) {
-    case MeshFormat::kObj:
-      positions = read_obj(path).positions;
-      break;
-    case MeshFormat::kPly:
-      positions = read_ply_positions(path);
-      break;
-    case MeshFormat::kGlb:
-      positions = read_glb_positions(path, vertices);
-      break;
-    case MeshFormat::kUsd:
-      positions = read_usda_positions(path, vertices);
-      break;
-    case MeshFormat::kPoints:
-      positions = read_npy(path);
-      break;
-  }
+  const Positions positions = [&] {
+    switch (format) {
+      case MeshFormat::kObj:
+        return read_obj(path).positions;
+      case MeshFormat::kPly:
+        return read_ply_positions(path);
+      case MeshFormat::kGlb:
+        return read_glb_positions(path, vertices);
+      case MeshFormat::kUsd:
+        return read_usda_positions(path, vertices);
+      case MeshFormat::kPoints:
+        break;
+    }
+    return read_npy(path);
+  }();
   if (positions.rows() != vertices) {
-    throw InvalidInput(
-        concat(path.string(), ": expected ", vertices, " vertices, found ", positions.rows()));
+    refuse_file(path, concat("expected ", vertices, " vertices, found ", positions.rows()));
   }
   return positions;
 }

@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kEndItem =
-    "end";  // the last line of a finished crowd: its key is all the others
+/// The last line of a finished crowd: its key is all the others.
+constexpr const char* kEndItem = "end";
 constexpr std::string_view kSum = R"(,"sum":")", kEnd = R"("})";
 
 std::optional<std::string> text_at(const Json& json, const char* key) {
@@ -31,15 +31,6 @@ std::optional<std::string> text_at(const Json& json, const char* key) {
 std::optional<Digest> digest_at(const Json& json, const char* key) {
   const auto text = text_at(json, key);
   return text ? parse_digest(*text) : std::nullopt;
-}
-
-std::optional<LedgerEntry::File> file_of(const Json& json) {
-  if (!json.is_object()) return std::nullopt;
-  const auto name = text_at(json, "file");
-  const auto hash = digest_at(json, "hash");
-  const auto bytes = json.find("bytes");
-  if (!name || !hash || bytes == json.end() || !bytes->is_number_unsigned()) return std::nullopt;
-  return LedgerEntry::File{*name, {bytes->get<std::uint64_t>(), *hash}};
 }
 
 /// How many files stand in each folder of the crowd; "." are those in none.
@@ -89,15 +80,30 @@ class LedgerReader {
 
 }  // namespace
 
+Json file_to_json(const LedgerEntry::File& file) {
+  return {{"file", file.name}, {"bytes", file.content.bytes}, {"hash", file.content.digest.hex()}};
+}
+
+std::optional<std::vector<LedgerEntry::File>> files_from_json(const Json& list) {
+  if (!list.is_array()) return std::nullopt;
+  std::vector<LedgerEntry::File> files;
+  for (const Json& file : list) {
+    if (!file.is_object()) return std::nullopt;
+    const auto name = text_at(file, "file");
+    const auto hash = digest_at(file, "hash");
+    const Json bytes = file.value("bytes", Json());
+    if (!name || !hash || !bytes.is_number_unsigned()) return std::nullopt;
+    files.push_back({*name, {bytes.get<std::uint64_t>(), *hash}});
+  }
+  return files;
+}
+
 std::string format_ledger_line(const LedgerEntry& entry) {
   Json json;
   json["item"] = entry.item;
   json["key"] = entry.key.hex();
   json["files"] = Json::array();
-  for (const LedgerEntry::File& file : entry.files) {
-    json["files"].push_back(
-        {{"file", file.name}, {"bytes", file.content.bytes}, {"hash", file.content.digest.hex()}});
-  }
+  for (const LedgerEntry::File& file : entry.files) json["files"].push_back(file_to_json(file));
   if (!entry.note.empty()) json["note"] = Json::parse(entry.note);
   std::string line = json.dump();
   line.pop_back();
@@ -115,14 +121,10 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line) {
   if (!json.is_object()) return std::nullopt;
   const auto item = text_at(json, "item");
   const auto key = digest_at(json, "key");
-  const auto files = json.find("files");
-  if (!item || !key || files == json.end() || !files->is_array()) return std::nullopt;
-  LedgerEntry entry{*item, *key, {}, {}};
-  for (const Json& each : *files) {
-    auto file = file_of(each);
-    if (!file) return std::nullopt;
-    entry.files.push_back(std::move(*file));
-  }
+  const auto list = json.find("files");
+  auto files = list == json.end() ? std::nullopt : files_from_json(*list);
+  if (!item || !key || !files) return std::nullopt;
+  LedgerEntry entry{*item, *key, std::move(*files), {}};
   if (const auto note = json.find("note"); note != json.end()) entry.note = note->dump();
   return entry;
 }
@@ -138,8 +140,7 @@ LedgerLines parse_ledger(std::string_view text) {
 }
 
 LedgerLines read_ledger(const fs::path& path, std::string_view item) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) return {};
+  if (!is_there(path)) return {};
   const std::string start = item.empty() ? "" : concat(R"({"item":)", Json(item).dump());
   LedgerReader reader;
   read_lines(path, [&](std::string_view line, bool ended) {
@@ -154,10 +155,6 @@ bool files_match(const fs::path& root, const LedgerEntry& entry) {
   });
 }
 
-void add_lines(LedgerLines lines, LinesOfItems& to) {
-  for (LedgerEntry& entry : lines.entries) to[entry.item].push_back(std::move(entry));
-}
-
 Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& others)
     : root_(std::move(root)), own_(own) {
   const auto add = [&](LedgerLines lines) {
@@ -170,15 +167,13 @@ Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& 
     others_.push_back(other);
     add(read_ledger(other));
   }
-  std::error_code ignored;
-  const bool exists = fs::exists(own, ignored);
   LedgerLines lines = read_ledger(own);
   if (lines.damaged > 0) {
     log_warning(concat(own.string(), ": ", lines.damaged,
                        lines.damaged == 1 ? " line is" : " lines are",
                        " not whole; what they stand for is done again"));
   }
-  if (lines.damaged > 0 || !exists) {
+  if (lines.damaged > 0 || !is_there(own)) {
     write_file(own, text_of_items(lines.entries.size(),
                                   [&](std::size_t i) { return line_with_end(lines.entries[i]); }));
   }
@@ -222,9 +217,7 @@ void Ledger::record_all(std::vector<LedgerEntry> entries) {
 }
 
 void Ledger::record(LedgerEntry entry) {
-  std::vector<LedgerEntry> one;
-  one.push_back(std::move(entry));
-  record_all(std::move(one));
+  record_all({std::move(entry)});
 }
 
 void Ledger::record(const std::string& item, const Digest& key,
@@ -243,8 +236,7 @@ std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>&
 }
 
 void Ledger::write(const std::string& name, const TextPieces& text) {
-  std::error_code ignored;
-  if (!fs::exists(root_ / name, ignored)) {
+  if (!is_there(root_ / name)) {
     const FileDigest content = write_file(root_ / name, text);
     return record({name, content.digest, {{name, content}}, {}});
   }
@@ -293,8 +285,7 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
     LedgerEntry entry = line_of(known_of.lines);
     std::vector<LedgerEntry::File> files = entry.files;
     for (LedgerEntry::File& file : files) {
-      std::error_code ignored;
-      if (!is_in_them(file.name) || !fs::exists(root_ / file.name, ignored)) continue;
+      if (!is_in_them(file.name) || !is_there(root_ / file.name)) continue;
       file.content = hash_file(root_ / file.name);
     }
     adopt_entry(std::move(entry), std::move(files));
@@ -331,8 +322,7 @@ void Ledger::settle() {
 
 void Ledger::require_files() const {
   const auto require = [&](const fs::path& path) {
-    std::error_code ignored;
-    if (fs::exists(path, ignored)) return;
+    if (is_there(path)) return;
     throw IoError(concat(path.string(),
                          ": was removed while the run was at work; run the same command again"));
   };

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "crowdface/core/append_file.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
@@ -30,6 +32,11 @@ struct LedgerEntry {
   std::string note;         ///< JSON that a later run needs, or empty
 };
 
+/// {"file": …, "bytes": …, "hash": …}
+nlohmann::ordered_json file_to_json(const LedgerEntry::File& file);
+/// \return nothing if it is no such list.
+std::optional<std::vector<LedgerEntry::File>> files_from_json(const nlohmann::ordered_json& list);
+
 /// One line, without line end, and its checksum (docs/crowd-directory.md).
 std::string format_ledger_line(const LedgerEntry& entry);
 /// \return nothing if the line is cut, altered or no such line.
@@ -47,10 +54,6 @@ LedgerLines parse_ledger(std::string_view text);
 /// \param item  whose lines are read; empty: all.
 /// \return no lines if there is no such file. \throws IoError.
 LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item = {});
-
-/// All lines of each item, in the order in which they were read.
-using LinesOfItems = std::map<std::string, std::vector<LedgerEntry>>;
-void add_lines(LedgerLines lines, LinesOfItems& to);
 
 /// Whether all files of an entry stand in the folder as they were written.
 bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);

@@ -8,8 +8,6 @@
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/core/error.h"
-#include "crowdface/core/file.h"
-#include "crowdface/core/name.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/face_json.h"
@@ -42,16 +40,16 @@ class LineReader {
     }
     if (json.contains("group")) face.group = file_name(json, "group", kLongestName);
     face.recipe.target = head(text(json, "target"), "target");
-    if (const auto mixture = json.find("mixture"); mixture != json.end()) {
+    if (const Json* mixture = found(json, "mixture")) {
       set_target(face.recipe, shares(*mixture, "mixture"));
     }
-    if (const auto colours = json.find("colours"); colours != json.end()) {
+    if (const Json* colours = found(json, "colours")) {
       face.recipe.colours = shares(*colours, "colours");
     }
-    if (const auto asymmetry = json.find("asymmetry"); asymmetry != json.end()) {
+    if (const Json* asymmetry = found(json, "asymmetry")) {
       face.recipe.asymmetry = number(*asymmetry, "asymmetry", 0, kMaxAsymmetry);
     }
-    if (const auto mirrored = json.find("mirrored"); mirrored != json.end()) {
+    if (const Json* mirrored = found(json, "mirrored")) {
       if (!mirrored->is_boolean()) fail("mirrored", "true or false", mirrored->dump());
       face.recipe.mirrored = mirrored->get<bool>();
     }
@@ -63,14 +61,14 @@ class LineReader {
     for (const std::string& name : names_.regions) {
       face.recipe.regions.push_back(region(member(regions, name), name));
     }
-    if (const auto age = json.find("age"); age != json.end()) face.age = number(*age, "age");
-    if (const auto parents = json.find("parents"); parents != json.end()) {
+    if (const Json* age = found(json, "age")) face.age = number(*age, "age");
+    if (const Json* parents = found(json, "parents")) {
       face.parents = {text(*parents, "mother"), text(*parents, "father")};
     }
-    if (const auto share = json.find("mother_share"); share != json.end()) {
+    if (const Json* share = found(json, "mother_share")) {
       face.mother_share = number(*share, "mother_share", 0, 1);
     }
-    if (const auto inherits = json.find("inherits"); inherits != json.end()) {
+    if (const Json* inherits = found(json, "inherits")) {
       for (const std::string& name : names_.regions) {
         if (names_.bands.empty()) face.inherits.push_back(text(*inherits, name));
         for (const std::string& band : names_.bands) {
@@ -78,13 +76,9 @@ class LineReader {
         }
       }
     }
-    if (const auto worn = json.find("attachments"); worn != json.end()) {
-      face.attachments = attachments(*worn);
-    }
+    if (const Json* worn = found(json, "attachments")) face.attachments = attachments(*worn);
     if (json.contains("note")) face.notes.review = text(json, "note");
-    if (const auto found = json.find("nearest"); found != json.end()) {
-      face.notes.nearest = nearest(*found);
-    }
+    if (const Json* near = found(json, "nearest")) face.notes.nearest = nearest(*near);
     result.settings = text(json, "settings");
     return result;
   }
@@ -96,10 +90,16 @@ class LineReader {
         concat(place_, ": ", field, ": expected ", expected, ", found ", found.substr(0, 80)));
   }
 
+  /// Null if there is none.
+  static const Json* found(const Json& json, const std::string& key) {
+    const auto at = json.find(key);
+    return at == json.end() ? nullptr : &*at;
+  }
+
   const Json& member(const Json& json, const std::string& key) const {
-    const auto found = json.find(key);
-    if (found == json.end()) fail(key, "a value", "none");
-    return *found;
+    const Json* value = found(json, key);
+    if (value == nullptr) fail(key, "a value", "none");
+    return *value;
   }
 
   std::string text(const Json& json, const std::string& key) const {
@@ -187,12 +187,12 @@ class LineReader {
   RegionRecipe region(const Json& json, const std::string& name) const {
     RegionRecipe result;
     static_cast<BandRecipe&>(result) = band(json, name);
-    const auto bands = json.find("bands");
+    const Json* bands = found(json, "bands");
     const std::size_t finer = std::max<std::size_t>(1, names_.bands.size()) - 1;
-    if (finer == 0 && bands == json.end()) return result;
-    if (bands == json.end() || !bands->is_object() || bands->size() != finer) {
+    if (finer == 0 && bands == nullptr) return result;
+    if (bands == nullptr || !bands->is_object() || bands->size() != finer) {
       fail("bands", concat("an object of ", finer, " bands, all but the first"),
-           bands == json.end() ? "none" : bands->dump());
+           bands == nullptr ? "none" : bands->dump());
     }
     for (std::size_t b = 1; b <= finer; ++b) {
       const std::string& own = names_.bands[b];

@@ -1,9 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/crowd/shard.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/folder.h"
+#include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// In the order of the states.
+constexpr std::array<std::string_view, 5> kStateNames = {"waiting", "working", "done",
+                                                         "interrupted", "failed"};
+
+}  // namespace
 
 std::string Shard::name() const {
   return concat(index, "of", count);
@@ -17,6 +38,65 @@ std::optional<Shard> parse_shard(std::string_view text) {
   const auto count = parse_unsigned(text.substr(slash + 1));
   if (!index || !count || *index < 1 || *index > *count || *count > kMost) return std::nullopt;
   return Shard{*index, *count};
+}
+
+std::optional<Shard> shard_of_name(std::string name) {
+  const std::size_t of = name.find("of");
+  return of == name.npos ? std::nullopt : parse_shard(name.replace(of, 2, "/"));
+}
+
+fs::path of_shard(const fs::path& path, const Shard& shard) {
+  if (shard.whole()) return path;
+  fs::path result = path;
+  return result.replace_filename(
+      concat(path.stem().string(), '-', shard.name(), path.extension().string()));
+}
+
+std::vector<fs::path> of_all_shards(const fs::path& path) {
+  const std::string start = path.stem().string() + "-";
+  return list_files(path.parent_path(), [&](const fs::path& file) {
+    const std::string stem = file.stem().string();
+    return file.extension() == path.extension() && stem.starts_with(start) &&
+           shard_of_name(stem.substr(start.size()));
+  });
+}
+
+std::string_view name_of(ShardState state) {
+  return kStateNames[static_cast<std::size_t>(state)];
+}
+
+std::string format_shard_notes(const ShardNotes& notes) {
+  const Json json = {{"state", name_of(notes.state)},
+                     {"faces", notes.faces},
+                     {"done", notes.done},
+                     {"made", notes.made},
+                     {"seconds", rounded(notes.seconds)},
+                     {"machine", notes.machine},
+                     {"reason", notes.reason}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<ShardNotes> parse_shard_notes(std::string_view text) {
+  const Json json = parse_shallow_json(text);
+  if (!json.is_object()) return std::nullopt;
+  try {
+    ShardNotes notes;
+    const auto state = std::ranges::find(kStateNames, json.at("state").get<std::string>());
+    if (state == kStateNames.end()) return std::nullopt;
+    notes.state = static_cast<ShardState>(state - kStateNames.begin());
+    for (const auto& [key, number] :
+         {std::pair("faces", &notes.faces), std::pair("done", &notes.done),
+          std::pair("made", &notes.made)}) {
+      if (!json.at(key).is_number_unsigned()) return std::nullopt;
+      *number = json.at(key).get<std::uint64_t>();
+    }
+    notes.seconds = json.at("seconds").get<double>();
+    notes.machine = json.at("machine").get<std::string>();
+    notes.reason = json.at("reason").get<std::string>();
+    return notes;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace crowdface

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <map>
-#include <system_error>
 
-#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
@@ -18,19 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class State { kGood, kMissing, kAltered };
-
-State state_of(const fs::path& path, const FileDigest& expected) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return State::kMissing;
-  return holds(path, expected) ? State::kGood : State::kAltered;
-}
-
 /// A line of each item in all ledgers of the folder: of several, one that the files agree with, else
 /// the last.
 std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
                                                 CrowdCheck& check) {
-  LinesOfItems all;
+  std::map<std::string, std::vector<LedgerEntry>> all;
   for (const fs::path& path : directory.ledgers()) {
     LedgerLines lines = read_ledger(path);
     if (lines.damaged > 0) {
@@ -42,16 +33,14 @@ std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
       check.remarks.push_back(concat(path.filename().string(),
                                      ": lines are missing, or no run has come to its end yet"));
     }
-    add_lines(std::move(lines), all);
+    for (LedgerEntry& entry : lines.entries) all[entry.item].push_back(std::move(entry));
   }
   std::map<std::string, LedgerEntry> entries;
   for (auto& [item, lines] : all) {
     throw_if_interrupted();
-    const auto good = lines.size() == 1 ? lines.rend()
-                                        : std::find_if(lines.rbegin(), lines.rend(),
-                                                       [&](const LedgerEntry& line) {
-                                                         return files_match(directory.root, line);
-                                                       });
+    const auto is_good = [&](const LedgerEntry& line) { return files_match(directory.root, line); };
+    const auto good =
+        lines.size() == 1 ? lines.rbegin() : std::find_if(lines.rbegin(), lines.rend(), is_good);
     entries[item] = std::move(good == lines.rend() ? lines.back() : *good);
   }
   return entries;
@@ -63,18 +52,18 @@ void compare_files(const CrowdDirectory& directory,
   for (const auto& [item, entry] : entries) {
     for (const LedgerEntry::File& file : entry.files) files.push_back(&file);
   }
-  std::vector<State> states(files.size());
+  std::vector<char> good(files.size());
   Progress progress("checking files", files.size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(files.size()), [&](std::ptrdiff_t i) {
+  parallel_for_each(files.size(), [&](std::size_t f) {
     throw_if_interrupted();
-    const auto f = static_cast<std::size_t>(i);
-    states[f] = state_of(directory.root / files[f]->name, files[f]->content);
+    good[f] = holds(directory.root / files[f]->name, files[f]->content);
     progress.step();
   });
   check.files = files.size();
   for (std::size_t f = 0; f < files.size(); ++f) {
-    if (states[f] == State::kMissing) check.missing.push_back(files[f]->name);
-    if (states[f] == State::kAltered) check.altered.push_back(files[f]->name);
+    if (good[f] != 0) continue;
+    auto& list = is_file(directory.root / files[f]->name) ? check.altered : check.missing;
+    list.push_back(files[f]->name);
   }
 }
 
@@ -82,15 +71,11 @@ void compare_files(const CrowdDirectory& directory,
 
 CrowdCheck verify_crowd(const fs::path& crowd_directory) {
   const CrowdDirectory directory{crowd_directory};
-  std::error_code ignored;
-  if (!fs::exists(directory.config(), ignored)) {
-    throw MissingInput(
-        concat(directory.config().string(), ": not there; expected a crowd's folder"));
-  }
+  require_crowd(directory);
   CrowdCheck check;
   const auto entries = read_ledgers(directory, check);
   compare_files(directory, entries, check);
-  if (fs::exists(directory.plan(), ignored)) {
+  if (is_there(directory.plan())) {
     for (const std::string& id : ids_in_plan(directory)) {
       if (!entries.contains(concat("faces/", id))) check.unfinished.push_back(id);
     }

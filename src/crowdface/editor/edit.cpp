@@ -1,26 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edit.h"
 
-#include <chrono>
 #include <memory>
 #include <mutex>
 
+#include <fcntl.h>
+
+#include "crowdface/core/descriptor.h"
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_lock.h"
 #include "crowdface/core/interrupt.h"
+#include "crowdface/core/text.h"
 #include "crowdface/editor/edit_api.h"
-#include "crowdface/editor/edit_benchmark.h"
-#include "crowdface/editor/editor_lock.h"
 
 namespace crowdface {
 namespace {
 
-/// A crowd's folder stands for the config in it, whose faces go there.
-Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
-                    const std::filesystem::path& cache) {
-  if (!is_folder(given)) return load_job(given, overrides, cache);
-  if (!overrides.out) overrides.out = given.string();
-  return load_job(CrowdDirectory{given}.config(), overrides, cache);
+[[noreturn]] void refuse(const std::filesystem::path& folder,
+                         const std::filesystem::path& address) {
+  std::string where = "it has not said yet at which address";
+  try {
+    where = read_file(address);
+  } catch (const Error&) {  // it is another user's, or has just begun
+  }
+  throw UsageError(concat(folder.parent_path().string(), ": is edited already: ", where));
 }
+
+/// The right to be the one editor of a crowd, for as long as it lives; on all machines that share the
+/// file system, and free again when its process is killed.
+class EditorLock {
+ public:
+  /// \param folder  is there; takes the lock and, readable by its owner alone, the address.
+  /// \throws UsageError, with the other's address, if there is another editor.
+  explicit EditorLock(const std::filesystem::path& folder)
+      : address_(folder / ".address"),
+        lock_(folder / ".editor.lock", LockKind::kExclusive, [&] { refuse(folder, address_); }) {}
+  ~EditorLock() { remove_if_there(address_); }
+
+  /// For others to be told. \throws CannotCreate
+  void tell(const std::string& address) {
+    remove_if_there(address_);
+    constexpr mode_t kOwnerOnly = 0600;
+    Descriptor file(
+        ::open(address_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnerOnly));
+    if (!file.valid() || !write_all(file.get(), address) || !file.close()) {
+      throw CannotCreate(concat(address_.string(), ": cannot be written: ", reason()));
+    }
+  }
+
+ private:
+  std::filesystem::path address_;
+  FileLock lock_;
+};
 
 /// The command that makes the faces of the job as it was opened.
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
@@ -50,15 +82,6 @@ struct OpenedJob {
 };
 
 }  // namespace
-
-std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
-                           const EditOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  const EditSession session(load_edited_job(given, overrides, options.cache), options.cache,
-                            options.preview_vertices);
-  const std::chrono::duration<double> opened = std::chrono::steady_clock::now() - begin;
-  return edit_benchmark(session, opened.count());
-}
 
 void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started) {

@@ -23,7 +23,9 @@ struct EditOptions {
 void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started);
 
-/// Serves nothing and writes nothing: measures how long an editor of that job takes, see edit_benchmark.
+/// Serves nothing and writes nothing: how long an editor of that job takes for what a page asks when the
+/// mouse is let go, the full face after a controller, the smoothness or the target has changed, as a table
+/// beside the paper's frame.
 std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
                            const EditOptions& options);
 

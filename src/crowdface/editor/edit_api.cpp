@@ -11,7 +11,6 @@
 #include "crowdface/editor/recipe_json.h"
 #include "crowdface/page/answer_request.h"
 #include "crowdface/page/binary_answer.h"
-#include "crowdface/page/request_values.h"
 #include "crowdface/pictures/gallery_page.h"
 
 namespace crowdface {

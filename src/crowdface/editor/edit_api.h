@@ -18,8 +18,8 @@
 #include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/generate_run.h"
 #include "crowdface/editor/region_painting.h"
+#include "crowdface/page/answer_request.h"
 #include "crowdface/page/local_server.h"
-#include "crowdface/page/page_files.h"
 
 namespace crowdface {
 

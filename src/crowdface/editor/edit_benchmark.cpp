@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/edit_benchmark.h"
-
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -8,6 +6,8 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/editor/edit.h"
+#include "crowdface/editor/edit_session.h"
 
 namespace crowdface {
 namespace {
@@ -51,7 +51,12 @@ std::string line(std::string_view what, double ms) {
 
 }  // namespace
 
-std::string edit_benchmark(const EditSession& session, double opened_seconds) {
+std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
+                           const EditOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const EditSession session(load_edited_job(given, overrides, options.cache), options.cache,
+                            options.preview_vertices);
+  const std::chrono::duration<double> opened = std::chrono::steady_clock::now() - begin;
   const Casting& casting = session.casting();
   Recipe start;
   for (const RegionSampling& sampling : casting.sampling.regions) {
@@ -62,13 +67,10 @@ std::string edit_benchmark(const EditSession& session, double opened_seconds) {
     region.iterations = iterations_of(region.smoothness, casting.scale);
     move(casting, start, start.regions.size() - 1, 0.5);
   }
-  const auto all_regions = [&](Recipe& recipe, const auto& change) {
-    for (std::size_t k = 0; k < recipe.regions.size(); ++k) change(k);
-  };
   const double one = median_ms(
       session, start, [&](Recipe& recipe, double turn) { move(casting, recipe, 0, turn); });
   const double all = median_ms(session, start, [&](Recipe& recipe, double turn) {
-    all_regions(recipe, [&](std::size_t k) { move(casting, recipe, k, turn); });
+    for (std::size_t k = 0; k < recipe.regions.size(); ++k) move(casting, recipe, k, turn);
   });
   const double levels = median_ms(session, start, [&](Recipe& recipe, double turn) {
     recipe.regions[0].iterations = iterations_of(turn, casting.scale);
@@ -80,7 +82,7 @@ std::string edit_benchmark(const EditSession& session, double opened_seconds) {
   return concat(
       faces.heads.size(), " heads of ", faces.topology.vertex_count, " vertices, ",
       start.regions.size(), " regions, ", session.preview().vertices.size(), " vertices shown, ",
-      thread_count(), " threads\n", line("opened (heads prepared before)", 1000 * opened_seconds),
+      thread_count(), " threads\n", line("opened (heads prepared before)", 1000 * opened.count()),
       "the full face, parts placed, with normals, after\n", line("one region was moved", one),
       line("all regions were moved", all), line("one region's smoothness was changed", levels),
       line("the target was changed", target),

@@ -85,6 +85,13 @@ std::optional<std::vector<CastFace>> crowd_of_job(const Job& job) {
 
 }  // namespace
 
+Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
+                    const std::filesystem::path& cache) {
+  if (!is_folder(given)) return load_job(given, overrides, cache);
+  if (!overrides.out) overrides.out = given.string();
+  return load_job(CrowdDirectory{given}.config(), overrides, cache);
+}
+
 EditSession::EditSession(Job job, const std::filesystem::path& cache, std::size_t preview_vertices)
     : job_(std::move(job)),
       textures_(job_.inputs),
@@ -187,12 +194,9 @@ std::vector<CastFace> EditSession::draw(const DrawRequest& request) const {
 }
 
 std::vector<float> EditSession::points(const Positions& face) const {
-  std::vector<float> points;
-  points.reserve(3 * preview_.vertices.size());
-  for (const std::uint32_t v : preview_.vertices) {
-    for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(face(v, c)));
-  }
-  return points;
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> shown =
+      face(preview_.vertices, Eigen::all).cast<float>();
+  return {shown.data(), shown.data() + shown.size()};
 }
 
 std::vector<float> EditSession::normals(const Positions& face) const {

@@ -23,6 +23,10 @@
 
 namespace crowdface {
 
+/// \param given  a config, or a crowd's folder: the config in it, whose faces go there.
+Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
+                    const std::filesystem::path& cache);
+
 /// What an editor says about a face beside its shape.
 struct FaceMeasures {
   Index head = 0;  ///< the input head nearest to it

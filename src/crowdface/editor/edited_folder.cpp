@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "crowdface/config/check_review.h"
-#include "crowdface/config/yaml.h"
+#include "crowdface/config/config_values.h"
+#include "crowdface/config/edited_entries.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/write_face.h"
@@ -16,13 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
-  std::vector<std::string> entries = {mark.verdict == ReviewMark::Verdict::kKeep ? "mark: keep"
-                                                                                 : "mark: reject"};
-  std::vector<std::string> locked;
-  for (const std::size_t k : mark.locked) locked.push_back(write_scalar(parts[k]));
-  if (!locked.empty()) entries.push_back(concat("lock: [", join(locked), ']'));
-  if (mark.note) entries.push_back(concat("note: ", write_scalar(*mark.note)));
-  return concat("  ", write_scalar(mark.id), ": {", join(entries), "}\n");
+  std::vector<std::string> entries = {entry("mark", word_of(mark.verdict))};
+  const auto locked = texts_of(mark.locked, [&](std::size_t k) { return parts[k]; });
+  if (!locked.empty()) entries.push_back(entry("lock", flow_names(locked)));
+  if (mark.note) entries.push_back(entry("note", write_scalar(*mark.note)));
+  return concat("  ", entry(write_scalar(mark.id), flow_map(entries)), '\n');
 }
 
 /// The lines of a plan but for the one with that id.
@@ -80,11 +78,9 @@ fs::path EditedFolder::save(const CastFace& face, MeshFormat format, const Posit
   return mesh;
 }
 
-fs::path EditedFolder::save_picture(const std::string& name, std::string_view png) {
+void EditedFolder::save_picture(const std::string& name, std::string_view png) {
   const std::lock_guard lock(mutex_);
-  fs::path file = path_ / (name + ".png");
-  write_file(file, png);
-  return file;
+  write_file(path_ / (name + ".png"), png);
 }
 
 fs::path EditedFolder::save_mark(const ReviewMark& mark) {

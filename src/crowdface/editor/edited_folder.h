@@ -21,8 +21,7 @@ std::filesystem::path make_edited_folder(const Config& config);
 /// Lines of a review, by the face's id.
 using MarkLines = std::map<std::string, std::string>;
 
-/// What an editor leaves behind. Every file is whole or not
-/// there, whenever the editor is killed. Any thread may ask.
+/// What an editor leaves behind. Every file is whole or not there, whenever the editor is killed. Any thread may ask.
 class EditedFolder {
  public:
   /// The formats in which it saves meshes, by their files' endings: "obj".
@@ -45,7 +44,7 @@ class EditedFolder {
   /// \return the file
   std::filesystem::path save(const CastFace& face, MeshFormat format, const Positions& positions,
                              const FaceTextures& textures);
-  std::filesystem::path save_picture(const std::string& name, std::string_view png);
+  void save_picture(const std::string& name, std::string_view png);
   /// Writes the mark among those of review.yaml that this editor made, in place of one about the same
   /// face. \throws Error if a config would refuse it.
   std::filesystem::path save_mark(const ReviewMark& mark);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/blend/recipe_bounds.h"
-#include "crowdface/config/hand_recipe.h"
+#include "crowdface/config/edited_entries.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_mirror.h"
 

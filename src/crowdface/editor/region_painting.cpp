@@ -14,7 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
-#include "crowdface/page/request_values.h"
+#include "crowdface/page/answer_request.h"
 #include "crowdface/paint/proposed_masks.h"
 #include "crowdface/region/mask_painting.h"
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
 
@@ -77,14 +79,10 @@ std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& compone
   // The reference is the head whose median disagreement with the others is smallest, so that one
   // stray head never makes the rest look wrong.
   std::vector<double> disagreement(count);
-  parallel_for_each(static_cast<Index>(count), [&](Index r) {
+  parallel_for_each(count, [&](std::size_t r) {
     std::vector<double> against;
-    for (std::size_t h = 0; h < count; ++h) {
-      against.push_back(badness(pose_against(points[h], points[static_cast<std::size_t>(r)])));
-    }
-    std::nth_element(against.begin(), against.begin() + static_cast<Index>(count / 2),
-                     against.end());
-    disagreement[static_cast<std::size_t>(r)] = against[count / 2];
+    for (const Positions& head : points) against.push_back(badness(pose_against(head, points[r])));
+    disagreement[r] = value_of_rank(std::move(against), count / 2);
   });
   const auto reference =
       static_cast<std::size_t>(std::ranges::min_element(disagreement) - disagreement.begin());
@@ -100,8 +98,8 @@ std::vector<std::string> align_heads(FaceSet& faces, const Components& component
         some_skin(components, std::max<Index>(faces.topology.vertex_count, 1));
     const Positions reference = faces.heads[0].positions(chosen, Eigen::all);
     if (chosen.size() >= 3) {
-      parallel_for_each(static_cast<Index>(faces.heads.size()) - 1, [&](Index h) {
-        Positions& positions = faces.heads[static_cast<std::size_t>(h) + 1].positions;
+      parallel_for_each(faces.heads.size() - 1, [&](std::size_t h) {
+        Positions& positions = faces.heads[h + 1].positions;
         const Positions points = positions(chosen, Eigen::all);
         positions = fit_similarity(points, reference, ScaleFit::kRigid).apply(positions);
       });

@@ -13,7 +13,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/heads/light_of_image.h"
-#include "crowdface/io/image_memory.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {

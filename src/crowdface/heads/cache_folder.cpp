@@ -10,8 +10,9 @@
 #include <system_error>
 
 #include "crowdface/core/file.h"
-#include "crowdface/core/list_files.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/topology.h"
 
 namespace crowdface {
 namespace {
@@ -110,6 +111,15 @@ void write_entry(const fs::path& path, std::vector<std::string_view> pieces) {
 
 InvalidInput bad_entry(const fs::path& path, std::string_view what) {
   return InvalidInput(concat(path.string(), ": cache entry is ", what));
+}
+
+bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end) {
+  return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < end; });
+}
+
+bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end) {
+  return std::ranges::all_of(
+      numbers, [&](std::uint32_t number) { return number < end || number == kNoIndex; });
 }
 
 bool are_coordinates(std::span<const float> values) {

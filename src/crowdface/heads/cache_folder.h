@@ -63,6 +63,10 @@ InvalidInput bad_entry(const std::filesystem::path& path, std::string_view what)
 bool are_coordinates(std::span<const float> values);
 bool are_coordinates(std::span<const double> values);
 
+/// Whether all numbers are below `end`; in `are_rows` some may be kNoIndex, too.
+bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
+bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end);
+
 /// The bytes of an object or a list, for `write_entry`.
 inline std::string_view bytes_of(const void* data, std::size_t size) {
   return {static_cast<const char*>(data), size};

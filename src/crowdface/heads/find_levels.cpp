@@ -48,21 +48,17 @@ Positions weighted(const Positions& mean, const PartList& parts) {
   return sizes;
 }
 
-/// A mesh in each of its shapes.
-std::vector<Positions> shaped(const Positions& neutral, const std::vector<Displacements>& moves) {
-  std::vector<Positions> meshes(moves.size(), neutral);
-  for (std::size_t s = 0; s < meshes.size(); ++s) moves[s].add_to(meshes[s]);
-  return meshes;
-}
-
 /// Over the template, or each head, in all its shapes.
 LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const LevelMap& map) {
   const ShapeSet& set = inputs.shapes;
   if (set.shapes.empty()) return {};
   const auto error_on = [&](const Positions& neutral, const std::vector<Displacements>& moves) {
-    const std::vector<Positions> meshes = shaped(neutral, moves);
+    std::vector<Positions> meshes(moves.size(), neutral);
     std::vector<const Positions*> all;
-    for (const Positions& mesh : meshes) all.push_back(&mesh);
+    for (std::size_t s = 0; s < meshes.size(); ++s) {
+      moves[s].add_to(meshes[s]);
+      all.push_back(&meshes[s]);
+    }
     return level_error(level, map, all);
   };
   std::vector<Displacements> moves;
@@ -97,14 +93,12 @@ MeasuredLevel measured_level(const Inputs& inputs, const FaceSet& typical, doubl
 
 /// Of all that a level follows from.
 Digest key_of(const Inputs& inputs, const FaceSet& typical, double share, double mm) {
-  const auto numbers = [](const auto& rows) {
-    return std::span(rows.data(), static_cast<std::size_t>(rows.size()));
-  };
   Hasher key;
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
-  key.add_array(std::span(inputs.faces.topology.corner_uvs)).add_array(numbers(inputs.faces.uvs));
+  key.add_array(std::span(inputs.faces.topology.corner_uvs));
+  key.add_array(numbers_of(inputs.faces.uvs));
   key.add_array(std::span(inputs.materials.of_face));
-  key.add_array(numbers(typical.heads[0].positions));
+  key.add_array(numbers_of(typical.heads[0].positions));
   for (const Digest& head : inputs.head_digests) key.add(head);
   if (!inputs.shapes.shapes.empty()) key.add(inputs.shapes_digest);
   return key.digest();
@@ -112,18 +106,15 @@ Digest key_of(const Inputs& inputs, const FaceSet& typical, double share, double
 
 /// Whether it is a level of a mesh, whatever its numbers.
 bool is_sound(const DetailLevel& level, const Topology& whole) {
-  const auto below = [](const std::vector<std::uint32_t>& numbers, Index end) {
-    return std::ranges::all_of(numbers, [&](std::uint32_t n) { return n < end; });
-  };
   const auto& uvs = level.topology.corner_uvs;
-  return below(level.vertices, whole.vertex_count) && below(level.faces, whole.face_count()) &&
+  const auto end = [](Index count) { return static_cast<std::uint64_t>(count); };
+  return all_below(level.vertices, end(whole.vertex_count)) &&
+         all_below(level.faces, end(whole.face_count())) &&
          std::ranges::adjacent_find(level.vertices, std::greater_equal()) == level.vertices.end() &&
          level.topology.corner_vertices.size() == 3 * level.faces.size() &&
-         below(level.topology.corner_vertices, level.topology.vertex_count) &&
+         all_below(level.topology.corner_vertices, level.vertices.size()) &&
          (uvs.empty() || uvs.size() == 3 * level.faces.size()) &&
-         std::ranges::all_of(
-             uvs, [&](std::uint32_t row) { return row == kNoIndex || row < level.uvs.rows(); }) &&
-         level.uvs.allFinite();
+         are_rows(uvs, end(level.uvs.rows())) && level.uvs.allFinite();
 }
 
 /// As measured_level, from the cache if it is there.

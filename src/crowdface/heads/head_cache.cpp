@@ -37,15 +37,7 @@ struct Header {
 static_assert(sizeof(Header) == 128);
 
 std::uint32_t code_of(Levels levels) {
-  switch (levels) {
-    case Levels::kExact:
-      return 0;
-    case Levels::kCubic:
-      return 1;
-    case Levels::kBasis:
-      break;
-  }
-  return 2;
+  return levels == Levels::kExact ? 0 : levels == Levels::kCubic ? 1 : 2;
 }
 
 /// Where the parts of an entry begin: header, mixing, trajectory, first fields of tiles, steps, numbers (at a
@@ -128,21 +120,17 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   }
   const Places places(header);
   if (bytes.size() != places.end) throw bad_entry(path, "of the wrong size");
+  const auto trajectory =
+      list_at<float>(bytes, places.trajectory, 3 * header.samples * header.trajectory_levels);
+  const auto mixing = list_at<double>(bytes, sizeof header, header.nodes * header.rank);
   PreparedHead head;
-  head.max_level = shape.max_level;
   head.trajectory.resize(shape.trajectory_levels, 3 * shape.samples);
-  if (head.trajectory.size() > 0) {
-    std::memcpy(head.trajectory.data(), bytes.data() + places.trajectory,
-                static_cast<std::size_t>(head.trajectory.size()) * sizeof(float));
-  }
+  std::ranges::copy(trajectory, head.trajectory.data());
   StoredLevels& levels = head.levels;
   levels.error = {header.error_max, header.error_rms, header.error_level};
   levels.mixing.resize(static_cast<Index>(header.nodes),
                        header.nodes == 0 ? 0 : static_cast<Index>(header.rank));
-  if (levels.mixing.size() > 0) {
-    std::memcpy(levels.mixing.data(), bytes.data() + sizeof header,
-                static_cast<std::size_t>(levels.mixing.size()) * sizeof(double));
-  }
+  std::ranges::copy(mixing, levels.mixing.data());
   LevelFields& fields = levels.fields;
   fields.vertex_count = static_cast<Index>(header.vertices);
   fields.rank = static_cast<Index>(header.rank);
@@ -151,10 +139,6 @@ std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest
   fields.numbers = list_at<std::int16_t>(bytes, places.numbers, header.tile_fields * kTileValues);
   fields.owner = levels.mapped = entry->file;
   // A checksum tells damage from what was written, not what was written from anything else.
-  const std::span<const float> trajectory(head.trajectory.data(),
-                                          static_cast<std::size_t>(head.trajectory.size()));
-  const std::span<const double> mixing(levels.mixing.data(),
-                                       static_cast<std::size_t>(levels.mixing.size()));
   if (!are_coordinates(mixing) || !are_fields(fields) || !are_coordinates(trajectory)) {
     throw bad_entry(path, "damaged (it holds numbers that no head has)");
   }

@@ -1,14 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "crowdface/cast/face_samples.h"
 #include "crowdface/config/config.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
-#include "crowdface/heads/prepared.h"
+#include "crowdface/smooth/level_basis.h"
 
 namespace crowdface {
+
+/// Fitted levels of one head, as they are kept. The fields may lie in a mapped file of the cache,
+/// so that they cost no memory of ours.
+struct StoredLevels {
+  LevelFields fields;
+  std::shared_ptr<const MappedFile> mapped;  ///< of the fields, if they lie in a file
+  Eigen::MatrixXd mixing;                    ///< `levels: basis`: #nodes by rank, see LevelBasis
+  BasisError error;                          ///< `levels: basis`
+};
+
+/// What is computed once per head and kept: how the samples move under smoothing and, unless the
+/// levels are exact, the fitted levels.
+struct PreparedHead {
+  Trajectory trajectory;
+  StoredLevels levels;
+};
 
 /// What an entry must hold to be of use.
 struct HeadCacheShape {

@@ -23,25 +23,14 @@ struct Header {
 };
 static_assert(sizeof(Header) == 48);
 
-Header header_of(const Digest& key, std::size_t count) {
-  Header header;
-  header.key = key;
-  header.count = count;
-  return header;
-}
-
-fs::path entry_of(const fs::path& cache, const Digest& key) {
-  return cache_entry(cache, key, kListsEnding);
-}
-
 }  // namespace
 
 std::optional<FoundLists> find_lists(const fs::path& cache, const Digest& key, std::size_t count) {
-  const fs::path path = entry_of(cache, key);
+  const fs::path path = cache_entry(cache, key, kListsEnding);
   try {
     auto entry = map_entry(path);
     if (!entry) return std::nullopt;
-    const Header expected = header_of(key, count);
+    const Header expected{.key = key, .count = count};
     std::string_view bytes = entry->content;
     std::vector<std::uint64_t> sizes(count);
     const std::string_view start = bytes_of(&expected, sizeof expected);
@@ -69,22 +58,22 @@ std::optional<FoundLists> find_lists(const fs::path& cache, const Digest& key, s
 
 void keep_lists(const fs::path& cache, const Digest& key,
                 const std::vector<std::string_view>& lists) {
-  const Header header = header_of(key, lists.size());
+  const Header header{.key = key, .count = lists.size()};
   std::vector<std::uint64_t> sizes;
   for (const std::string_view list : lists) sizes.push_back(list.size());
   std::vector<std::string_view> pieces = {bytes_of(&header, sizeof header),
                                           bytes_of(std::span<const std::uint64_t>(sizes))};
   pieces.insert(pieces.end(), lists.begin(), lists.end());
   try {
-    write_entry(entry_of(cache, key), std::move(pieces));
+    write_entry(cache_entry(cache, key, kListsEnding), std::move(pieces));
   } catch (const Error& error) {
     log_warning(concat("what was found of the heads cannot be kept: ", error.what()));
   }
 }
 
 void warn_of_damage(const fs::path& cache, const Digest& key) {
-  const InvalidInput error =
-      bad_entry(entry_of(cache, key), "damaged (it holds numbers that no head has)");
+  const fs::path path = cache_entry(cache, key, kListsEnding);
+  const InvalidInput error = bad_entry(path, "damaged (it holds numbers that no head has)");
   log_warning(concat(error.what(), "; it is made anew"));
 }
 

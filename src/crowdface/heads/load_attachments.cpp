@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/load_attachments.h"
-
 #include <algorithm>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
-#include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/read_heads.h"
 #include "crowdface/mesh/vector3.h"
 
@@ -48,21 +45,16 @@ void check_place(const Attachment& item, const Positions& head) {
   const Eigen::RowVector3d middle = (own.colwise().maxCoeff() + own.colwise().minCoeff()) / 2;
   const Eigen::RowVector3d off = (low - middle).cwiseMax(middle - high).cwiseMax(0.0);
   if (size <= kLargest * diagonal && length3(off.transpose()) <= kFarthest * diagonal) return;
-  throw InvalidInput(
-      concat(item.file.path.string(),
-             ": expected a mesh beside the head that it was fitted to, in its unit; ",
-             "the head is ", format_fixed(diagonal, 2), " units across, this mesh ",
-             format_fixed(size, 2), ", and its middle is ",
-             format_fixed(length3(off.transpose()), 2), " outside the head's box"));
-}
-
-void add_positions(const Positions& values, Hasher& hasher) {
-  hasher.add_array(std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+  refuse_file(item.file.path,
+              concat("expected a mesh beside the head that it was fitted to, in its unit; ",
+                     "the head is ", format_fixed(diagonal, 2), " units across, this mesh ",
+                     format_fixed(size, 2), ", and its middle is ",
+                     format_fixed(length3(off.transpose()), 2), " outside the head's box"));
 }
 
 Digest digest_of_attachments(const AttachmentSet& set) {
   Hasher hasher;
-  add_positions(set.fitted_to, hasher);
+  hasher.add_array(numbers_of(set.fitted_to));
   for (const Attachment& item : set.items) {
     hasher.add(item.name).add(static_cast<int>(item.moves)).add(hash_bytes(item.file.file.bytes()));
     for (const MaterialFile& file : item.materials.files) {
@@ -109,8 +101,7 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
   if (problems.size() > before) return;
   for (std::optional<Attachment>& item : items) {
     for (const std::string& text : item->materials.warnings) {
-      inputs.warnings.push_back(concat(text, " (attachment ", item->name, ")"));
-      log_warning(inputs.warnings.back());
+      inputs.warn(concat(text, " (attachment ", item->name, ")"));
     }
     set.items.push_back(std::move(*item));
   }
@@ -118,10 +109,9 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
   const bool have_files =
       std::ranges::any_of(meshes, [](MeshFormat format) { return format != MeshFormat::kPoints; });
   if (!meshes.empty() && !have_files) {
-    inputs.warnings.emplace_back(
+    inputs.warn(
         "attachments are not written as NumPy arrays, and output.meshes has points alone: no file "
         "has them");
-    log_warning(inputs.warnings.back());
   }
   set.digest = digest_of_attachments(set);
   inputs.attachments = std::move(set);

@@ -17,10 +17,7 @@
 #include "crowdface/heads/alignment_check.h"
 #include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/head_mirror.h"
-#include "crowdface/heads/load_attachments.h"
-#include "crowdface/heads/load_points.h"
-#include "crowdface/heads/load_rig.h"
-#include "crowdface/heads/load_shapes.h"
+#include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
 #include "crowdface/heads/shared_by_heads.h"
@@ -108,20 +105,11 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
   return sum / static_cast<double>(heads.size()) * mm_per(config.faces.units);
 }
 
-/// The mean head, of whose parts those that follow are no skin.
-HeadShape mean_shape(const Inputs& inputs) {
-  HeadShape head{inputs.mean, {}, {}};
-  for (const std::uint32_t c : inputs.skin.of_vertex) {
-    head.skin.push_back(c == inputs.skin.largest());
-  }
-  return head;
-}
-
 /// \throws InvalidInput if the heads look another way than the config says, or are of a size that no
 /// heads have: then everything that is measured would be wrong.
 void check_stance(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return;
-  const HeadShape head = mean_shape(inputs);
+  const HeadShape head{inputs.mean, skin_of(inputs), {}};  // parts that follow are no skin
   const Topology& topology = inputs.faces.topology;
   const Bearing asked{config.faces.up, config.faces.front};
   auto marks = find_face_marks(topology, head, axes_of(asked));
@@ -201,11 +189,6 @@ std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
   return std::max<std::uint64_t>(level, 1);
 }
 
-template <class T>
-Digest digest_of_numbers(const T* data, Index size) {
-  return Hasher().add_array(std::span<const T>(data, static_cast<std::size_t>(size))).digest();
-}
-
 Digest digest_of_topology(const Topology& topology) {
   return Hasher()
       .add(topology.vertex_count)
@@ -216,16 +199,10 @@ Digest digest_of_topology(const Topology& topology) {
 
 void hash_heads(Inputs& inputs) {
   inputs.head_digests.resize(inputs.faces.heads.size());
-  parallel_for_each(static_cast<Index>(inputs.faces.heads.size()), [&](Index h) {
-    const Positions& positions = inputs.faces.heads[static_cast<std::size_t>(h)].positions;
-    inputs.head_digests[static_cast<std::size_t>(h)] =
-        digest_of_numbers(positions.data(), positions.size());
+  parallel_for_each(inputs.faces.heads.size(), [&](std::size_t h) {
+    const Positions& positions = inputs.faces.heads[h].positions;
+    inputs.head_digests[h] = Hasher().add_array(numbers_of(positions)).digest();
   });
-}
-
-void warn(Inputs& inputs, std::string text) {
-  log_warning(text);
-  inputs.warnings.push_back(std::move(text));
 }
 
 /// What to say of heads without a map where all others have one and the same: it is not blended.
@@ -249,7 +226,7 @@ HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) 
     try {
       HeadTextures loaded = load(found);
       for (const auto& [file, why] : damaged) {
-        warn(inputs, concat(why, "; the texture is neither blended nor shown"));
+        inputs.warn(concat(why, "; the texture is neither blended nor shown"));
       }
       return loaded;
     } catch (const DamagedImage& error) {
@@ -277,7 +254,7 @@ void read_textures(const Config& config, const std::filesystem::path& cache, Inp
           "is there (map_Kd in the file of mtllib, and texture coordinates)"));
     }
     if (!asked_for) {
-      for (std::string& text : leave_out_unreadable(found)) warn(inputs, std::move(text));
+      for (std::string& text : leave_out_unreadable(found)) inputs.warn(std::move(text));
     }
     const auto load_blended = [&](const HeadsTextures& textures) {
       return load_blended_textures(inputs.faces, inputs.materials, textures, config.textures.size,
@@ -291,20 +268,20 @@ void read_textures(const Config& config, const std::filesystem::path& cache, Inp
       return none;
     };
     inputs.textures = asked_for ? load_colours(found) : load_sound(found, inputs, load_colours);
-    for (const std::string& text : inputs.textures.warnings) warn(inputs, text);
+    for (const std::string& text : inputs.textures.warnings) inputs.warn(text);
     for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
       const bool pictured = shown && is_shown(kinds[k].kind);
       if (!pictured && config.output.meshes.empty()) continue;
-      for (std::string& text : leave_out_unreadable(kinds[k])) warn(inputs, std::move(text));
+      for (std::string& text : leave_out_unreadable(kinds[k])) inputs.warn(std::move(text));
       HeadTextures maps = load_sound(kinds[k], inputs, [&](const HeadsTextures& textures) {
         return textures.differ() ? load_blended(textures) : HeadTextures();
       });
       if (!kinds[k].differ()) {
-        if (auto text = told_of_single(kinds[k], inputs.faces)) warn(inputs, std::move(*text));
+        if (auto text = told_of_single(kinds[k], inputs.faces)) inputs.warn(std::move(*text));
         continue;
       }
       inputs.maps.push_back(std::move(maps));
-      for (const std::string& text : inputs.maps.back().warnings) warn(inputs, text);
+      for (const std::string& text : inputs.maps.back().warnings) inputs.warn(text);
     }
   } catch (const Error& error) {
     problems.add(error);
@@ -312,6 +289,11 @@ void read_textures(const Config& config, const std::filesystem::path& cache, Inp
 }
 
 }  // namespace
+
+void Inputs::warn(std::string text) {
+  log_warning(text);
+  warnings.push_back(std::move(text));
+}
 
 void check_inputs(const ConfigReading& reading, const std::filesystem::path& cache,
                   Problems& problems) {
@@ -362,7 +344,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   find_neighbours(inputs);
   try {
     for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
-      warn(inputs, std::move(text));
+      inputs.warn(std::move(text));
     }
   } catch (const Error& error) {
     problems.add(error);
@@ -380,8 +362,8 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
     problems.add(error);
   }
   if (problems.size() > before) return std::nullopt;
-  for (std::string& text : lone_masks(config, inputs)) warn(inputs, std::move(text));
-  if (auto text = far_from_origin(config, inputs)) warn(inputs, std::move(*text));
+  for (std::string& text : lone_masks(config, inputs)) inputs.warn(std::move(text));
+  if (auto text = far_from_origin(config, inputs)) inputs.warn(std::move(*text));
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {
     inputs.regions = load_regions(config, inputs);
@@ -395,11 +377,11 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
     return std::nullopt;
   }
   if (inputs.regions.uncovered_vertices > 0) {
-    warn(inputs, concat(inputs.regions.uncovered_vertices,
-                        " vertices are covered by no mask and go to the last region, ",
-                        config.region_names().back()));
+    inputs.warn(concat(inputs.regions.uncovered_vertices,
+                       " vertices are covered by no mask and go to the last region, ",
+                       config.region_names().back()));
   }
-  inputs.mask_digest = digest_of_numbers(inputs.regions.alpha.data(), inputs.regions.alpha.size());
+  inputs.mask_digest = Hasher().add_array(numbers_of(inputs.regions.alpha)).digest();
   read_textures(config, cache, inputs, problems);
   load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/load_points.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
-#include "crowdface/core/name.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/read_heads.h"
 
 namespace crowdface {
@@ -30,8 +27,7 @@ std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints
     if (good) position[c] = *number;
   }
   if (good) return position;
-  complaints.expected(node, concat("a position, [x, y, z], of numbers up to ", kFarthest));
-  return std::nullopt;
+  return complaints.expected(node, concat("a position, [x, y, z], of numbers up to ", kFarthest));
 }
 
 /// Reads `{name: [x, y, z]}`. \param names  those known already, in their order; filled by the first.
@@ -105,10 +101,14 @@ void read_file(const std::filesystem::path& file, const YamlNode& root,
     complaints.add(entry.key_place, concat("unknown key ", quoted(entry.key)));
   }
   const YamlEntry *points = root.find("points"), *heads = root.find("heads");
-  if ((points == nullptr) == (heads == nullptr)) return complaints.expected(root, kExpected);
-  if (heads != nullptr) return read_head_points(heads->value, inputs, complaints);
-  inputs.points.positions = {read_set(points->value, inputs.points.names, complaints)};
-  inputs.points.meshes = {template_of(root, file, neutral, inputs, complaints)};
+  if ((points == nullptr) == (heads == nullptr)) {
+    complaints.expected(root, kExpected);
+  } else if (heads != nullptr) {
+    read_head_points(heads->value, inputs, complaints);
+  } else {
+    inputs.points.positions = {read_set(points->value, inputs.points.names, complaints)};
+    inputs.points.meshes = {template_of(root, file, neutral, inputs, complaints)};
+  }
 }
 
 }  // namespace
@@ -127,9 +127,7 @@ void load_points(const Config& config, Inputs& inputs, Problems& problems) {
   Hasher hasher;
   for (const std::string& name : inputs.points.names) hasher.add(name);
   for (const auto* sets : {&inputs.points.positions, &inputs.points.meshes}) {
-    for (const Positions& rows : *sets) {
-      hasher.add_array(std::span<const double>(rows.data(), static_cast<std::size_t>(rows.size())));
-    }
+    for (const Positions& rows : *sets) hasher.add_array(numbers_of(rows));
   }
   inputs.points_digest = hasher.digest();
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/load_rig.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +9,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/load_carried.h"
 #include "crowdface/io/gltf_rig.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
@@ -93,9 +92,9 @@ struct Fit {
 Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
   Fit fit{from_gltf(config.faces), match_by_id(rig, inputs.faces.topology.vertex_count), {}};
   if (fit.match.missing > 0) {
-    throw InvalidInput(concat(config.rig.string(), ": its _VERTEX_ID tells ", fit.match.missing,
-                              " of the ", inputs.faces.topology.vertex_count,
-                              " vertices of the heads nothing; is it the whole mesh?"));
+    refuse_file(config.rig, concat("its _VERTEX_ID tells ", fit.match.missing, " of the ",
+                                   inputs.faces.topology.vertex_count,
+                                   " vertices of the heads nothing; is it the whole mesh?"));
   }
   fit.mesh.resize(inputs.faces.topology.vertex_count, 3);
   for (Index v = 0; v < fit.mesh.rows(); ++v) {
@@ -126,12 +125,12 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
       if (best.match.missing == 0) return best;
     }
   }
-  throw InvalidInput(concat(config.rig.string(), ": ", best.match.missing, " of the ",
-                            best.mesh.rows(),
-                            " vertices of the heads lie on no vertex of its meshes (one is ",
-                            format_fixed(best.match.farthest * mm_per(config.faces.units), 1),
-                            " mm off), neither on the shapes' template nor on any head; expected "
-                            "the rig of one of them, at rest"));
+  refuse_file(config.rig,
+              concat(best.match.missing, " of the ", best.mesh.rows(),
+                     " vertices of the heads lie on no vertex of its meshes (one is ",
+                     format_fixed(best.match.farthest * mm_per(config.faces.units), 1),
+                     " mm off), neither on the shapes' template nor on any head; expected "
+                     "the rig of one of them, at rest"));
 }
 
 /// A joint's axes in the heads'. \throws InvalidInput if their lengths differ.
@@ -147,9 +146,10 @@ Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, cons
   const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
   const double turned = dot3(cross3(axes.col(0), axes.col(1)), axes.col(2));
   if (!(*least > 0) || *most > (1 + kAlike) * *least || std::abs(turned - 1) > kAlike) {
-    throw InvalidInput(concat(config.rig.string(), ": the joint ", quoted(joint.name),
-                              " is scaled by its axes differently, mirrored or sheared; expected "
-                              "a rig whose scale is applied"));
+    refuse_file(config.rig,
+                concat("the joint ", quoted(joint.name),
+                       " is scaled by its axes differently, mirrored or sheared; expected "
+                       "a rig whose scale is applied"));
   }
   return axes;
 }
@@ -176,16 +176,14 @@ Digest digest_of_rig(const Rig& rig) {
   Hasher hasher;
   for (const GlbJoint& joint : rig.skin.joints) {
     hasher.add(joint.name).add(joint.parent);
-    hasher.add_array(std::span<const double>(joint.rotation.data(), 9));
+    hasher.add_array(numbers_of(joint.rotation));
   }
   for (const Influence& one : rig.skin.influences.items) {
     hasher.add(one.joint).add(static_cast<double>(one.weight));
   }
-  hasher.add_array(std::span<const std::uint32_t>(rig.skin.influences.offsets));
-  for (const Positions* rows : {&rig.points.positions.front(), &rig.points.meshes.front()}) {
-    hasher.add_array(std::span<const double>(rows->data(), static_cast<std::size_t>(rows->size())));
-  }
-  return hasher.digest();
+  hasher.add_array(std::span(rig.skin.influences.offsets));
+  hasher.add_array(numbers_of(rig.points.positions.front()));
+  return hasher.add_array(numbers_of(rig.points.meshes.front())).digest();
 }
 
 }  // namespace
@@ -196,8 +194,8 @@ void load_rig(const Config& config, Inputs& inputs, Problems& problems) {
     constexpr std::size_t kMostJoints = 65535;
     const GltfRig file = read_gltf_rig(config.rig);
     if (file.joints.size() > kMostJoints) {
-      throw InvalidInput(concat(config.rig.string(), ": expected at most ", kMostJoints,
-                                " joints, found ", file.joints.size()));
+      refuse_file(config.rig,
+                  concat("expected at most ", kMostJoints, " joints, found ", file.joints.size()));
     }
     inputs.rig = bind(file,
                       file.vertex_ids.empty() ? fit_by_place(file, config, inputs)

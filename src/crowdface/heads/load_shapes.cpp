@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/load_shapes.h"
-
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -11,6 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
 #include "crowdface/mesh/vector3.h"
@@ -28,10 +27,18 @@ struct Source {
   const std::filesystem::path& cache;
 };
 
-/// Reads many meshes in parallel. \param take  take(i, positions of files[i]) for each that can be read
+/// Reads many meshes in parallel. \param asked  those that are empty are left out
+/// \param take  take(i, positions of asked[i]) for each that can be read
 template <class Take>
-void read_meshes(const std::vector<std::filesystem::path>& files, const Source& source,
+void read_meshes(const std::vector<std::filesystem::path>& asked, const Source& source,
                  Problems& problems, const Take& take) {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::size_t> places;  // among those that are asked for
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (asked[i].empty()) continue;
+    files.push_back(asked[i]);
+    places.push_back(i);
+  }
   std::vector<std::optional<HeadFile>> read =
       read_mesh_files(files, "shapes", source.cache, problems);
   std::vector<HeadFile> fitting;
@@ -44,7 +51,7 @@ void read_meshes(const std::vector<std::filesystem::path>& files, const Source& 
     if (is_new) known->second = first_difference(source.topology, mesh->topology);
     if (known->second.empty()) {
       fitting.push_back(std::move(*read[i]));
-      numbers.push_back(i);
+      numbers.push_back(places[i]);
     } else {
       problems.add(ExitCode::kBadData,
                    concat(files[i].string(), ": not the same mesh as ",
@@ -56,27 +63,22 @@ void read_meshes(const std::vector<std::filesystem::path>& files, const Source& 
                     [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
-/// The template's shapes; those that it lacks are left out. \param places  of those it has, among all
+/// The template's shapes; those that it lacks are left out.
 ShapeSet load_template(const Source& source, const Inputs& inputs, double extent,
-                       std::vector<std::size_t>& places, Problems& problems) {
+                       Problems& problems) {
   const Config::Shapes& asked = source.config.shapes;
   const std::size_t before = problems.size();
-  std::vector<std::filesystem::path> files;
-  for (std::size_t s = 0; s < asked.names.size(); ++s) {
-    if (asked.files[s].empty()) continue;
-    files.push_back(asked.files[s]);
-    places.push_back(s);
-  }
   ShapeSet set;
-  std::vector<Positions> meshes(files.size());
+  std::vector<Positions> meshes(asked.files.size());
   read_meshes({asked.neutral}, source, problems,
               [&](std::size_t, Positions mesh) { set.neutral = std::move(mesh); });
-  read_meshes(files, source, problems,
+  read_meshes(asked.files, source, problems,
               [&](std::size_t i, Positions mesh) { meshes[i] = std::move(mesh); });
   if (problems.size() > before) return set;
   if (extent == 0) extent = extent_of(set.neutral, skin_vertices(inputs));
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    set.shapes.push_back(shape_of(asked.names[places[i]], set.neutral, meshes[i], extent));
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    if (asked.files[s].empty()) continue;
+    set.shapes.push_back(shape_of(asked.names[s], set.neutral, meshes[s], extent));
   }
   return set;
 }
@@ -103,25 +105,18 @@ void load_head(const Source& source, const Inputs& inputs, std::size_t head, dou
                std::vector<OwnShape>& shapes, Problems& problems) {
   const std::vector<std::filesystem::path>& files = source.config.shapes.of_head[head];
   const RestingHead rest = resting_head(source.config, inputs, head);
-  std::vector<std::filesystem::path> there;
-  std::vector<std::size_t> places;
-  for (std::size_t s = 0; s < files.size(); ++s) {
-    if (files[s].empty()) continue;
-    there.push_back(files[s]);
-    places.push_back(s);
-  }
-  read_meshes(there, source, problems, [&](std::size_t i, const Positions& mesh) {
+  read_meshes(files, source, problems, [&](std::size_t s, const Positions& mesh) {
     Displacements moves = shape_of({}, rest.mesh, mesh, extent).moves;
     for (Index row = 0; row < moves.moves.rows(); ++row) {
       moves.moves.row(row) = rest.motion.turn(row3(moves.moves, row)).transpose();
     }
-    shapes[places[i]] = own_shape_of(moves);
+    shapes[s] = own_shape_of(moves);
   });
 }
 
 /// Carries the template's shapes to heads that lack them.
 void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_template,
-             const std::vector<std::size_t>& places, ShapeSet& set) {
+             ShapeSet& set) {
   std::optional<ShapeTransfer> transfer;
   for (std::size_t h = 0; h < set.of_head.size(); ++h) {
     const auto& files = config.shapes.of_head[h];
@@ -131,8 +126,10 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
                        of_template);
     }
     const auto carried = transfer->carry(static_cast<Index>(h), inputs.faces.heads[h].positions);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (files[places[i]].empty()) set.of_head[h][places[i]] = own_shape_of(carried[i]);
+    for (std::size_t s = 0, i = 0; s < files.size(); ++s) {
+      if (config.shapes.files[s].empty()) continue;
+      if (files[s].empty()) set.of_head[h][s] = own_shape_of(carried[i]);
+      ++i;
     }
   }
 }
@@ -151,10 +148,9 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   }
   if (problems.size() > before) return;
   if (!asked.neutral.empty()) {
-    std::vector<std::size_t> places;
-    const ShapeSet of_template = load_template(source, inputs, extent, places, problems);
+    const ShapeSet of_template = load_template(source, inputs, extent, problems);
     if (problems.size() > before) return;
-    fill_in(config, inputs, of_template, places, set);
+    fill_in(config, inputs, of_template, set);
   }
   for (std::size_t s = 0; s < asked.names.size(); ++s) {
     set.shapes.push_back({asked.names[s], mean_of(set.of_head, s)});
@@ -163,18 +159,14 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
 
 Digest digest_of_shapes(const ShapeSet& set) {
   Hasher hasher;
-  const auto add = [&](const auto& values) {
-    hasher.add_array(std::span(values.data(), static_cast<std::size_t>(values.size())));
-  };
-  add(set.neutral);
+  hasher.add_array(numbers_of(set.neutral));
   for (const Shape& shape : set.shapes) {
-    hasher.add(shape.name).add_array(std::span<const std::uint32_t>(shape.moves.vertices));
-    add(shape.moves.moves);
+    hasher.add(shape.name).add_array(std::span(shape.moves.vertices));
+    hasher.add_array(numbers_of(shape.moves.moves));
   }
   for (const std::vector<OwnShape>& of_head : set.of_head) {
     for (const OwnShape& shape : of_head) {
-      hasher.add_array(std::span<const std::uint32_t>(shape.vertices));
-      add(shape.moves);
+      hasher.add_array(std::span(shape.vertices)).add_array(numbers_of(shape.moves));
     }
   }
   return hasher.digest();
@@ -188,8 +180,7 @@ void load_shapes(const Config& config, const std::filesystem::path& cache, Input
   const Source source{config, inputs.faces.topology, cache};
   const std::size_t before = problems.size();
   if (config.shapes.heads.empty()) {
-    std::vector<std::size_t> places;
-    inputs.shapes = load_template(source, inputs, 0, places, problems);
+    inputs.shapes = load_template(source, inputs, 0, problems);
   } else {
     load_heads(source, inputs, problems);
   }

@@ -127,10 +127,18 @@ std::string part_name(const Part& part) {
 
 }  // namespace
 
+std::vector<bool> skin_of(const Inputs& inputs) {
+  const std::uint32_t largest = inputs.skin.largest();
+  std::vector<bool> skin;
+  for (const std::uint32_t c : inputs.skin.of_vertex) skin.push_back(c == largest);
+  return skin;
+}
+
 std::vector<std::uint32_t> skin_vertices(const Inputs& inputs) {
+  const std::vector<bool> is_skin = skin_of(inputs);
   std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
-    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
+  for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
+    if (is_skin[v]) skin.push_back(v);
   }
   return skin;
 }

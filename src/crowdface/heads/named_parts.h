@@ -14,7 +14,8 @@ namespace crowdface {
 /// `inputs.skin`. A name that no component bears is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
 
-/// The vertices that are skin, ascending.
+/// Whether each vertex is skin, #V; and those that are, ascending.
+std::vector<bool> skin_of(const Inputs& inputs);
 std::vector<std::uint32_t> skin_vertices(const Inputs& inputs);
 
 /// Which way the heads look, as the config says.

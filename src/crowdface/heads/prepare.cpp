@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
@@ -13,7 +12,6 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
-#include "crowdface/heads/head_cache.h"
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/smooth/cubic_fit.h"
 
@@ -65,7 +63,6 @@ class HeadPreparation {
   PreparedHead prepare(const Head& head) {
     const LevelNodes& nodes = *prepared_.nodes;
     PreparedHead result;
-    result.max_level = inputs_.max_level;
     const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
     result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.traced);
     if (config_.smoothing.levels == Levels::kCubic) {
@@ -96,18 +93,6 @@ std::optional<PreparedHead> from_cache(const std::filesystem::path& cache, const
     log_warning(concat(error.what(), "; it is made anew"));
     return std::nullopt;
   }
-}
-
-/// What the cache has of the heads, read side by side.
-std::vector<std::optional<PreparedHead>> from_cache(const std::filesystem::path& cache,
-                                                    const std::vector<Digest>& keys,
-                                                    const HeadCacheShape& shape) {
-  std::vector<std::optional<PreparedHead>> heads(keys.size());
-  parallel_for_each(keys.size(), [&](std::size_t h) {
-    throw_if_interrupted();
-    heads[h] = from_cache(cache, keys[h], shape);
-  });
-  return heads;
 }
 
 /// Removes what runs left that were killed while they kept a head. A cache is no reason to stop.
@@ -180,11 +165,13 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;
   Progress progress("preparing heads", inputs.faces.heads.size());
-  std::vector<Digest> keys;
-  for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
-    keys.push_back(key_of(config, inputs, prepared.traced, h));
-  }
-  std::vector<std::optional<PreparedHead>> heads = from_cache(cache, keys, shape);
+  std::vector<Digest> keys(inputs.faces.heads.size());
+  std::vector<std::optional<PreparedHead>> heads(keys.size());
+  parallel_for_each(keys.size(), [&](std::size_t h) {
+    throw_if_interrupted();
+    keys[h] = key_of(config, inputs, prepared.traced, h);
+    heads[h] = from_cache(cache, keys[h], shape);
+  });
   for (std::size_t h = 0; h < heads.size(); ++h) {
     throw_if_interrupted();
     std::optional<PreparedHead>& head = heads[h];

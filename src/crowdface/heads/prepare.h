@@ -3,16 +3,41 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "crowdface/blend/crowd_blender.h"
+#include "crowdface/cast/face_samples.h"
 #include "crowdface/config/config.h"
+#include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/head_cache.h"
 #include "crowdface/heads/inputs.h"
-#include "crowdface/heads/prepared.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 
 namespace crowdface {
+
+/// All heads, ready for casting and blending.
+struct Prepared {
+  FaceSamples samples;
+  FaceSamples traced;  ///< the samples, and after them what their mirror images are made of besides
+  std::vector<Trajectory> trajectories;     ///< #heads, of what is traced
+  std::vector<StoredLevels> levels;         ///< #heads; without fields with `levels: exact`
+  std::shared_ptr<const LevelNodes> nodes;  ///< that `mixing` refers to
+  std::optional<ChebyshevFilter> filter;    ///< `levels: exact`
+  std::size_t from_cache = 0;               ///< how many heads the cache had
+};
+
+/// An entry of the cache was cut while its fields were in use: what was made of them is worth
+/// nothing, and what is prepared again is whole.
+struct CutWhileInUse : IoError {
+  using IoError::IoError;
+};
+
+/// To be asked after fields were used, before what came of it is. \throws CutWhileInUse.
+void require_whole(const Prepared& prepared);
 
 /// Prepares every head, one after the other, or takes it from the cache. A damaged cache entry is
 /// made anew with a warning; a cache that cannot be written costs a warning, not the run.

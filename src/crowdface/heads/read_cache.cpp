@@ -119,12 +119,6 @@ bool has_head_of(const Header& found, const Header& expected) {
          found.version == expected.version && found.mesh == expected.mesh;
 }
 
-/// Whether each is a row of `count` or none.
-bool are_rows(const std::vector<std::uint32_t>& rows, std::uint64_t count) {
-  return std::ranges::all_of(rows,
-                             [&](std::uint32_t row) { return row < count || row == kNoIndex; });
-}
-
 bool is_topology(const Topology& topology) {
   constexpr std::uint32_t kLeastCorners = 3;
   const auto& offsets = topology.face_offsets;
@@ -132,9 +126,7 @@ bool is_topology(const Topology& topology) {
   for (std::size_t f = 1; f < offsets.size(); ++f) {
     if (offsets[f] < offsets[f - 1] || offsets[f] - offsets[f - 1] < kLeastCorners) return false;
   }
-  return std::ranges::all_of(topology.corner_vertices, [&](std::uint32_t vertex) {
-    return static_cast<Index>(vertex) < topology.vertex_count;
-  });
+  return all_below(topology.corner_vertices, static_cast<std::uint64_t>(topology.vertex_count));
 }
 
 template <class Rows>
@@ -185,8 +177,7 @@ std::optional<Digest> find_head(const fs::path& cache, const Digest& text, ObjFi
   auto content = find(path, seen);
   if (!content) return std::nullopt;
   const auto header = content->take<ReadHeader>();
-  ReadHeader expected;
-  expected.mesh = header.mesh;
+  const ReadHeader expected{.text = text, .mesh = header.mesh};
   content->require_same(has_head_of(header, expected) && header.text == text);
   head.material_libraries.clear();
   head.positions = content->take_rows<Positions>(header.vertices);
@@ -206,9 +197,7 @@ std::optional<HeadMesh> find_mesh(const fs::path& cache, const Digest& mesh) {
   auto content = find(path, seen);
   if (!content) return std::nullopt;
   const auto header = content->take<MeshHeader>();
-  MeshHeader expected;
-  expected.mesh = mesh;
-  content->require_same(has_head_of(header, expected));
+  content->require_same(has_head_of(header, MeshHeader{.mesh = mesh}));
   content->require(header.faces <= input_limits().faces);
   HeadMesh result;
   Topology& topology = result.topology;
@@ -229,10 +218,8 @@ std::optional<HeadMesh> find_mesh(const fs::path& cache, const Digest& mesh) {
 }
 
 void keep_head(const fs::path& cache, const Digest& text, const Digest& mesh, const ObjFile& head) {
-  ReadHeader header;
-  header.text = text;
-  header.mesh = mesh;
-  header.vertices = static_cast<std::uint64_t>(head.positions.rows());
+  const ReadHeader header{
+      .text = text, .mesh = mesh, .vertices = static_cast<std::uint64_t>(head.positions.rows())};
   std::string names;
   std::vector<MaterialRange> libraries;
   for (const std::string& library : head.material_libraries) libraries.push_back({library, 0});
@@ -245,14 +232,13 @@ void keep_head(const fs::path& cache, const Digest& text, const Digest& mesh, co
 
 void keep_mesh(const fs::path& cache, const HeadMesh& mesh) {
   const Topology& topology = mesh.topology;
-  MeshHeader header;
-  header.mesh = mesh.digest();
-  header.vertices = static_cast<std::uint64_t>(topology.vertex_count);
-  header.faces = static_cast<std::uint64_t>(topology.face_count());
-  header.corners = topology.corner_vertices.size();
-  header.uvs = static_cast<std::uint64_t>(mesh.uvs.rows());
-  header.uv_corners = topology.corner_uvs.size();
-  header.normal_corners = mesh.corner_normals.size();
+  const MeshHeader header{.mesh = mesh.digest(),
+                          .vertices = static_cast<std::uint64_t>(topology.vertex_count),
+                          .faces = static_cast<std::uint64_t>(topology.face_count()),
+                          .corners = topology.corner_vertices.size(),
+                          .uvs = static_cast<std::uint64_t>(mesh.uvs.rows()),
+                          .uv_corners = topology.corner_uvs.size(),
+                          .normal_corners = mesh.corner_normals.size()};
   write_entry(mesh_entry(cache, header.mesh),
               {bytes_of(&header, sizeof header), bytes_of(std::span(topology.corner_vertices)),
                bytes_of(std::span(topology.corner_uvs)), bytes_of(std::span(topology.face_offsets)),

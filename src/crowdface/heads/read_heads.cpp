@@ -95,8 +95,7 @@ bool read_from_cache(HeadFile& head, const fs::path& cache, MeshShelf& shelf) {
     head.mesh_digest = *mesh;
     head.mesh = shelf.find(*mesh);
     if (!head.mesh || fits(head.file, *head.mesh)) return head.mesh != nullptr;
-    throw InvalidInput(
-        concat(head.file.path.string(), ": its cache entry is damaged (it is of another mesh)"));
+    refuse_file(head.file.path, "its cache entry is damaged (it is of another mesh)");
   } catch (const Error& error) {
     log_warning(concat(error.what(), "; it is made anew"));
     return false;
@@ -202,7 +201,7 @@ Positions read_positions(const fs::path& file, const Topology& topology, std::st
   ObjFile mesh = read_obj(file);
   const std::string difference = first_difference(topology, mesh.topology);
   if (difference.empty()) return std::move(mesh.positions);
-  throw InvalidInput(concat(file.string(), ": not the same mesh as ", others, ": ", difference));
+  refuse_file(file, concat("not the same mesh as ", others, ": ", difference));
 }
 
 void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {

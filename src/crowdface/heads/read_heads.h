@@ -35,9 +35,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(
     const std::vector<std::filesystem::path>& paths, std::string_view what,
     const std::filesystem::path& cache, Problems& problems);
 
-/// Reads heads side by side, those that the cache knows from there.
-/// \param cache  its folder; empty: none.
-/// \return those that could be read, in their order; the others are problems.
+/// The same of heads. \return those that could be read, in their order; the others are problems.
 std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths,
                                  const std::filesystem::path& cache, Problems& problems);
 

@@ -13,6 +13,7 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/heads/kept_lists.h"
+#include "crowdface/heads/named_parts.h"
 
 namespace crowdface {
 namespace {
@@ -34,10 +35,6 @@ Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
   return hasher.add_array(std::span(inputs.skin.of_vertex)).add(inputs.skin.largest());
 }
 
-bool all_below(const std::vector<std::uint32_t>& numbers, std::size_t end) {
-  return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < end; });
-}
-
 /// Whether each component has as many vertices as it says.
 bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
                const std::vector<std::uint32_t>& sizes) {
@@ -54,22 +51,14 @@ bool are_shares(const std::array<double, 3>& shares) {
       shares, [](double share) { return share >= -kRounding && share <= 1 + kRounding; });
 }
 
-std::vector<bool> skin_of(const Inputs& inputs) {
-  std::vector<bool> skin;
-  const std::uint32_t largest = inputs.skin.largest();
-  for (const std::uint32_t c : inputs.skin.of_vertex) skin.push_back(c == largest);
-  return skin;
-}
-
 /// Nothing if the masks' bytes do not tell all: of tiles it depends on the mesh which are read, and of files
 /// that cannot be read whoever reads them tells.
 std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs) {
   const InputLimits& limits = input_limits();
-  const auto& uvs = inputs.faces.uvs;
   Hasher key;
   add_skins(begin_key(key, Kind::kRegions, inputs), inputs)
       .add_array(std::span(inputs.faces.topology.corner_uvs))
-      .add_array(std::span<const double>(uvs.data(), static_cast<std::size_t>(uvs.size())))
+      .add_array(numbers_of(inputs.faces.uvs))
       .add(config.region_names().size())
       .add(limits.image_pixels)
       .add(limits.image_bytes);
@@ -182,10 +171,9 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
         return std::tuple(find_sample_cells(inputs.adjacency, inputs.mean, samples).of_vertex);
       },
       [&](const auto& cells) {
+        static_assert(SampleCells::kNone == kNoIndex);
         return cells.size() == static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
-               std::ranges::all_of(cells, [&](std::uint32_t cell) {
-                 return cell < samples.size() || cell == SampleCells::kNone;
-               });
+               are_rows(cells, samples.size());
       });
   return {std::move(of_vertex)};
 }
@@ -214,7 +202,7 @@ FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) 
           [&](const auto& corner, const auto& share, const auto& lacking, const auto& added,
               const auto& count, const auto& measure) {
             const auto is_place = [&](const Triangle& triangle) {
-              return std::ranges::all_of(triangle, [&](auto v) { return v < vertices; });
+              return all_below(triangle, vertices);
             };
             return corner.size() == vertices && std::ranges::all_of(corner, is_place) &&
                    share.size() == vertices && std::ranges::all_of(share, are_shares) &&

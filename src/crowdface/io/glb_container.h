@@ -11,12 +11,19 @@ namespace crowdface {
 
 /// The container of binary glTF 2.0: a header, a chunk of JSON, a chunk with the buffer.
 namespace glb {
-inline constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2;  // "glTF"
+inline constexpr std::uint32_t kMagic = 0x46546c67, kContainerVersion = 2;  // "glTF"
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 inline constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
 /// What stands around the JSON text before the buffer.
 inline constexpr std::size_t kBinaryHeader = kFileHeader + 2 * kChunkHeader;
 }  // namespace glb
+
+/// Codes of the glTF 2.0 specification.
+namespace gltf {
+inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
+inline constexpr int kUnsignedInt = 5125, kFloat = 5126;
+inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+}  // namespace gltf
 
 struct GlbChunks {
   std::string_view json, binary;
@@ -26,7 +33,7 @@ struct GlbChunks {
 inline std::optional<GlbChunks> glb_chunks(std::string_view bytes) {
   using namespace glb;
   if (bytes.size() < kBinaryHeader || number_at<std::uint32_t>(bytes.data()) != kMagic ||
-      number_at<std::uint32_t>(bytes.data() + 4) != kVersion) {
+      number_at<std::uint32_t>(bytes.data() + 4) != kContainerVersion) {
     return std::nullopt;
   }
   const std::size_t json = number_at<std::uint32_t>(bytes.data() + kFileHeader);

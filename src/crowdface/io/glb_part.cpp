@@ -17,31 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace gltf;
 
-Json bounds_json(const Eigen::RowVector3d& vector) {
-  Json json = Json::array();
-  for (const double part : vector) json.push_back(static_cast<double>(to_single(part)));
-  return json;
-}
-
-std::size_t add_view(Json& scene, std::size_t& size, std::size_t length, int target) {
-  Json view = {{"buffer", 0}, {"byteOffset", size}, {"byteLength", length}};
-  if (target != 0) view["target"] = target;
-  scene["bufferViews"].push_back(std::move(view));
-  size += length;
-  return scene["bufferViews"].size() - 1;
-}
-
-std::size_t add_accessor(Json& scene, std::size_t view, std::size_t offset, int component,
-                         const char* type, std::size_t count) {
-  Json accessor = {{"bufferView", view}};
-  if (offset > 0) accessor["byteOffset"] = offset;
-  accessor["componentType"] = component;
-  accessor["count"] = count;
-  accessor["type"] = type;
-  scene["accessors"].push_back(std::move(accessor));
-  return scene["accessors"].size() - 1;
-}
-
 Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture) {
   GlbMaterial plain;
   plain.name = material.name;
@@ -52,6 +27,22 @@ Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture
   if (material.alpha == GlbPartMaterial::Alpha::kMask) json["alphaMode"] = "MASK";
   if (material.alpha == GlbPartMaterial::Alpha::kBlend) json["alphaMode"] = "BLEND";
   return json;
+}
+
+/// \param moves  of the part's vertices.
+void add_targets(std::span<const Displacements> moves, std::span<const std::uint32_t> split,
+                 Index vertex_count, Json& scene, GlbBuffer& buffer) {
+  for (const Displacements& target : moves) {
+    const GlbTargetRows moved = target_rows(target.vertices, split, vertex_count);
+    const auto [least, most] = target_bounds(target, moved.whole);
+    buffer.add_zeros(split.size());
+    scene["accessors"].back()["min"] = vector_json(least);
+    scene["accessors"].back()["max"] = vector_json(most);
+    const std::size_t rows = moved.rows.size();
+    if (rows == 0) continue;
+    const std::size_t indices = buffer.add_view(rows * sizeof(std::uint32_t));
+    buffer.make_sparse(rows, indices, buffer.add_view(rows * kVectorSize));
+  }
 }
 
 }  // namespace
@@ -71,13 +62,7 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   const SplitVertices split = split_vertices(topology);
   split_ = split.vertices;
   has_uvs_ = !split.uvs.empty() && uvs.rows() > 0;
-  if (has_uvs_) {
-    for (const std::uint32_t uv : split.uvs) {
-      const bool has_one = uv != kNoIndex;
-      append_number(shared_, has_one ? to_single(uvs(uv, 0)) : 0.0F);
-      append_number(shared_, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v goes down
-    }
-  }
+  if (has_uvs_) shared_ = texture_coordinates(split, uvs);
   if (influences.group_count() > 0) skin_ = skin_attributes(influences, split_);
   for (GlbSkinAttribute& one : skin_) shared_ += std::exchange(one.bytes, {});
   for (std::size_t m = 0; m < materials.size(); ++m) {
@@ -100,45 +85,44 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
 std::size_t GlbPart::describe(Json& scene, const Positions& positions,
                               std::span<const Displacements> moves, std::size_t size) const {
   require(moves.size() == targets_.size(), "GlbPart: displacements of each target");
-  const std::size_t vertices = split_.size(), begin = size;
+  const std::size_t vertices = split_.size();
+  GlbBuffer buffer(scene, size);
   Json attributes = Json::object();
   const auto add_attribute = [&](const std::string& called, const char* type, std::size_t width,
                                  int component = kFloat) {
     const std::size_t one = component == kFloat ? sizeof(float) : sizeof(std::uint16_t);
-    const std::size_t view = add_view(scene, size, vertices * width * one, kArrayBuffer);
-    attributes[called] = add_accessor(scene, view, 0, component, type, vertices);
+    buffer.add_view(vertices * width * one, kArrayBuffer);
+    attributes[called] = buffer.add_accessor(component, type, vertices);
   };
   add_attribute("POSITION", "VEC3", 3);
   Json& bounded = scene["accessors"].back();
-  bounded["min"] = bounds_json(positions.colwise().minCoeff());
-  bounded["max"] = bounds_json(positions.colwise().maxCoeff());
+  bounded["min"] = vector_json(positions.colwise().minCoeff());
+  bounded["max"] = vector_json(positions.colwise().maxCoeff());
   add_attribute("NORMAL", "VEC3", 3);
   if (has_uvs_) add_attribute("TEXCOORD_0", "VEC2", 2);
   for (const GlbSkinAttribute& one : skin_) add_attribute(one.name, "VEC4", 4, one.component);
   std::size_t all = 0;
   for (const Primitive& primitive : primitives_) all += primitive.indices;
-  const std::size_t view = add_view(scene, size, all * sizeof(std::uint32_t), kElementArrayBuffer);
+  buffer.add_view(all * sizeof(std::uint32_t), kElementArrayBuffer);
   const std::size_t first_texture = scene.contains("textures") ? scene["textures"].size() : 0;
   Json primitives = Json::array();
   std::size_t offset = 0;
   for (const Primitive& primitive : primitives_) {
-    const std::size_t material = scene.contains("materials") ? scene["materials"].size() : 0;
+    const std::size_t material = scene["materials"].size();
     scene["materials"].push_back(material_json_of(materials_[primitive.material], first_texture));
     primitives.push_back(
         {{"attributes", attributes},
-         {"indices", add_accessor(scene, view, offset, kUnsignedInt, "SCALAR", primitive.indices)},
+         {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", primitive.indices, offset)},
          {"material", material}});
     offset += primitive.indices * sizeof(std::uint32_t);
   }
   for (std::size_t i = 0; i < image_sizes_.size(); ++i) {
-    const std::size_t image = scene.contains("images") ? scene["images"].size() : 0;
-    scene["textures"].push_back(Json::object({{"source", image}}));
-    scene["images"].push_back(
-        {{"bufferView", add_view(scene, size, image_sizes_[i], 0)}, {"mimeType", image_types_[i]}});
+    add_image(scene, buffer.add_view(image_sizes_[i]), image_types_[i]);
   }
-  size = begin + 2 * vertices * kVectorSize + shared_.size();
+  buffer.pad();
   Json mesh = {{"name", name_}, {"primitives", std::move(primitives)}};
-  describe_targets(scene, moves, mesh, size);
+  set_targets(mesh, scene["accessors"].size(), targets_);
+  add_targets(moves, split_, topology_.vertex_count, scene, buffer);
   Json node = {{"name", name_}, {"mesh", scene["meshes"].size()}};
   if (skin_.empty()) {
     scene["nodes"][0]["children"].push_back(scene["nodes"].size());
@@ -148,41 +132,8 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
   }
   scene["nodes"].push_back(std::move(node));
   scene["meshes"].push_back(std::move(mesh));
-  scene["buffers"][0]["byteLength"] = size;
-  return size;
-}
-
-GlbTargetRows GlbPart::rows_of(const Displacements& moves) const {
-  return target_rows({{}, moves.vertices}, split_, topology_.vertex_count);
-}
-
-void GlbPart::describe_targets(Json& scene, std::span<const Displacements> moves, Json& mesh,
-                               std::size_t& size) const {
-  if (targets_.empty()) return;
-  Json accessors = Json::array(), weights = Json::array();
-  for (const Displacements& target : moves) {
-    const GlbTargetRows moved = rows_of(target);
-    const std::size_t rows = moved.rows.size();
-    const auto [least, most] = target_bounds(target, moved.whole);
-    Json accessor = {{"componentType", kFloat},
-                     {"count", split_.size()},
-                     {"type", "VEC3"},
-                     {"min", bounds_json(least)},
-                     {"max", bounds_json(most)}};
-    if (rows > 0) {
-      const std::size_t indices = add_view(scene, size, rows * sizeof(std::uint32_t), 0);
-      accessor["sparse"] = {
-          {"count", rows},
-          {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
-          {"values", {{"bufferView", add_view(scene, size, rows * kVectorSize, 0)}}}};
-    }
-    accessors.push_back({{"POSITION", scene["accessors"].size()}});
-    scene["accessors"].push_back(std::move(accessor));
-    weights.push_back(0.0);
-  }
-  for (Json& primitive : mesh["primitives"]) primitive["targets"] = accessors;
-  mesh["weights"] = std::move(weights);
-  mesh["extras"] = {{"targetNames", targets_}};
+  buffer.finish();
+  return buffer.size();
 }
 
 void GlbPart::append(EncodedFile& file, const Positions& positions,
@@ -199,7 +150,7 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
   file.refer_to(shared_);
   for (const Displacements& target : moves) {
     require_finite(target.moves, target.moves.rows(), name_);
-    const GlbTargetRows rows = rows_of(target);
+    const GlbTargetRows rows = target_rows(target.vertices, split_, topology_.vertex_count);
     std::string bytes;
     for (const std::uint32_t vertex : rows.vertices) append_number(bytes, vertex);
     bytes.resize(bytes.size() + rows.rows.size() * kVectorSize);

@@ -11,7 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crowdface/io/encoded_file.h"
-#include "crowdface/io/glb_targets.h"
+#include "crowdface/io/glb_skin.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
@@ -68,10 +68,6 @@ class GlbPart {
   struct Primitive {
     std::size_t material, indices;  ///< which material, and how many
   };
-
-  void describe_targets(nlohmann::ordered_json& scene, std::span<const Displacements> moves,
-                        nlohmann::ordered_json& mesh, std::size_t& size) const;
-  GlbTargetRows rows_of(const Displacements& moves) const;
 
   std::string name_;
   Topology topology_;

@@ -2,9 +2,12 @@
 #include "crowdface/io/glb_scene.h"
 
 #include <array>
-#include <cmath>
 
 #include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/rounded.h"
+#include "crowdface/io/single_precision.h"
 
 namespace crowdface {
 
@@ -12,11 +15,6 @@ using Json = nlohmann::ordered_json;
 using namespace gltf;
 
 namespace {
-
-double tidy(double value) {
-  const double rounded = std::round(value * 1e4) / 1e4;
-  return rounded == 0 ? 0.0 : rounded;
-}
 
 /// Turns `up` to +Y and `front` to +Z: x, y, z and w of a unit quaternion.
 std::array<double, 4> rotation_to_gltf(Axis up, Axis front) {
@@ -30,12 +28,18 @@ std::array<double, 4> rotation_to_gltf(Axis up, Axis front) {
 
 }  // namespace
 
+Json vector_json(const Eigen::RowVector3d& vector) {
+  Json json = Json::array();
+  for (const double part : vector) json.push_back(static_cast<double>(to_single(part)));
+  return json;
+}
+
 Json material_json(const GlbMaterial& material, std::size_t overlay) {
   Json json = Json::object();
   if (!material.name.empty()) json["name"] = material.name;
   Json colour = Json::array();
   for (const float part : material.colour) {
-    colour.push_back(material.overlay ? 1.0 : tidy(static_cast<double>(part)));
+    colour.push_back(material.overlay ? 1.0 : rounded(part) + 0.0);
   }
   json["pbrMetallicRoughness"] = {
       {"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.6}};
@@ -66,10 +70,18 @@ Json node_json(const GlbOptions& options) {
   return node;
 }
 
-GlbBuffer::GlbBuffer(Json& scene) : scene_(scene) {
-  scene_["buffers"] = Json::array();
-  scene_["bufferViews"] = Json::array();
-  scene_["accessors"] = Json::array();
+void add_image(Json& scene, std::size_t view, const std::string& type) {
+  scene["textures"].push_back(Json::object({{"source", scene["images"].size()}}));
+  scene["images"].push_back({{"bufferView", view}, {"mimeType", type}});
+}
+
+void set_targets(Json& mesh, std::size_t first, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  Json targets = Json::array();
+  for (std::size_t t = 0; t < names.size(); ++t) targets.push_back({{"POSITION", first + t}});
+  for (Json& primitive : mesh["primitives"]) primitive["targets"] = targets;
+  mesh["weights"] = std::vector<double>(names.size(), 0.0);
+  mesh["extras"] = {{"targetNames", names}};
 }
 
 std::size_t GlbBuffer::add_view(std::size_t size, int target) {
@@ -97,23 +109,54 @@ std::size_t GlbBuffer::add_accessor(int component, const char* type, std::size_t
   return scene_["accessors"].size() - 1;
 }
 
-std::size_t GlbBuffer::add_sparse(std::size_t count, std::size_t some, std::size_t indices,
-                                  std::size_t values) {
-  const std::size_t accessor = add_zeros(count);
-  scene_["accessors"][accessor]["sparse"] = {
+void GlbBuffer::add_zeros(std::size_t count) {
+  scene_["accessors"].push_back({{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}});
+}
+
+void GlbBuffer::make_sparse(std::size_t some, std::size_t indices, std::size_t values) {
+  scene_["accessors"].back()["sparse"] = {
       {"count", some},
       {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
       {"values", {{"bufferView", values}}}};
-  return accessor;
-}
-
-std::size_t GlbBuffer::add_zeros(std::size_t count) {
-  scene_["accessors"].push_back({{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}});
-  return scene_["accessors"].size() - 1;
 }
 
 void GlbBuffer::finish() {
-  scene_["buffers"].push_back(Json::object({{"byteLength", size_}}));
+  scene_["buffers"][0]["byteLength"] = size_;
+}
+
+std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs) {
+  std::string bytes;
+  bytes.reserve(split.uvs.size() * 2 * sizeof(float));
+  for (const std::uint32_t uv : split.uvs) {
+    const bool has_one = uv != kNoIndex;
+    append_number(bytes, has_one ? to_single(uvs(uv, 0)) : 0.0F);
+    append_number(bytes, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v goes down
+  }
+  return bytes;
+}
+
+GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
+                          std::span<const std::uint32_t> split, Index count) {
+  std::vector<std::uint32_t> row_of(static_cast<std::size_t>(count), kNoIndex);
+  for (std::uint32_t row = 0; row < vertices.size(); ++row) row_of[vertices[row]] = row;
+  GlbTargetRows rows;
+  rows.whole = vertices.size() == row_of.size();
+  for (std::uint32_t i = 0; i < split.size(); ++i) {
+    if (row_of[split[i]] == kNoIndex) continue;
+    rows.rows.push_back(row_of[split[i]]);
+    rows.vertices.push_back(i);
+  }
+  return rows;
+}
+
+std::pair<Eigen::RowVector3d, Eigen::RowVector3d> target_bounds(const Displacements& moves,
+                                                                bool whole) {
+  Eigen::RowVector3d least = Eigen::RowVector3d::Zero(), most = least;
+  if (moves.moves.rows() == 0) return {least, most};
+  least = moves.moves.colwise().minCoeff();
+  most = moves.moves.colwise().maxCoeff();
+  if (whole) return {least, most};
+  return {least.cwiseMin(0), most.cwiseMax(0)};
 }
 
 }  // namespace crowdface

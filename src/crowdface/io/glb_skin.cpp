@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/text.h"
-#include "crowdface/io/gltf_codes.h"
+#include "crowdface/io/glb_container.h"
 #include "crowdface/io/little_endian.h"
 #include "crowdface/io/single_precision.h"
 

@@ -10,10 +10,15 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crowdface/core/grouped.h"
-#include "crowdface/io/influence.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
+
+/// How much a joint moves a vertex.
+struct Influence {
+  std::uint32_t joint;
+  float weight;  ///< those of a vertex add up to one
+};
 
 /// A joint of a rig that every file has; where it stands is each face's own.
 struct GlbJoint {

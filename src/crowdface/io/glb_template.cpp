@@ -41,17 +41,6 @@ std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions&
   return groups;
 }
 
-std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs) {
-  std::string bytes;
-  bytes.reserve(split.uvs.size() * 2 * sizeof(float));
-  for (const std::uint32_t uv : split.uvs) {
-    const bool has_one = uv != kNoIndex;
-    append_number(bytes, has_one ? to_single(uvs(uv, 0)) : 0.0F);
-    append_number(bytes, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v goes down
-  }
-  return bytes;
-}
-
 std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32_t>& ids) {
   std::string bytes;
   bytes.reserve(split.vertices.size() * sizeof(float));
@@ -120,15 +109,11 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
 /// Images come last in the buffer; how long they are, and where they lie, is filled in for each file.
 /// \param overlay  the view that holds it, if there is one
 void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOptions& options) {
-  const auto add = [&](std::size_t view, const std::string& type) {
-    scene["textures"].push_back(Json::object({{"source", scene["images"].size()}}));
-    scene["images"].push_back({{"bufferView", view}, {"mimeType", type}});
-  };
   for (const std::string& type : options.image_types) {
-    add(scene["bufferViews"].size(), type);
+    add_image(scene, scene["bufferViews"].size(), type);
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 0}});
   }
-  if (overlay) add(*overlay, "image/png");
+  if (overlay) add_image(scene, *overlay, "image/png");
 }
 
 /// \param size  of the buffer without them. \return its size with them.
@@ -143,12 +128,6 @@ std::size_t place_images(Json& scene, std::size_t size, std::span<const std::str
   size += (4 - size % 4) % 4;
   scene["buffers"][0]["byteLength"] = size;
   return size;
-}
-
-Json to_json(const Eigen::RowVector3d& vector) {
-  Json json = Json::array();
-  for (const double part : vector) json.push_back(static_cast<double>(to_single(part)));
-  return json;
 }
 
 /// One row a split vertex: first all rows, then those of the further split vertices again.
@@ -191,7 +170,8 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     scene["nodes"][0]["children"].push_back(scene["nodes"].size());
     scene["nodes"].push_back({{"name", point}, {"translation", {0.0, 0.0, 0.0}}});
   }
-  GlbBuffer buffer(scene);
+  scene["buffers"] = Json::array({Json::object({{"byteLength", 0}})});
+  GlbBuffer buffer(scene, 0);
   std::vector<GlbSkinAttribute> skin;
   if (!options.skin.joints.empty()) {
     skin = skin_attributes(options.skin.influences, split.vertices);
@@ -210,9 +190,9 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   std::vector<std::size_t> views;
   for (const GlbTarget& target : options.targets) {
     const std::size_t before = indices.size();
-    targets_.push_back({target_rows(target, split.vertices, vertices_), 0});
-    for (const std::uint32_t vertex : targets_.back().rows.vertices) append_number(indices, vertex);
-    targets_.back().rows.vertices = {};
+    targets_.push_back(target_rows(target.vertices, split.vertices, vertices_));
+    for (const std::uint32_t vertex : targets_.back().vertices) append_number(indices, vertex);
+    targets_.back().vertices = {};
     if (target.vertices.empty()) continue;
     views.push_back(buffer.add_view(indices.size() - before));
   }
@@ -221,25 +201,16 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     indices += options.overlay->png;
     indices.append(buffer.pad(), '\0');
   }
-  Json accessors = Json::array(), names = Json::array(), weights = Json::array();
+  first_target_ = scene["accessors"].size();
+  std::vector<std::string> names;
   for (std::size_t t = 0, view = 0; t < targets_.size(); ++t) {
-    Target& target = targets_[t];
-    const std::size_t size = target.rows.rows.size() * kVectorSize;
-    target.accessor = target.rows.rows.empty()
-                          ? buffer.add_zeros(split.vertices.size())
-                          : buffer.add_sparse(split.vertices.size(), target.rows.rows.size(),
-                                              views[view++], buffer.add_view(size));
-    target_bytes_ += size;
-    accessors.push_back({{"POSITION", target.accessor}});
+    const std::size_t some = targets_[t].rows.size();
+    buffer.add_zeros(split.vertices.size());
+    if (some > 0) buffer.make_sparse(some, views[view++], buffer.add_view(some * kVectorSize));
+    target_bytes_ += some * kVectorSize;
     names.push_back(options.targets[t].name);
-    weights.push_back(0.0);
   }
-  if (!targets_.empty()) {
-    Json& mesh = scene["meshes"][0];
-    for (Json& primitive : mesh["primitives"]) primitive["targets"] = accessors;
-    mesh["weights"] = std::move(weights);
-    mesh["extras"] = {{"targetNames", std::move(names)}};
-  }
+  set_targets(scene["meshes"][0], first_target_, names);
   if (!options.skin.joints.empty()) {
     skin_.joints = options.skin.joints;
     buffer.add_view(skin_.matrix_bytes());
@@ -279,18 +250,18 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   require_finite(positions, vertices_, name);
   require_finite(normals, vertices_, name);
   Json scene = Json::parse(json_);
-  scene["accessors"][0]["min"] = to_json(positions.colwise().minCoeff());
-  scene["accessors"][0]["max"] = to_json(positions.colwise().maxCoeff());
+  scene["accessors"][0]["min"] = vector_json(positions.colwise().minCoeff());
+  scene["accessors"][0]["max"] = vector_json(positions.colwise().maxCoeff());
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     require_finite(moves[t].moves, moves[t].moves.rows(), name);
-    const auto [least, most] = target_bounds(moves[t], targets_[t].rows.whole);
-    Json& accessor = scene["accessors"][targets_[t].accessor];
-    accessor["min"] = to_json(least);
-    accessor["max"] = to_json(most);
+    const auto [least, most] = target_bounds(moves[t], targets_[t].whole);
+    Json& accessor = scene["accessors"][first_target_ + t];
+    accessor["min"] = vector_json(least);
+    accessor["max"] = vector_json(most);
   }
   require_finite(points, points_, name);
   for (Index p = 0; p < points_; ++p) {
-    scene["nodes"][static_cast<std::size_t>(p + 1)]["translation"] = to_json(points.row(p));
+    scene["nodes"][static_cast<std::size_t>(p + 1)]["translation"] = vector_json(points.row(p));
   }
   if (!skin_.joints.empty()) {
     require_finite(joints, static_cast<Index>(skin_.joints.size()), name);
@@ -316,7 +287,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
                               std::numeric_limits<std::uint32_t>::max()));
   }
   std::string head;
-  for (const auto number : {kMagic, kVersion, static_cast<std::uint32_t>(total),
+  for (const auto number : {kMagic, kContainerVersion, static_cast<std::uint32_t>(total),
                             static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
     append_number(head, number);
   }
@@ -334,7 +305,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   char* const values = vectors + 2 * vector_bytes();
   char* at = values;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    for (const std::uint32_t row : targets_[t].rows.rows) at = put_row(at, moves[t].moves, row);
+    for (const std::uint32_t row : targets_[t].rows) at = put_row(at, moves[t].moves, row);
   }
   if (!skin_.joints.empty()) put_bind_matrices(at, skin_, joints);
   file.refer_to({values, target_bytes_ + skin_.matrix_bytes()});
@@ -352,8 +323,8 @@ Positions read_glb_positions(const std::filesystem::path& path, Index vertices) 
   const MappedFile file(path);
   const auto need = [&](bool is_so) {
     if (is_so) return;
-    throw InvalidInput(concat(path.string(), ": expected a GLB file as crowdface writes it for ",
-                              vertices, " vertices, found another"));
+    refuse_file(path, concat("expected a GLB file as crowdface writes it for ", vertices,
+                             " vertices, found another"));
   };
   const auto chunks = glb_chunks(file.bytes());
   need(chunks.has_value());
@@ -362,9 +333,7 @@ Positions read_glb_positions(const std::filesystem::path& path, Index vertices) 
   // Positions come first in the buffer.
   need(generator == "crowdface" &&
        static_cast<std::size_t>(vertices) <= chunks->binary.size() / kVectorSize);
-  Positions positions = read_singles(chunks->binary.data(), vertices, kVectorSize);
-  require_finite(positions, vertices, path.string());
-  return positions;
+  return read_singles(chunks->binary.data(), vertices, kVectorSize, path.string());
 }
 
 }  // namespace crowdface

@@ -10,7 +10,7 @@
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_options.h"
 #include "crowdface/io/glb_part.h"
-#include "crowdface/io/glb_targets.h"
+#include "crowdface/io/glb_scene.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
@@ -49,23 +49,18 @@ class GlbTemplate {
   }
 
  private:
-  /// One target and its accessor.
-  struct Target {
-    GlbTargetRows rows;  ///< without the vertices
-    std::size_t accessor = 0;
-  };
-
   std::size_t vector_bytes() const;
 
   Index vertices_;
   std::size_t images_;
   Index points_;
-  std::vector<std::uint32_t> split_;  ///< original vertices of the split ones from #V on
-  std::string shared_;                ///< the part of the buffer that all faces share
-  std::vector<Target> targets_;
-  GlbSkin skin_;                  ///< without influences
-  std::size_t target_bytes_ = 0;  ///< of the values of all targets
-  std::string json_;              ///< the scene of any face; bounds and names to be filled in
+  std::vector<std::uint32_t> split_;    ///< original vertices of the split ones from #V on
+  std::string shared_;                  ///< the part of the buffer that all faces share
+  std::vector<GlbTargetRows> targets_;  ///< without the vertices
+  std::size_t first_target_ = 0;        ///< the accessor of its moves; those of others follow
+  GlbSkin skin_;                        ///< without influences
+  std::size_t target_bytes_ = 0;        ///< of the values of all targets
+  std::string json_;                    ///< the scene of any face; bounds and names to be filled in
 };
 
 /// The positions of a file that GlbTemplate made. \throws InvalidInput if it is any other.

@@ -21,6 +21,7 @@ namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using namespace gltf;
 
 constexpr std::size_t kLongestJointName = 1000;  ///< of a joint, bytes
 constexpr double kFarthest = 1e6;                ///< of what a matrix holds: a thousand kilometres
@@ -28,7 +29,7 @@ constexpr double kFarthest = 1e6;                ///< of what a matrix holds: a 
 /// A glTF scene and its buffer, with messages that name the file.
 class GltfFile {
  public:
-  explicit GltfFile(const std::filesystem::path& path) : path_(path.string()), file_(path) {
+  explicit GltfFile(const std::filesystem::path& path) : path_(path), file_(path) {
     const auto chunks = glb_chunks(file_.bytes());
     if (!chunks) fail("expected a binary glTF 2.0 file (GLB), found another");
     scene_ = parse_shallow_json(chunks->json);
@@ -37,9 +38,7 @@ class GltfFile {
   }
 
   const Json& scene() const { return scene_; }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InvalidInput(concat(path_, ": ", what));
-  }
+  [[noreturn]] void fail(const std::string& what) const { refuse_file(path_, what); }
 
   /// The numbers of an accessor, row after row; those that are normalized as what they stand for.
   std::vector<double> numbers(std::size_t accessor, std::size_t width) {
@@ -49,9 +48,9 @@ class GltfFile {
     }
     const Json& view = scene_.at("bufferViews").at(json.at("bufferView").get<std::size_t>());
     const auto type = json.at("componentType").get<int>();
-    const std::size_t size = type == 5121 || type == 5120   ? 1
-                             : type == 5123 || type == 5122 ? 2
-                                                            : 4;
+    const std::size_t size = type == kUnsignedByte || type == kByte     ? 1
+                             : type == kUnsignedShort || type == kShort ? 2
+                                                                        : 4;
     const std::size_t count = json.at("count").get<std::size_t>();
     const std::size_t stride = view.value("byteStride", size * width);
     const std::size_t begin =
@@ -98,21 +97,14 @@ class GltfFile {
     read_ += more;
   }
   double number(const char* at, int type, std::size_t accessor) const {
-    switch (type) {
-      case 5121:
-        return number_at<std::uint8_t>(at);
-      case 5123:
-        return number_at<std::uint16_t>(at);
-      case 5125:
-        return number_at<std::uint32_t>(at);
-      case 5126:
-        return static_cast<double>(number_at<float>(at));
-      default:
-        fail(concat("accessor ", accessor, " has numbers of the unexpected type ", type));
-    }
+    if (type == kUnsignedByte) return number_at<std::uint8_t>(at);
+    if (type == kUnsignedShort) return number_at<std::uint16_t>(at);
+    if (type == kUnsignedInt) return number_at<std::uint32_t>(at);
+    if (type == kFloat) return static_cast<double>(number_at<float>(at));
+    fail(concat("accessor ", accessor, " has numbers of the unexpected type ", type));
   }
 
-  std::string path_;
+  std::filesystem::path path_;
   MappedFile file_;
   Json scene_;
   std::string_view binary_;
@@ -221,9 +213,7 @@ class RigReader {
     std::vector<std::uint32_t> above;
     for (std::uint32_t node = 0; node < parents_.size(); ++node) {
       for (std::uint32_t n = node; n != kNoIndex && !known[n]; n = parents_[n]) {
-        if (above.size() == parents_.size()) {
-          file_.fail("its nodes hang on each other in a circle");
-        }
+        if (above.size() == parents_.size()) file_.fail("its nodes hang on each other in a circle");
         above.push_back(n);
       }
       for (; !above.empty(); above.pop_back()) {
@@ -352,10 +342,9 @@ GltfRig read_gltf_rig(const std::filesystem::path& path) {
   try {
     return RigReader(path).read();
   } catch (const Json::exception& error) {
-    throw InvalidInput(concat(path.string(), ": not a scene that glTF 2.0 allows: ", error.what()));
+    refuse_file(path, concat("not a scene that glTF 2.0 allows: ", error.what()));
   } catch (const std::out_of_range&) {
-    throw InvalidInput(
-        concat(path.string(), ": it speaks of nodes, joints or numbers that it does not have"));
+    refuse_file(path, "it speaks of nodes, joints or numbers that it does not have");
   }
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crowdface/core/grouped.h"
-#include "crowdface/io/influence.h"
+#include "crowdface/io/glb_skin.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {

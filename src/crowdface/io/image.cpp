@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
+#include "crowdface/core/memory.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image_codec.h"
@@ -40,15 +42,6 @@ struct OpenPicture {
   PictureFacts facts;
   std::unique_ptr<ImageCodec::Picture, void (*)(ImageCodec::Picture*)> picture;
 };
-
-OpenPicture open(const path& file, const std::string& format, std::string_view bytes) {
-  const ImageCodec& codec = image_codec();
-  OpenPicture opened{{}, {nullptr, codec.close}};
-  std::string error;
-  opened.picture.reset(codec.open(format, file.string(), bytes, opened.facts, error));
-  if (!opened.picture) refuse_file(file, error);
-  return opened;
-}
 
 void check_size(const path& file, const PictureFacts& spec, const ImageLimits& limits) {
   const auto size =
@@ -124,16 +117,10 @@ void* make_room(Image& image, std::size_t values) {
 
 void* make_room(const path& file, const PictureFacts& facts, Image& image) {
   const std::size_t values = value_count(facts);
-  switch (facts.values) {
-    case PictureFacts::Values::kBytes:
-      return make_room<std::uint8_t>(image, values);
-    case PictureFacts::Values::kWords:
-      return make_room<std::uint16_t>(image, values);
-    case PictureFacts::Values::kFloats:
-      return make_room<float>(image, values);
-    case PictureFacts::Values::kOthers:
-      break;
-  }
+  using Values = PictureFacts::Values;
+  if (facts.values == Values::kBytes) return make_room<std::uint8_t>(image, values);
+  if (facts.values == Values::kWords) return make_room<std::uint16_t>(image, values);
+  if (facts.values == Values::kFloats) return make_room<float>(image, values);
   refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type));
 }
 
@@ -142,6 +129,14 @@ std::uint64_t pixel_bytes(const PictureFacts& facts) {
   const bool bytes = facts.values == PictureFacts::Values::kBytes;
   const bool words = facts.values == PictureFacts::Values::kWords;
   return value_count(facts) * (bytes ? 1 : words ? 2 : sizeof(float));
+}
+
+std::mutex taking;
+std::uint64_t taken = 0;  ///< bytes, by all images
+
+/// \pre  the mutex is held.
+std::uint64_t free_of(std::uint64_t most) {
+  return most - std::min(taken, most);
 }
 
 void check_finite(const path& file, const Image& image) {
@@ -158,15 +153,14 @@ void check_finite(const path& file, const Image& image) {
   }
 }
 
-void require_size(int width, int height, int channels, std::size_t values) {
+/// \param values  how many there are.
+std::string encode(const std::string& format, const PictureToEncode& picture, std::size_t values) {
+  const auto [form, width, height, channels, pixels] = picture;
   require(width > 0 && height > 0 &&
               values == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                             static_cast<std::size_t>(channels),
           "an image of ", width, " x ", height, " pixels and ", channels, " channels from ", values,
           " values");
-}
-
-std::string encode(const std::string& format, const PictureToEncode& picture) {
   std::string bytes, error;
   if (!image_codec().encode(picture, bytes, error)) {  // of pixels of ours
     throw IoError(concat(format, ": cannot be encoded (is there too little memory?): ", error));
@@ -177,7 +171,11 @@ std::string encode(const std::string& format, const PictureToEncode& picture) {
 /// Opens a file and refuses what should not be decoded.
 OpenPicture open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
-  OpenPicture opened = open(file, format, mapped.bytes());
+  const ImageCodec& codec = image_codec();
+  OpenPicture opened{{}, {nullptr, codec.close}};
+  std::string error;
+  opened.picture.reset(codec.open(format, file.string(), mapped.bytes(), opened.facts, error));
+  if (!opened.picture) refuse_file(file, error);
   check_kind(file, format, opened.facts);
   check_size(file, opened.facts, limits);
   if (format == "png") check_png_claim(file, mapped.bytes(), opened.facts);
@@ -197,6 +195,29 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
 }
 
 }  // namespace
+
+ImageMemory take_image_memory(const path& file, std::uint64_t bytes) {
+  const std::uint64_t most = input_limits().image_bytes;
+  {
+    const std::lock_guard lock(taking);
+    const std::uint64_t free = free_of(most);
+    if (bytes > free) {
+      refuse_file(file, concat("its pixels take ", format_bytes(bytes), ", and ",
+                               format_bytes(free), " of the ", format_bytes(most),
+                               " for all images together are free (--limit image_bytes=NUMBER)"));
+    }
+    taken += bytes;
+  }
+  return {&taken, [bytes](const void*) {
+            const std::lock_guard lock(taking);
+            taken -= bytes;
+          }};
+}
+
+std::uint64_t free_image_memory() {
+  const std::lock_guard lock(taking);
+  return free_of(input_limits().image_bytes);
+}
 
 Image read_image(const path& file, const ImageLimits& limits) {
   const MappedFile mapped(file);
@@ -223,28 +244,27 @@ ImageSize read_image_size(const path& file, const ImageLimits& limits) {
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
                        PngEffort effort) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  require_size(width, height, channels, pixels.size());
   const auto form = effort == PngEffort::kFast ? PictureToEncode::Form::kFastPng
                                                : PictureToEncode::Form::kSmallPng;
-  return encode("png", {form, width, height, channels, pixels.data()});
+  return encode("png", {form, width, height, channels, pixels.data()}, pixels.size());
 }
 
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {
-  require_size(width, height, 3, pixels.size());
-  return encode("jpeg", {PictureToEncode::Form::kJpeg, width, height, 3, pixels.data()});
+  return encode("jpeg", {PictureToEncode::Form::kJpeg, width, height, 3, pixels.data()},
+                pixels.size());
 }
 
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  require_size(width, height, channels, pixels.size());
-  return encode("png", {PictureToEncode::Form::kWordPng, width, height, channels, pixels.data()});
+  return encode("png", {PictureToEncode::Form::kWordPng, width, height, channels, pixels.data()},
+                pixels.size());
 }
 
 std::string encode_exr(int width, int height, int channels, std::span<const float> pixels) {
   require(channels == 1 || channels == 3, "an OpenEXR of ", channels, " channels");
-  require_size(width, height, channels, pixels.size());
-  return encode("openexr", {PictureToEncode::Form::kExr, width, height, channels, pixels.data()});
+  return encode("openexr", {PictureToEncode::Form::kExr, width, height, channels, pixels.data()},
+                pixels.size());
 }
 
 }  // namespace crowdface

@@ -12,7 +12,6 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
-#include "crowdface/core/utf8.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/tile_files.h"
 
@@ -43,16 +42,6 @@ bool stays_inside(const fs::path& relative) {
   if (relative.native().find('\0') != std::string::npos) return false;
   const fs::path normal = relative.lexically_normal();
   return !normal.empty() && normal.is_relative() && *normal.begin() != "..";
-}
-
-/// Calls `body` with the first word of each line that has at least two, and with all that stands
-/// behind it.
-template <class Body>
-void for_each_statement(std::string_view text, const Body& body) {
-  for (const std::string_view line : split_lines(text)) {
-    const MaterialStatement statement = material_statement(line);
-    if (!statement.word.empty()) body(statement.word, statement.rest);
-  }
 }
 
 std::string with_forward_slashes(std::string_view text) {
@@ -131,27 +120,21 @@ class Collector {
   bool exists(const fs::path& relative) const { return is_file(folder_ / relative); }
 
   bool take_file(const fs::path& relative, std::string_view what) {
-    if (const std::string_view objection = objection_to(relative); !objection.empty()) {
-      files_.warnings.push_back(
-          concat(what, " ", quoted(relative.string()), " ", objection, " and is not copied"));
+    const auto refuse = [&](std::string_view why) {
+      files_.warnings.push_back(concat(what, " ", quoted(relative.string()), " ", why));
       return false;
+    };
+    if (const std::string_view objection = objection_to(relative); !objection.empty()) {
+      return refuse(concat(objection, " and is not copied"));
     }
     if (!exists(relative)) {
-      files_.warnings.push_back(
-          concat(what, " ", quoted(relative.string()),
-                 " is missing; OBJ files name it all the same, pictures do without"));
-      return false;
+      return refuse("is missing; OBJ files name it all the same, pictures do without");
     }
     if (::access((folder_ / relative).c_str(), R_OK) != 0) {
-      files_.warnings.push_back(
-          concat(what, " ", quoted(relative.string()), " cannot be read and is not copied"));
-      return false;
+      return refuse("cannot be read and is not copied");
     }
     if (!leads_below(folder_ / relative, folder_)) {
-      files_.warnings.push_back(concat(what, " ", quoted(relative.string()),
-                                       " is a link that leads out of the head's folder and is not "
-                                       "copied"));
-      return false;
+      return refuse("is a link that leads out of the head's folder and is not copied");
     }
     const fs::path normal = relative.lexically_normal();
     if (!destinations_.insert(normal).second) return false;
@@ -168,13 +151,15 @@ class Collector {
     if (fs::file_size(file, error) > kLargestMaterialFile || error) return;
     textures_of_.clear();
     std::string material;
-    for_each_statement(read_file(file), [&](std::string_view word, std::string_view rest) {
+    const std::string text = read_file(file);
+    for (const std::string_view line : split_lines(text)) {
+      const auto [word, rest] = material_statement(line);
       throw_if_interrupted();
       if (word == "newmtl") material = rest;
-      if (!is_texture_statement(word)) return;
+      if (!is_texture_statement(word)) continue;
       const fs::path relative = texture_of(rest, name.parent_path());
       const Seen seen = see(relative, "texture", file, textures_);
-      if (seen == Seen::kTooMany) return;
+      if (seen == Seen::kTooMany) continue;
       const std::optional<TextureKind> kind = texture_kind_of(word);
       if (kind && stays_inside(relative) &&
           leads_below(folder_ / with_tile(relative, kFirstTile), folder_)) {
@@ -182,7 +167,7 @@ class Collector {
       }
       taken_[relative].kinds.insert(kind);
       if (seen == Seen::kNew) take_texture(relative);
-    });
+    }
   }
 
   /// The longest name at the end of a statement that a file has, or a first tile. If none has: all of

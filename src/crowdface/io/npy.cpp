@@ -36,24 +36,30 @@ std::string positions_header(Index vertices) {
   return npy_header("'<f4'", concat(vertices, ", 3"));
 }
 
-std::size_t data_size(Index vertices) {
-  return static_cast<std::size_t>(vertices) * 3 * sizeof(float);
-}
-
-/// \throws InvalidInput if there are more corners, faces or texture coordinates than int32 counts.
-void require_int32(std::size_t count) {
-  if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw InvalidInput(concat("points: expected at most 2147483647 corners, found ", count));
-  }
-}
-
 void write_indices(const std::vector<std::uint32_t>& indices, const std::filesystem::path& path) {
-  require_int32(indices.size());
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (indices.size() > kMost) {
+    throw InvalidInput(
+        concat("points: expected at most ", kMost, " corners, found ", indices.size()));
+  }
   EncodedFile file;
   file.add(npy_header("'<i4'", concat(indices.size(), ",")));
   const auto bytes = std::as_bytes(std::span(indices));  // kNoIndex is −1
   file.refer_to({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   file.write(path);
+}
+
+/// Names of up to 64 ASCII characters as a NumPy array of text.
+std::string names_npy(std::span<const std::string> names) {
+  constexpr std::size_t kLongest = 64;
+  std::string bytes = npy_header("'<U64'", concat(names.size(), ","));
+  for (const std::string& name : names) {
+    require(name.size() <= kLongest, "names of up to 64 characters");
+    for (std::size_t i = 0; i < kLongest; ++i) {
+      append_number(bytes, static_cast<std::uint32_t>(i < name.size() ? name[i] : 0));
+    }
+  }
+  return bytes;
 }
 
 void write_uvs(const TextureCoordinates& uvs, const std::filesystem::path& path) {
@@ -68,19 +74,19 @@ void write_uvs(const TextureCoordinates& uvs, const std::filesystem::path& path)
 }  // namespace
 
 std::size_t npy_encode_bytes(Index vertices) {
-  return data_size(vertices);
+  return static_cast<std::size_t>(vertices) * kVectorSize;
 }
 
 EncodedFile encode_npy(const Positions& positions, const std::string& what) {
   require_finite(positions, positions.rows(), what);
   EncodedFile file;
   file.add(positions_header(positions.rows()));
-  char* data = file.reserve(data_size(positions.rows()));
+  char* data = file.reserve(npy_encode_bytes(positions.rows()));
   parallel_blocks(positions.rows(), kRowsPerBlock, [&](Index begin, Index end) {
-    char* out = data + data_size(begin);
+    char* out = data + npy_encode_bytes(begin);
     for (Index i = begin; i < end; ++i) out = put_row(out, positions, i);
   });
-  file.refer_to({data, data_size(positions.rows())});
+  file.refer_to({data, npy_encode_bytes(positions.rows())});
   return file;
 }
 
@@ -106,18 +112,6 @@ EncodedFile encode_npy(std::span<const Displacements> shapes, const std::string&
   return file;
 }
 
-std::string encode_names_npy(std::span<const std::string> names) {
-  constexpr std::size_t kLongest = 64;
-  std::string bytes = npy_header("'<U64'", concat(names.size(), ","));
-  for (const std::string& name : names) {
-    require(name.size() <= kLongest, "names of up to 64 characters");
-    for (std::size_t i = 0; i < kLongest; ++i) {
-      append_number(bytes, static_cast<std::uint32_t>(i < name.size() ? name[i] : 0));
-    }
-  }
-  return bytes;
-}
-
 Positions read_npy(const std::filesystem::path& path) {
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
@@ -126,14 +120,12 @@ Positions read_npy(const std::filesystem::path& path) {
   constexpr std::size_t kHeader = 128;
   const auto rows = static_cast<Index>((bytes.size() - std::min(bytes.size(), kHeader)) / 12);
   const std::string header = positions_header(rows);
-  if (!bytes.starts_with(header) || bytes.size() != header.size() + data_size(rows)) {
-    throw InvalidInput(concat(path.string(),
-                              ": expected positions as crowdface writes them (.npy, float32, "
-                              "n by 3), found something else"));
+  if (!bytes.starts_with(header) || bytes.size() != header.size() + npy_encode_bytes(rows)) {
+    refuse_file(path,
+                "expected positions as crowdface writes them (.npy, float32, n by 3), found "
+                "something else");
   }
-  Positions positions = read_singles(bytes.data() + header.size(), rows, 3 * sizeof(float));
-  require_finite(positions, rows, path.string());
-  return positions;
+  return read_singles(bytes.data() + header.size(), rows, kVectorSize, path.string());
 }
 
 std::vector<std::filesystem::path> write_topology_arrays(const Topology& topology,
@@ -147,7 +139,7 @@ std::vector<std::filesystem::path> write_topology_arrays(const Topology& topolog
   write_indices(topology.face_offsets, files[1]);
   if (!shapes.empty()) {
     files.push_back(folder / kTopologyArrays[4]);
-    write_file(files.back(), encode_names_npy(shapes));
+    write_file(files.back(), names_npy(shapes));
   }
   if (topology.corner_uvs.empty()) return files;
   files.insert(files.end(), {folder / kTopologyArrays[2], folder / kTopologyArrays[3]});

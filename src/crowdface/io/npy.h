@@ -22,8 +22,6 @@ EncodedFile encode_npy(const Positions& positions, const std::string& what);
 /// (uint32) and `delta` (float32, 3), sorted by the first two; what does not move has no record.
 /// \throws InvalidInput if displacements are not finite.
 EncodedFile encode_npy(std::span<const Displacements> shapes, const std::string& what);
-/// Names of up to 64 ASCII characters as a NumPy array of text.
-std::string encode_names_npy(std::span<const std::string> names);
 /// What one encode_npy takes.
 std::size_t npy_encode_bytes(Index vertices);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/obj_file.h"
 
+#include <algorithm>
 #include <istream>
 #include <map>
 #include <streambuf>
@@ -36,11 +37,8 @@ std::uint32_t to_index(int index) {
   return index < 0 ? kNoIndex : static_cast<std::uint32_t>(index);
 }
 
-bool all_none(const std::vector<std::uint32_t>& indices) {
-  for (const std::uint32_t index : indices) {
-    if (index != kNoIndex) return false;
-  }
-  return true;
+void clear_if_all_none(std::vector<std::uint32_t>& indices) {
+  if (std::ranges::count(indices, kNoIndex) == std::ssize(indices)) indices.clear();
 }
 
 void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
@@ -55,26 +53,24 @@ void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
       result.corner_normals.push_back(to_index(corner.normal_index));
     }
   }
-  if (all_none(topology.corner_uvs)) topology.corner_uvs.clear();
-  if (all_none(result.corner_normals)) result.corner_normals.clear();
+  clear_if_all_none(topology.corner_uvs);
+  clear_if_all_none(result.corner_normals);
 }
 
 /// The loader must have seen what the scan saw; if not, one of the two is wrong about the file.
 void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const ObjFile& result) {
   const Topology& topology = result.topology;
   const auto loaded = static_cast<Index>(attributes.vertices.size() / 3);
-  bool in_range = true;
-  for (const std::uint32_t vertex : topology.corner_vertices) {
-    in_range = in_range && vertex < static_cast<std::uint64_t>(scan.positions.rows());
-  }
-  for (const std::uint32_t uv : topology.corner_uvs) {
-    in_range = in_range && (uv == kNoIndex || uv < static_cast<std::uint64_t>(scan.uvs.rows()));
-  }
+  const bool in_range =
+      std::ranges::all_of(topology.corner_vertices,
+                          [&](std::uint32_t vertex) { return vertex < scan.positions.rows(); }) &&
+      std::ranges::all_of(topology.corner_uvs,
+                          [&](std::uint32_t uv) { return uv == kNoIndex || uv < scan.uvs.rows(); });
   if (loaded != scan.positions.rows() || topology.face_count() != scan.face_count ||
       topology.corner_count() != scan.corner_count || !in_range) {
-    throw InvalidInput(concat(result.path.string(), ": expected ", scan.positions.rows(),
-                              " vertices and ", scan.face_count, " faces, but the loader made ",
-                              loaded, " and ", topology.face_count(), " of it"));
+    refuse_file(result.path, concat("expected ", scan.positions.rows(), " vertices and ",
+                                    scan.face_count, " faces, but the loader made ", loaded,
+                                    " and ", topology.face_count(), " of it"));
   }
 }
 
@@ -110,7 +106,7 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
   constexpr bool kTriangulate = false, kDefaultColours = false;
   const bool loaded = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                        &no_materials, kTriangulate, kDefaultColours);
-  if (!loaded) throw InvalidInput(concat(path.string(), ": cannot be loaded: ", error));
+  if (!loaded) refuse_file(path, concat("cannot be loaded: ", error));
 
   take_faces(shapes, result);
   result.topology.vertex_count = scan.positions.rows();

@@ -324,8 +324,4 @@ ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutlin
   return Scanner(text, name, outline, lines).run();
 }
 
-ObjScan scan_obj(std::string_view text, const std::string& name) {
-  return scan_obj(text, name, outline_obj(text), ObjLines::kAll);
-}
-
 }  // namespace crowdface

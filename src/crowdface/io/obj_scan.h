@@ -53,6 +53,5 @@ enum class ObjLines {
 /// \param lines    without those of the mesh the result has no texture coordinates and no corners.
 ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,
                  ObjLines lines);
-ObjScan scan_obj(std::string_view text, const std::string& name);
 
 }  // namespace crowdface

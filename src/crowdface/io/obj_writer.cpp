@@ -20,9 +20,7 @@ EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,
   std::string head;
   if (!comment.empty()) head = concat("# ", comment, '\n');
   if (!library.empty()) head += concat("mtllib ", library, '\n');
-  EncodedFile file;
-  file.add(form.encode(head, mesh.positions, {}, comment).text());
-  return file;
+  return form.encode(head, mesh.positions, {}, comment).text();
 }
 
 }  // namespace crowdface

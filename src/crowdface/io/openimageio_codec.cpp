@@ -23,18 +23,9 @@ using Values = PictureFacts::Values;
 using Form = PictureToEncode::Form;
 
 Values kind_of_values(const OIIO::TypeDesc& type) {
-  switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8:
-      return Values::kBytes;
-    case OIIO::TypeDesc::UINT16:
-      return Values::kWords;
-    case OIIO::TypeDesc::HALF:
-    case OIIO::TypeDesc::FLOAT:
-    case OIIO::TypeDesc::DOUBLE:
-      return Values::kFloats;
-    default:
-      return Values::kOthers;
-  }
+  if (type.basetype == OIIO::TypeDesc::UINT8) return Values::kBytes;
+  if (type.basetype == OIIO::TypeDesc::UINT16) return Values::kWords;
+  return type.is_floating_point() ? Values::kFloats : Values::kOthers;
 }
 
 OIIO::TypeDesc type_of(Values values) {

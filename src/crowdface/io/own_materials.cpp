@@ -29,12 +29,6 @@ std::size_t start_of_name(const std::string& rest) {
   return 0;  // all of it is a name
 }
 
-/// The name at the end of a statement that stands below a folder now.
-std::string moved_below(const std::string& folder, const std::string& rest) {
-  const std::size_t name = start_of_name(rest);
-  return rest.substr(0, name) + folder + '/' + rest.substr(name);
-}
-
 }  // namespace
 
 OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
@@ -53,7 +47,7 @@ OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
       if (line.word == "newmtl") material = line.rest;
       line.material = material;
       if (is_texture_statement(line.word) && !folder.empty()) {
-        line.rest = moved_below(folder, line.rest);
+        line.rest.insert(start_of_name(line.rest), folder + '/');
         line.text = concat(line.word, ' ', line.rest);
       }
       lines_.push_back(std::move(line));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/plain_obj_template.h"
 
-#include <charconv>
 #include <functional>
 #include <map>
 
@@ -21,11 +20,6 @@ constexpr std::size_t kLongestLine = 3 + 3 * (kLongestSingle + 1);
 void append_single(std::string& out, double value) {
   char buffer[kSingleRoom];
   out.append(buffer, write_single(buffer, value));
-}
-
-void append_digits(std::string& out, std::uint32_t number) {
-  char digits[16];
-  out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
 /// Formats `count` lines in parallel blocks.
@@ -75,12 +69,12 @@ std::string face_lines(const Topology& topology, const std::vector<MaterialRange
     const std::uint32_t vertex = topology.corner_vertices[corner] + 1;
     const bool has_uv = !topology.corner_uvs.empty() && topology.corner_uvs[corner] != kNoIndex;
     out += ' ';
-    append_digits(out, vertex);
+    out += std::to_string(vertex);
     if (has_uv || normals) out += '/';
-    if (has_uv) append_digits(out, topology.corner_uvs[corner] + 1);
+    if (has_uv) out += std::to_string(topology.corner_uvs[corner] + 1);
     if (!normals) return;
     out += '/';
-    append_digits(out, vertex);
+    out += std::to_string(vertex);
   };
   return join(format_blocks(topology.face_count(),
                             [&](std::string& out, Index f) {

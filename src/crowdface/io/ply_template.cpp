@@ -44,8 +44,8 @@ PlyTemplate::PlyTemplate(const Topology& topology)
   }
 }
 
-std::size_t PlyTemplate::encode_bytes(Normals normals) const {
-  return static_cast<std::size_t>(vertices_) * vertex_size(normals == Normals::kVertex);
+std::size_t PlyTemplate::encode_bytes() const {
+  return static_cast<std::size_t>(vertices_) * vertex_size(true);
 }
 
 EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& normals,
@@ -85,12 +85,9 @@ Positions read_ply_positions(const std::filesystem::path& path) {
   const std::size_t size = vertex_size(with_normals);
   if (!bytes.starts_with(header) ||
       static_cast<std::size_t>(vertices) > (bytes.size() - header.size()) / size) {
-    throw InvalidInput(
-        concat(path.string(), ": expected a PLY file as crowdface writes it, found another"));
+    refuse_file(path, "expected a PLY file as crowdface writes it, found another");
   }
-  Positions positions = read_singles(bytes.data() + header.size(), vertices, size);
-  require_finite(positions, vertices, path.string());
-  return positions;
+  return read_singles(bytes.data() + header.size(), vertices, size, path.string());
 }
 
 }  // namespace crowdface

@@ -15,8 +15,6 @@ namespace crowdface {
 /// vertex; seams would split vertices, and their order would be lost.
 class PlyTemplate {
  public:
-  enum class Normals { kNone, kVertex };
-
   /// \throws InvalidInput if a face has more than 255 corners.
   explicit PlyTemplate(const Topology& topology);
 
@@ -29,8 +27,8 @@ class PlyTemplate {
 
   /// What this object itself takes.
   std::size_t memory_bytes() const { return faces_.size(); }
-  /// What one encode takes.
-  std::size_t encode_bytes(Normals normals) const;
+  /// What one encode takes, with normals.
+  std::size_t encode_bytes() const;
 
  private:
   Index vertices_;

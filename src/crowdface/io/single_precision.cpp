@@ -16,18 +16,6 @@ Positions as_written(const Positions& positions) {
   return positions.unaryExpr([](double value) -> double { return to_single(value); });
 }
 
-Positions read_singles(const char* bytes, Index rows, std::size_t stride) {
-  Positions positions(rows, 3);
-  for (Index i = 0; i < rows; ++i) {
-    const char* row = bytes + static_cast<std::size_t>(i) * stride;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto single = number_at<float>(row + c * sizeof(float));
-      positions(i, static_cast<Index>(c)) = static_cast<double>(single);
-    }
-  }
-  return positions;
-}
-
 void require_finite(const Positions& positions, Index vertices, const std::string& what) {
   require(positions.rows() == vertices, what, ": ", positions.rows(), " positions for ", vertices,
           " vertices");
@@ -42,6 +30,19 @@ void require_finite(const Positions& positions, Index vertices, const std::strin
   if (!finite) {
     throw InvalidInput(concat(what, ": a position is not finite; nothing was written"));
   }
+}
+
+Positions read_singles(const char* bytes, Index rows, std::size_t stride, const std::string& what) {
+  Positions positions(rows, 3);
+  for (Index i = 0; i < rows; ++i) {
+    const char* row = bytes + static_cast<std::size_t>(i) * stride;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto single = number_at<float>(row + c * sizeof(float));
+      positions(i, static_cast<Index>(c)) = static_cast<double>(single);
+    }
+  }
+  require_finite(positions, rows, what);
+  return positions;
 }
 
 }  // namespace crowdface

@@ -31,7 +31,9 @@ inline char* put_row(char* out, const Positions& rows, Index i) {
 /// Rows of three single-precision numbers each, as binary formats hold them.
 /// \param bytes   where the first row begins.
 /// \param stride  bytes from row to row.
-Positions read_singles(const char* bytes, Index rows, std::size_t stride);
+/// \param what    names the mesh in messages.
+/// \throws InvalidInput if one is not finite.
+Positions read_singles(const char* bytes, Index rows, std::size_t stride, const std::string& what);
 
 /// \param what  names the mesh in messages.
 /// \throws BrokenPrecondition unless there are `vertices` rows; InvalidInput unless all are finite in

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "crowdface/core/text.h"
@@ -100,22 +101,19 @@ class Directory {
 
 /// How many bytes one byte can stand for at most; nothing for a compression that is not read.
 std::optional<std::uint64_t> most_of_one_byte(std::uint64_t compression, bool jpeg) {
-  switch (compression) {
-    case 1:
-      return 1;
-    case 5:
-      return 2600;  // LZW's longest string, of 12 bits
-    case 8:
-    case 32946:
-      return 1100;  // deflate's longest match takes 2 bits: 1032
-    case 32773:
-      return 64;  // PackBits: 128 from 2
-    case 7:
-      if (jpeg) return 1000;  // a block of 64 three times over, of 2 bits each
-      return std::nullopt;
-    default:
-      return std::nullopt;
+  constexpr std::uint64_t kJpeg = 7;
+  constexpr std::pair<std::uint64_t, std::uint64_t> kMost[] = {
+      {1, 1},         // as it is
+      {5, 2600},      // LZW's longest string, of 12 bits
+      {8, 1100},      // deflate's longest match takes 2 bits: 1032
+      {32946, 1100},  // deflate, too
+      {32773, 64},    // PackBits: 128 from 2
+      {kJpeg, 1000},  // a block of 64 three times over, of 2 bits each
+  };
+  for (const auto& [known, most] : kMost) {
+    if (known == compression && (jpeg || known != kJpeg)) return most;
   }
+  return std::nullopt;
 }
 
 std::uint64_t parts_of(std::uint64_t whole, std::uint64_t part) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/usda_material.h"
 
-#include <cmath>
 #include <string_view>
 
+#include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -14,8 +14,7 @@ const std::string kDeep = kInner + "    ";
 
 /// "(0.8, 0.6, 0.5)".
 std::string colour_text(const std::array<float, 4>& colour) {
-  const auto tidy = [](float value) { return std::round(static_cast<double>(value) * 1e4) / 1e4; };
-  return concat('(', tidy(colour[0]), ", ", tidy(colour[1]), ", ", tidy(colour[2]), ')');
+  return concat('(', rounded(colour[0]), ", ", rounded(colour[1]), ", ", rounded(colour[2]), ')');
 }
 
 /// A texture as a shader of its own. \param more  lines of its inputs.
@@ -30,9 +29,8 @@ std::string texture_text(const std::string& path, std::string_view name, const s
                 "token inputs:wrapT = \"", wrap, "\"\n", kDeep, output, '\n', kInner, "}\n");
 }
 
-}  // namespace
-
-std::string usda_material(const std::string& path, const std::string& name,
+/// A Material prim. \param path  of the prim. \param name  its last part.
+std::string material_text(const std::string& path, const std::string& name,
                           const UsdaSurface& surface) {
   const auto input = [&](const std::string& file, std::string_view shader, std::string_view output,
                          const std::string& value) {
@@ -75,6 +73,20 @@ std::string usda_material(const std::string& path, const std::string& name,
                    "float2 outputs:result\n", kInner, "}\n");
   }
   return text + "        }\n";
+}
+
+}  // namespace
+
+std::string usda_materials(const std::string& root, const std::string& scope,
+                           const std::vector<std::string>& names,
+                           const std::vector<UsdaSurface>& surfaces) {
+  if (names.empty()) return {};
+  std::string text = concat("\n    def Scope \"", scope, "\"\n    {\n");
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    if (names[m].empty()) continue;
+    text += material_text(concat(root, '/', scope, '/', names[m]), names[m], surfaces[m]);
+  }
+  return text + "    }\n";
 }
 
 }  // namespace crowdface

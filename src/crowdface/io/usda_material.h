@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace crowdface {
 
@@ -18,8 +19,12 @@ struct UsdaSurface {
   bool overlay = false;  ///< laid out by the primvar `st1`, and nothing around it; else by `st`
 };
 
-/// A Material prim with a preview surface. \param path  of the prim. \param name  its last part.
-std::string usda_material(const std::string& path, const std::string& name,
-                          const UsdaSurface& surface);
+/// A Scope prim below the root, of Material prims with preview surfaces; none without materials.
+/// \param scope     the prim's name.
+/// \param names     of the materials; those of no name are left out.
+/// \param surfaces  #names
+std::string usda_materials(const std::string& root, const std::string& scope,
+                           const std::vector<std::string>& names,
+                           const std::vector<UsdaSurface>& surfaces);
 
 }  // namespace crowdface

@@ -34,13 +34,6 @@ std::string corner_counts(const Topology& topology) {
   return usda_list(counts);
 }
 
-std::string extent_of_points(const Positions& positions) {
-  Positions box(2, 3);
-  box.row(0) = positions.colwise().minCoeff();
-  box.row(1) = positions.colwise().maxCoeff();
-  return usda_rows(box);
-}
-
 }  // namespace
 
 UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Form& form)
@@ -80,10 +73,12 @@ void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& posit
                    const std::string& what) const {
   require(moves.size() == shapes_.size(), "UsdaMesh: displacements of each target");
   require_finite(positions, vertices_, what);
+  Positions extent(2, 3);
+  extent << positions.colwise().minCoeff(), positions.colwise().maxCoeff();
   file.add(concat("        def Mesh \"", place.name,
                   "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"",
                   shapes_.empty() ? "" : ", \"SkelBindingAPI\"", "]\n        )\n        {\n",
-                  "            float3[] extent = [", extent_of_points(positions), "]\n            ",
+                  "            float3[] extent = [", usda_rows(extent), "]\n            ",
                   kUsdaPoints));
   file.add(usda_rows(positions));
   file.add("]\n");

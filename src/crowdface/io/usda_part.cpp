@@ -21,13 +21,15 @@ UsdaMesh::Form form_of(const std::vector<UsdaPart::Material>& materials,
 }  // namespace
 
 UsdaPart::UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
-                   std::vector<Material> materials, std::vector<std::uint32_t> face_materials,
+                   const std::vector<Material>& materials,
+                   std::vector<std::uint32_t> face_materials,
                    const std::vector<std::string>& targets)
     : name_(std::move(name)),
       topology_(topology),
       fans_(topology_),
-      mesh_(topology_, uvs, form_of(materials, std::move(face_materials), targets)),
-      materials_(std::move(materials)) {}
+      mesh_(topology_, uvs, form_of(materials, std::move(face_materials), targets)) {
+  for (const Material& material : materials) surfaces_.push_back(material.surface);
+}
 
 void UsdaPart::add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
                         std::span<const Displacements> moves, const std::string& what) const {
@@ -38,15 +40,7 @@ void UsdaPart::add_mesh(EncodedFile& file, const std::string& root, const Positi
 }
 
 void UsdaPart::add_materials(EncodedFile& file, const std::string& root) const {
-  const std::string scope = name_ + "_materials";
-  file.add(concat("\n    def Scope \"", scope, "\"\n    {\n"));
-  const std::vector<std::string>& names = mesh_.materials();
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    if (names[m].empty()) continue;
-    file.add(
-        usda_material(concat(root, '/', scope, '/', names[m]), names[m], materials_[m].surface));
-  }
-  file.add("    }\n");
+  file.add(usda_materials(root, name_ + "_materials", mesh_.materials(), surfaces_));
 }
 
 }  // namespace crowdface

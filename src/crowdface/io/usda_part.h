@@ -27,7 +27,7 @@ class UsdaPart {
   /// \param face_materials  #F rows of `materials`.
   /// \param targets         the names of the faces' targets.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
-           std::vector<Material> materials, std::vector<std::uint32_t> face_materials,
+           const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
            const std::vector<std::string>& targets);
 
   /// Adds the mesh below the prim `face`; the file refers to this object.
@@ -46,7 +46,7 @@ class UsdaPart {
   Topology topology_;
   NormalFans fans_;
   UsdaMesh mesh_;
-  std::vector<Material> materials_;
+  std::vector<UsdaSurface> surfaces_;
 };
 
 /// One in the layer of a face.

@@ -137,7 +137,9 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
   if (acts) file.add(skeleton_text(root, mesh_.tokens()));
   add_points(file, points, name);
   file.add("    }\n");
-  add_materials(file, root, images);
+  std::vector<UsdaSurface> surfaces;
+  for (const GlbMaterial& one : surfaces_) surfaces.push_back(surface_of(one, images, shared_));
+  file.add(usda_materials(root, "materials", mesh_.materials(), surfaces));
   for (const PlacedUsdaPart& part : parts) part.part->add_materials(file, root);
   file.add("}\n");
   return file;
@@ -158,25 +160,12 @@ void UsdaTemplate::add_points(EncodedFile& file, const Positions& points,
   file.add(text + "        }\n");
 }
 
-void UsdaTemplate::add_materials(EncodedFile& file, const std::string& root,
-                                 std::span<const std::string> images) const {
-  const std::vector<std::string>& names = mesh_.materials();
-  if (names.empty()) return;
-  file.add("\n    def Scope \"materials\"\n    {\n");
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    if (names[m].empty()) continue;
-    file.add(usda_material(concat(root, "/materials/", names[m]), names[m],
-                           surface_of(surfaces_[m], images, shared_)));
-  }
-  file.add("    }\n");
-}
-
 Positions read_usda_positions(const std::filesystem::path& path, Index vertices) {
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
   const auto refuse = [&] {
-    throw InvalidInput(concat(path.string(), ": expected a USD layer as crowdface writes it for ",
-                              vertices, " vertices, found another"));
+    refuse_file(path, concat("expected a USD layer as crowdface writes it for ", vertices,
+                             " vertices, found another"));
   };
   const std::size_t begin = bytes.find(kUsdaPoints);
   if (bytes.find(kCreator) == bytes.npos || begin == bytes.npos) refuse();

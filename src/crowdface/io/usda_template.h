@@ -45,8 +45,6 @@ class UsdaTemplate {
 
  private:
   void add_points(EncodedFile& file, const Positions& points, const std::string& what) const;
-  void add_materials(EncodedFile& file, const std::string& root,
-                     std::span<const std::string> images) const;
 
   UsdaMesh mesh_;
   std::string frame_;  ///< of the layer: unit and axis

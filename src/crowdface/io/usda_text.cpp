@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/usda_text.h"
 
-#include <charconv>
-
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
@@ -50,9 +48,8 @@ std::string UsdaNames::add(std::string_view text) {
 std::string usda_list(std::span<const std::uint32_t> numbers) {
   std::string list = "[";
   for (const std::uint32_t number : numbers) {
-    char digits[16];
     if (list.size() > 1) list += ',';
-    list.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+    list += std::to_string(number);
   }
   return list += ']';
 }

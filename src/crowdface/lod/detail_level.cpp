@@ -12,14 +12,6 @@
 namespace crowdface {
 namespace {
 
-Positions rows_of(const Positions& whole, std::span<const std::uint32_t> rows) {
-  Positions some(static_cast<Index>(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    some.row(static_cast<Index>(i)) = whole.row(rows[i]);
-  }
-  return some;
-}
-
 DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
                      const FaceSet& faces) {
   triangles = in_order_of_looks(std::move(triangles), split);
@@ -43,10 +35,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
   std::copy_if(uvs.begin(), uvs.end(), std::back_inserter(used),
                [](std::uint32_t uv) { return uv != kNoIndex; });
   const std::vector<std::uint32_t> rows = renumber(used, faces.uvs.rows());
-  level.uvs.resize(static_cast<Index>(rows.size()), 2);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    level.uvs.row(static_cast<Index>(i)) = faces.uvs.row(rows[i]);
-  }
+  level.uvs = faces.uvs(rows, Eigen::all);
   for (std::size_t c = 0, next = 0; c < uvs.size(); ++c) {
     if (uvs[c] != kNoIndex) uvs[c] = used[next++];
   }
@@ -57,7 +46,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
 }  // namespace
 
 Positions DetailLevel::of(const Positions& whole) const {
-  return rows_of(whole, vertices);
+  return whole(vertices, Eigen::all);
 }
 
 Displacements DetailLevel::of(const Displacements& whole) const {
@@ -71,7 +60,7 @@ Displacements DetailLevel::of(const Displacements& whole) const {
     some.vertices.push_back(v);
     rows.push_back(static_cast<std::uint32_t>(next - whole.vertices.begin()));
   }
-  some.moves = rows_of(whole.moves, rows);
+  some.moves = whole.moves(rows, Eigen::all);
   return some;
 }
 

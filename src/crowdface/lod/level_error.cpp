@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numeric>
-#include <queue>
-#include <utility>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/edge_distances.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/surface_point.h"
 
@@ -42,35 +39,6 @@ double walk(const DetailLevel& level, const FacesAround& around, const Positions
   return best.distance;
 }
 
-/// For each vertex of the whole mesh that of a level which is nearest along the edges, by its number on the
-/// level: lips that nearly touch are far apart so. kNoIndex where none is in reach.
-std::vector<std::uint32_t> nearest_along_edges(const Adjacency& whole, const DetailLevel& level,
-                                               const Positions& positions) {
-  std::vector<std::uint32_t> nearest(static_cast<std::size_t>(whole.vertex_count()), kNoIndex);
-  std::vector<double> distances(nearest.size(), std::numeric_limits<double>::infinity());
-  using Place = std::pair<double, std::uint32_t>;
-  std::priority_queue<Place, std::vector<Place>, std::greater<>> front;
-  for (std::uint32_t i = 0; i < level.vertices.size(); ++i) {
-    const std::uint32_t v = level.vertices[i];
-    nearest[v] = i;
-    distances[v] = 0;
-    front.emplace(0.0, v);
-  }
-  while (!front.empty()) {
-    const auto [distance, v] = front.top();
-    front.pop();
-    if (distance > distances[v]) continue;
-    for (const std::uint32_t next : whole.of(v)) {
-      const double reached = distance + length3(row3(positions, next) - row3(positions, v));
-      if (reached >= distances[next]) continue;
-      distances[next] = reached;
-      nearest[next] = nearest[v];
-      front.emplace(reached, next);
-    }
-  }
-  return nearest;
-}
-
 }  // namespace
 
 LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const DetailLevel& level,
@@ -88,7 +56,7 @@ LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const D
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(rows, all);
   const FacesAround around(level.topology);
-  const std::vector<std::uint32_t> starts = nearest_along_edges(adjacency, level, typical);
+  const std::vector<std::uint32_t> starts = nearest_along_edges(adjacency, typical, level.vertices);
   map.triangles.resize(map.vertices.size());
   parallel_for_each(map.vertices.size(), kVerticesPerBlock, [&](std::size_t i) {
     const Eigen::Vector3d point = row3(typical, map.vertices[i]);

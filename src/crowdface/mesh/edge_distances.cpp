@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <queue>
+#include <utility>
 
 #include "crowdface/mesh/vector3.h"
 
@@ -100,6 +102,33 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
         left -= std::ranges::count(goals, vertex);
         return left == 0;
       });
+}
+
+std::vector<std::uint32_t> nearest_along_edges(const Adjacency& adjacency,
+                                               const Positions& positions,
+                                               std::span<const std::uint32_t> sources) {
+  using Reached = std::pair<double, std::uint32_t>;
+  std::vector<double> distances(static_cast<std::size_t>(adjacency.vertex_count()), kInfinity);
+  std::vector<std::uint32_t> nearest(distances.size(), kNoIndex);
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
+  for (std::uint32_t i = 0; i < sources.size(); ++i) {
+    distances[sources[i]] = 0;
+    nearest[sources[i]] = i;
+    open.emplace(0.0, sources[i]);
+  }
+  while (!open.empty()) {
+    const auto [distance, v] = open.top();
+    open.pop();
+    if (distance > distances[v]) continue;
+    for (const std::uint32_t next : adjacency.of(v)) {
+      const double there = distance + length3(row3(positions, next) - row3(positions, v));
+      if (there >= distances[next]) continue;
+      distances[next] = there;
+      nearest[next] = nearest[v];
+      open.emplace(there, next);
+    }
+  }
+  return nearest;
 }
 
 }  // namespace crowdface

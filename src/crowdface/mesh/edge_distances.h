@@ -55,4 +55,10 @@ class EdgeDistances {
   std::vector<Open> open_;  ///< a heap, the nearest first
 };
 
+/// For each vertex which of some vertices is nearest along the edges, #V; of equally near ones the one that comes
+/// there first. kNoIndex where none is joined. Surfaces that nearly touch are far apart so.
+std::vector<std::uint32_t> nearest_along_edges(const Adjacency& adjacency,
+                                               const Positions& positions,
+                                               std::span<const std::uint32_t> sources);
+
 }  // namespace crowdface

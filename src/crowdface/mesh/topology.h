@@ -17,6 +17,9 @@ using Eigen::Index;
 
 /// #V by 3 vertex positions, one row a vertex, in the unit of the mesh's file.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// Positions or displacements in single precision, one a row.
+using SingleRows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// #T by 2 texture coordinates.
 using TextureCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 

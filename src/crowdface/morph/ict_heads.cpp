@@ -42,8 +42,8 @@ IctHeads::IctHeads(const fs::path& checkout)
     const ObjFile mode = read_obj(files[i]);
     const std::string difference = first_difference(neutral_.topology, mode.topology);
     if (!difference.empty()) {
-      throw InvalidInput(concat(mode.path.string(), ": not the same mesh as ", file_.path.string(),
-                                ": ", difference));
+      refuse_file(mode.path,
+                  concat("not the same mesh as ", file_.path.string(), ": ", difference));
     }
     modes_[i] = mode.positions - neutral_.positions;
   });
@@ -67,8 +67,8 @@ FaceHeights IctHeads::heights() const {
   const auto height = [&](const std::vector<std::string>& words) {
     const auto vertices = vertices_of_material(neutral_.topology, file_.materials, words);
     if (vertices.empty()) {
-      throw InvalidInput(concat(file_.path.string(), ": expected a material called like ",
-                                join(words), ", found none"));
+      refuse_file(file_.path,
+                  concat("expected a material called like ", join(words), ", found none"));
     }
     return mean_of(neutral_.positions, vertices).y();
   };

@@ -151,18 +151,6 @@ std::span<const char> sides_of(const Control& control) {
   return std::span(kSides).first(paired ? 2 : 1);
 }
 
-std::string_view sex_of(bool male) {
-  return male ? "male" : "female";
-}
-std::string ancestry_target(std::string_view ancestry, bool male, std::string_view age) {
-  return concat("macrodetails/", ancestry, "-", sex_of(male), "-", age);
-}
-std::string body_target(bool male, std::string_view age, std::string_view muscle,
-                        std::string_view weight) {
-  return concat("macrodetails/universal-", sex_of(male), "-", age, "-", muscle, "muscle-", weight,
-                "weight");
-}
-
 /// Shares of min, average and max at an amount from 0 to 1.
 std::array<double, 3> amounts(double x) {
   return {std::max(0.0, 1 - 2 * x), 1 - std::abs(2 * x - 1), std::max(0.0, 2 * x - 1)};
@@ -175,12 +163,14 @@ void add_person(const MakeHumanPerson& person, double male_share, std::vector<Ta
   for (const bool male : {false, true}) {
     for (const bool old : {false, true}) {
       const double share = (male ? male_share : 1 - male_share) * (old ? old_share : 1 - old_share);
-      const std::string_view age = old ? "old" : "young";
+      const std::string who = concat(male ? "male-" : "female-", old ? "old" : "young");
       for (std::size_t a = 0; a < 3; ++a) {
-        out.push_back({ancestry_target(kAncestries[a], male, age), share * person.ancestry[a]});
+        out.push_back(
+            {concat("macrodetails/", kAncestries[a], "-", who), share * person.ancestry[a]});
         for (std::size_t w = 0; w < 3; ++w) {
-          out.push_back(
-              {body_target(male, age, kAmounts[a], kAmounts[w]), share * muscle[a] * weight[w]});
+          out.push_back({concat("macrodetails/universal-", who, "-", kAmounts[a], "muscle-",
+                                kAmounts[w], "weight"),
+                         share * muscle[a] * weight[w]});
         }
       }
     }

@@ -1,20 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/morph/makehuman_heads.h"
 
+#include <algorithm>
+#include <array>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/morph/makehuman_controls.h"
+#include "crowdface/morph/three_mesh.h"
 
 namespace crowdface {
 namespace {
 
 constexpr double kCentimetresPerUnit = 10;
+
+// The plane of the cut, in decimetres: it keeps to one loop of 42 edges round the lower neck.
+constexpr double kCutHeight = 5.84, kCutSlope = 0.4;
+
+struct Part {
+  std::string_view in_file, name;
+};
+constexpr std::array<Part, 3> kParts = {
+    {{"body", "skin"}, {"helper-r-eye", "eyeball_r"}, {"helper-l-eye", "eyeball_l"}}};
+
+/// Mean height of the corners of these helpers' faces.
+double mean_height(const ThreeMesh& mesh, const std::array<std::string_view, 2>& helpers,
+                   const std::filesystem::path& file) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const ThreeMesh::Face& face : mesh.faces) {
+    if (!contains(helpers, mesh.material_of(face))) continue;
+    for (const std::uint32_t v : face.vertices) sum += mesh.positions(v, 1);
+    count += 4;
+  }
+  if (count == 0) refuse_file(file, concat("expected faces of ", helpers[0], ", found none"));
+  return sum / static_cast<double>(count);
+}
 
 std::vector<std::string> read_target_names(const std::filesystem::path& file) {
   std::vector<std::string> names;
@@ -22,13 +50,42 @@ std::vector<std::string> read_target_names(const std::filesystem::path& file) {
     const auto root = nlohmann::json::parse(read_file(file));
     for (const auto& [name, groups] : root.at("targets").items()) names.push_back(name);
   } catch (const nlohmann::json::exception& error) {
-    throw InvalidInput(
-        concat(file.string(), ": expected MakeHuman's list of targets: ", error.what()));
+    refuse_file(file, concat("expected MakeHuman's list of targets: ", error.what()));
   }
   return names;
 }
 
 }  // namespace
+
+MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
+  ThreeMesh all = read_three_mesh(file, "MakeHuman's base mesh");
+  const auto above_cut = [&](std::uint32_t v) {
+    return all.positions(v, 1) + kCutSlope * all.positions(v, 2) > kCutHeight;
+  };
+  MakeHumanMesh out;
+  Topology& topology = out.head.topology;
+  for (const Part& part : kParts) {
+    out.materials.push_back({std::string(part.name), topology.face_count()});
+    for (const ThreeMesh::Face& face : all.faces) {
+      if (all.material_of(face) != part.in_file || !std::ranges::all_of(face.vertices, above_cut))
+        continue;
+      topology.add_face(face.vertices, face.uvs);
+    }
+    if (out.materials.back().first_face == topology.face_count()) {
+      refuse_file(file, concat("expected a head of material ", part.in_file,
+                               " above the neck's cut, ", "found none"));
+    }
+  }
+  out.rows = renumber(topology.corner_vertices, all.positions.rows());
+  topology.vertex_count = static_cast<Index>(out.rows.size());
+  const auto uv_rows = renumber(topology.corner_uvs, all.uvs.rows());
+  out.head.positions = all.positions(out.rows, Eigen::all);
+  out.head.uvs = all.uvs(uv_rows, Eigen::all);
+  out.heights = {mean_height(all, {"helper-r-eye", "helper-l-eye"}, file),
+                 mean_height(all, {"helper-upper-teeth", "helper-lower-teeth"}, file)};
+  out.file_positions = std::move(all.positions);
+  return out;
+}
 
 MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
     : mesh_(read_makehuman_mesh(package / "public/data/models/human_full_size.json")),
@@ -38,8 +95,8 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
       materials_(mesh_.materials) {
   for (const std::string& name : makehuman_target_names()) {
     if (!targets_.has(name)) {
-      throw InvalidInput(concat((package / "src/json/targets/target-list.json").string(),
-                                ": expected a target ", quoted(name), ", found none"));
+      refuse_file(package / "src/json/targets/target-list.json",
+                  concat("expected a target ", quoted(name), ", found none"));
     }
   }
   for (const std::uint32_t row :

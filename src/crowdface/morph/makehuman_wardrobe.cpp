@@ -36,14 +36,9 @@ std::array<AgeShare, 3> age_shares(double years) {
 fs::path skin_picture(const fs::path& file) {
   try {
     const auto root = nlohmann::json::parse(read_file(file));
-    const auto name = fs::path(root.at("mapDiffuse").get<std::string>()).lexically_normal();
-    if (name.empty() || name.is_absolute() || *name.begin() == "..") {
-      throw InvalidInput(concat(file.string(), ": expected a picture beside the file, found ",
-                                quoted(name.string())));
-    }
-    return file.parent_path() / name;
+    return picture_beside(file, root.at("mapDiffuse"));
   } catch (const nlohmann::json::exception& error) {
-    throw InvalidInput(concat(file.string(), ": expected a skin: ", error.what()));
+    refuse_file(file, concat("expected a skin: ", error.what()));
   }
 }
 
@@ -64,16 +59,16 @@ fs::path proxy(const fs::path& package, std::string_view kind, std::string_view 
 FittedMesh read_free(const fs::path& file, Index base_vertices) {
   FittedMesh mesh = read_fitted_mesh(file, base_vertices);
   if (!is_free(mesh.licence)) {
-    throw InvalidInput(concat(file.string(), ": expected a free licence and an author, found ",
-                              quoted(std::string_view(mesh.licence.licence)), " of ",
-                              quoted(std::string_view(mesh.licence.author))));
+    refuse_file(file, concat("expected a free licence and an author, found ",
+                             quoted(std::string_view(mesh.licence.licence)), " of ",
+                             quoted(std::string_view(mesh.licence.author))));
   }
   return mesh;
 }
 
 const fs::path& only_picture(const FittedMesh& mesh, const fs::path& file) {
   if (mesh.pictures.empty() || mesh.pictures[0].path.empty()) {
-    throw InvalidInput(concat(file.string(), ": expected a material with a picture, found none"));
+    refuse_file(file, "expected a material with a picture, found none");
   }
   return mesh.pictures[0].path;
 }
@@ -103,8 +98,8 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
       kept.push_back((x < 0) == right && !is_clear(image, eyes, f));
     }
     if (std::ranges::count(kept, true) == 0) {
-      throw InvalidInput(concat(file.string(), ": expected an eyeball on either side, found none ",
-                                right ? "on the right" : "on the left"));
+      refuse_file(file, concat("expected an eyeball on either side, found none on the ",
+                               right ? "right" : "left"));
     }
     parts.worn.push_back({right ? "eyeball_r" : "eyeball_l", eyes});
     parts.worn.back().mesh.keep(kept);
@@ -228,8 +223,7 @@ MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& ba
     if (std::ranges::none_of(eyes.pictures, [&](const FittedMesh::Picture& picture) {
           return picture.name == colour.name && !picture.path.empty();
         })) {
-      throw InvalidInput(
-          concat(eyes_file.string(), ": expected a picture of ", colour.name, " eyes, found none"));
+      refuse_file(eyes_file, concat("expected a picture of ", colour.name, " eyes, found none"));
     }
   }
   const auto add = [&](std::string_view kind, std::string_view name, const char* material,

@@ -6,6 +6,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/little_endian.h"
 
 namespace crowdface {
 namespace {
@@ -20,12 +21,6 @@ std::string short_name(const std::string& path) {
   return std::string(name);
 }
 
-double read_thousandths(const char* bytes) {
-  const auto low = static_cast<unsigned char>(bytes[0]);
-  const auto high = static_cast<unsigned char>(bytes[1]);
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(low | high << 8)) / 1000.0;
-}
-
 }  // namespace
 
 MorphTargets::MorphTargets(const std::filesystem::path& file, std::vector<std::string> names,
@@ -33,9 +28,8 @@ MorphTargets::MorphTargets(const std::filesystem::path& file, std::vector<std::s
     : path_(file), file_(file), vertex_count_(static_cast<std::size_t>(vertex_count)) {
   const std::size_t expected = names.size() * vertex_count_ * 3 * kBytes;
   if (file_.bytes().size() != expected) {
-    throw InvalidInput(concat(file.string(), ": expected ", expected, " bytes for ", names.size(),
-                              " targets of ", vertex_count_, " vertices, found ",
-                              file_.bytes().size()));
+    refuse_file(file, concat("expected ", expected, " bytes for ", names.size(), " targets of ",
+                             vertex_count_, " vertices, found ", file_.bytes().size()));
   }
   std::ranges::sort(names);
   for (std::size_t i = 0; i < names.size(); ++i) places_[short_name(names[i])] = i;
@@ -45,15 +39,15 @@ void MorphTargets::add(const TargetWeight& target, std::span<const std::uint32_t
                        Positions& positions) const {
   const auto place = places_.find(target.target);
   if (place == places_.end()) {
-    throw InvalidInput(concat(path_.string(), ": expected a target ", quoted(target.target),
-                              ", found none of that name"));
+    refuse_file(path_,
+                concat("expected a target ", quoted(target.target), ", found none of that name"));
   }
   const char* first = file_.bytes().data() + place->second * vertex_count_ * 3 * kBytes;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const char* row = first + std::size_t{rows[i]} * 3 * kBytes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       positions(static_cast<Index>(i), static_cast<Index>(axis)) +=
-          target.weight * read_thousandths(row + axis * kBytes);
+          target.weight * number_at<std::int16_t>(row + axis * kBytes) / 1000.0;
     }
   }
 }

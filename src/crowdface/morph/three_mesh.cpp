@@ -17,6 +17,15 @@ using nlohmann::json;
 constexpr int kQuadMaterialUvs = 1 | 2 | 8;
 constexpr std::size_t kFaceNumbers = 1 + 4 + 1 + 4;
 
+/// Numbers row by row.
+template <class Rows>
+Rows rows_of(const json& list) {
+  const auto numbers = list.get<std::vector<double>>();
+  return Eigen::Map<const Rows>(numbers.data(),
+                                static_cast<Index>(numbers.size()) / Rows::ColsAtCompileTime,
+                                Rows::ColsAtCompileTime);
+}
+
 std::uint32_t index_below(const json& number, Index end, const std::filesystem::path& file) {
   const auto value = number.get<std::int64_t>();
   if (value < 0 || value >= end) {
@@ -52,16 +61,8 @@ ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view wh
   ThreeMesh mesh;
   try {
     const json root = json::parse(read_file(file));
-    const json& vertices = root.at("vertices");
-    mesh.positions.resize(static_cast<Index>(vertices.size() / 3), 3);
-    for (Index i = 0; i < mesh.positions.size(); ++i) {
-      mesh.positions(i / 3, i % 3) = vertices[static_cast<std::size_t>(i)].get<double>();
-    }
-    const json& uvs = root.at("uvs").at(0);
-    mesh.uvs.resize(static_cast<Index>(uvs.size() / 2), 2);
-    for (Index i = 0; i < mesh.uvs.size(); ++i) {
-      mesh.uvs(i / 2, i % 2) = uvs[static_cast<std::size_t>(i)].get<double>();
-    }
+    mesh.positions = rows_of<Positions>(root.at("vertices"));
+    mesh.uvs = rows_of<TextureCoordinates>(root.at("uvs").at(0));
     for (const json& material : root.at("materials")) {
       mesh.material_names.push_back(material.at("DbgName").get<std::string>());
     }

@@ -3,28 +3,64 @@
 
 #include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/page/request_values.h"
+#include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kLicense = "three.LICENSE.txt";
+constexpr std::string_view kNotice =
+    "<!doctype html><title>crowdface</title><p>This page is not built here: run "
+    "scripts/build_gallery.sh, then start crowdface again.";
+
+std::string_view type_of(std::string_view name) {
+  if (name.ends_with(".html")) return "text/html; charset=utf-8";
+  if (name.ends_with(".js")) return "text/javascript; charset=utf-8";
+  if (name.ends_with(".css")) return "text/css; charset=utf-8";
+  return "text/plain; charset=utf-8";
+}
+
 int status_of(const Error& error) {
-  switch (error.code()) {
-    case ExitCode::kUsage:
-    case ExitCode::kBadData:
-    case ExitCode::kUnsatisfiable:
-      return 400;
-    case ExitCode::kMissingInput:
-      return 404;
-    default:
-      return 500;
-  }
+  if (error.code() == ExitCode::kMissingInput) return 404;
+  const auto of_request = {ExitCode::kUsage, ExitCode::kBadData, ExitCode::kUnsatisfiable};
+  return contains(of_request, error.code()) ? 400 : 500;
 }
 
 }  // namespace
+
+Json body_of(const HttpRequest& request) {
+  Json json = parse_shallow_json(request.body);
+  if (!json.is_object()) throw UsageError("the request: expected a mapping in JSON");
+  return json;
+}
+
+std::string text_in(const Json& body, const std::string& key) {
+  if (!body.contains(key) || !body[key].is_string()) {
+    throw UsageError(concat(key, ": expected a text"));
+  }
+  return body[key].get<std::string>();
+}
+
+double number_in(const Json& body, const std::string& key, double low, double high) {
+  const double value =
+      body.contains(key) && body[key].is_number() ? body[key].get<double>() : low - 1;
+  if (!(value >= low && value <= high)) {
+    throw UsageError(concat(key, ": expected a number from ", low, " to ", high));
+  }
+  return value;
+}
+
+HttpAnswer json_answer(const Json& json, int status) {
+  // Names of files need not be UTF-8; an answer has to be.
+  return {status, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
 
 HttpAnswer refusal(int status, std::string_view sentence) {
   return json_answer({{"error", sentence}}, status);
@@ -34,10 +70,27 @@ HttpAnswer binary_answer(std::string bytes) {
   return {200, "application/octet-stream", std::move(bytes)};
 }
 
+PageFiles::PageFiles(std::optional<std::filesystem::path> folder, std::string page)
+    : folder_(std::move(folder)), page_(std::move(page)) {}
+
+std::optional<HttpAnswer> PageFiles::file(std::string_view name) const {
+  const std::string html = concat(page_, ".html");
+  if (name.empty()) name = html;
+  if (name != html && name != concat(page_, ".js") && name != concat(page_, ".css") &&
+      name != kLicense) {
+    return std::nullopt;
+  }
+  if (!folder_ || !is_there(*folder_ / name)) {
+    if (name != html) return std::nullopt;
+    return HttpAnswer{.type = std::string(type_of(name)), .bytes = std::string(kNotice)};
+  }
+  return HttpAnswer{.type = std::string(type_of(name)), .bytes = read_file(*folder_ / name)};
+}
+
 HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request) {
   auto file = request.method == "GET" ? files.file(request.path) : std::nullopt;
   if (!file) return refusal(404, "there is nothing at this address");
-  return {200, std::move(file->type), std::move(file->bytes)};
+  return std::move(*file);
 }
 
 HttpAnswer answer_or_refuse(const HttpRequest& request,

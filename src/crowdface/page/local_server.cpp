@@ -55,11 +55,6 @@ httplib::Headers safe_headers() {
           {"Cache-Control", "no-store"}};
 }
 
-void put(const HttpAnswer& answer, httplib::Response& response) {
-  response.status = answer.status;
-  response.set_content(answer.bytes, answer.type);
-}
-
 void refuse(int status, const std::string& sentence, httplib::Response& response) {
   response.status = status;
   response.set_content(concat("{\"error\": \"", sentence, "\"}"), "application/json");
@@ -137,7 +132,9 @@ void LocalServer::State::configure() {
       });
   const auto handle = [this](const httplib::Request& request, httplib::Response& response) {
     const std::string method = request.method == "HEAD" ? "GET" : request.method;
-    put(answer({method, request.path.substr(prefix.size()), request.body}), response);
+    const HttpAnswer given = answer({method, request.path.substr(prefix.size()), request.body});
+    response.status = given.status;
+    response.set_content(given.bytes, given.type);
   };
   server.Get("/.*", handle);
   server.Post("/.*", handle);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/parts/part_list.h"
@@ -155,16 +157,11 @@ constexpr double kEyesBelowBridge = 0.05;
 constexpr double kMostUneven = 0.09;
 
 double diagonal_of(const Positions& positions, const std::vector<bool>& skin) {
-  Eigen::Vector3d low, high;
-  bool first = true;
+  Eigen::AlignedBox3d box;
   for (Index v = 0; v < positions.rows(); ++v) {
-    if (!skin[static_cast<std::size_t>(v)]) continue;
-    const Eigen::Vector3d p = row3(positions, v);
-    low = first ? p : Eigen::Vector3d(low.cwiseMin(p));
-    high = first ? p : Eigen::Vector3d(high.cwiseMax(p));
-    first = false;
+    if (skin[static_cast<std::size_t>(v)]) box.extend(row3(positions, v));
   }
-  return first ? 0 : length3(high - low);
+  return box.isEmpty() ? 0 : length3(box.sizes());
 }
 
 /// How far a head is from being its own mirror image across `side`: mean difference of the outlines
@@ -172,23 +169,20 @@ double diagonal_of(const Positions& positions, const std::vector<bool>& skin) {
 double asymmetry(const Positions& positions, const std::vector<bool>& skin, const HeadAxes& axes) {
   constexpr int kCells = 24;
   const Eigen::Vector3d side = axes.side();
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
   const auto in_frame = [&](Index v) {
     const Eigen::Vector3d p = row3(positions, v);
     return Eigen::Vector3d(dot3(p, side), dot3(p, axes.up), dot3(p, axes.front));
   };
+  Eigen::AlignedBox3d box;
   for (Index v = 0; v < positions.rows(); ++v) {
-    if (!skin[static_cast<std::size_t>(v)]) continue;
-    low = low.cwiseMin(in_frame(v));
-    high = high.cwiseMax(in_frame(v));
+    if (skin[static_cast<std::size_t>(v)]) box.extend(in_frame(v));
   }
   struct Reach {
     double least = std::numeric_limits<double>::infinity(), most = -least;
   };
   std::vector<Reach> reach(static_cast<std::size_t>(kCells) * kCells);
   const auto cell = [&](double x, int axis) {
-    const double t = (x - low[axis]) / std::max(high[axis] - low[axis], 1e-300);
+    const double t = (x - box.min()[axis]) / std::max(box.sizes()[axis], 1e-300);
     return static_cast<std::size_t>(std::clamp(static_cast<int>(kCells * t), 0, kCells - 1));
   };
   for (Index v = 0; v < positions.rows(); ++v) {
@@ -209,7 +203,7 @@ double asymmetry(const Positions& positions, const std::vector<bool>& skin, cons
   const double middle = *half;
   double sum = 0;
   for (const double m : middles) sum += std::abs(m - middle);
-  return 2 * sum / (static_cast<double>(middles.size()) * std::max(high.x() - low.x(), 1e-300));
+  return 2 * sum / (static_cast<double>(middles.size()) * std::max(box.sizes().x(), 1e-300));
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/paint/proposed_masks.h"
 
-#include <algorithm>
-
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 
@@ -25,13 +24,13 @@ std::vector<Band> parse_bands(std::string_view text) {
   std::vector<Band> bands;
   for (const std::string_view name : split(text, ',')) {
     const Band band = band_of(name);
-    if (std::ranges::find(bands, band) != bands.end()) {
+    if (contains(bands, band)) {
       throw UsageError(concat("--bands: ", name, " stands there twice"));
     }
     bands.push_back(band);
   }
   for (const Band band : {Band::kBrow, Band::kNose, Band::kMouth}) {
-    if (std::ranges::find(bands, band) != bands.end()) continue;
+    if (contains(bands, band)) continue;
     throw UsageError(concat("--bands: expected ", kForm, ", found ", join(names_of(bands))));
   }
   return bands;

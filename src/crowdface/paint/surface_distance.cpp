@@ -9,6 +9,7 @@
 #include <numeric>
 #include <queue>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -105,8 +106,7 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
     // All corners of the faces that the place's triangle is of, so that quads count whole.
     for (const std::uint32_t f : faces_.of(place.corners[0])) {
       const auto face = topology_.face(f);
-      const auto has = [&](std::uint32_t v) { return std::ranges::find(face, v) != face.end(); };
-      if (!has(place.corners[1]) || !has(place.corners[2])) continue;
+      if (!contains(face, place.corners[1]) || !contains(face, place.corners[2])) continue;
       for (const std::uint32_t v : face) {
         reached(v, length3(row3(positions_, v) - place.position));
       }

@@ -33,15 +33,14 @@ class SurfaceDistance {
   const Positions& positions() const { return positions_; }
   /// The vertices next to one, those of coinciding rims too; some may stand there twice.
   std::vector<std::uint32_t> around(std::uint32_t vertex) const;
-  /// The vertex that lies in the same place on another rim, then the next, in a ring; alone: itself.
-  std::uint32_t twin(std::uint32_t vertex) const { return twins_[vertex]; }
 
  private:
   const Topology& topology_;
   const Positions& positions_;
   Adjacency adjacency_;
   FacesAround faces_;
-  std::vector<std::uint32_t> twins_;  ///< #V
+  /// #V: the vertex that lies in the same place on another rim, then the next, in a ring; alone: itself.
+  std::vector<std::uint32_t> twins_;
   PointGrid grid_;
 };
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 
 namespace crowdface {
 namespace {
@@ -38,52 +40,47 @@ Anchors::Anchors(const Topology& topology, const FacesAround& faces, const Posit
     site_of_.push_back(entry->second);
     shares_.push_back(place.shares);
     if (!is_new) continue;
-    Site site{place.corners, static_cast<std::uint32_t>(ring_.size()), 0};
     const std::vector<std::uint32_t> ring = ring_of(topology, faces, place.corners);
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const std::uint32_t r : ring) middle += positions.row(r).transpose();
-    middle /= static_cast<double>(ring.size());
+    const Eigen::Vector3d middle = centre_of(positions, ring);
     const Eigen::Vector3d along =
         unit3(row3(positions, place.corners[1]) - row3(positions, place.corners[0]));
     const Eigen::Vector3d across = cross3(normal_at(positions, place), along);
+    std::vector<RingVertex> weighted;
     for (const std::uint32_t r : ring) {
-      const Eigen::Vector3d from = positions.row(r).transpose() - middle;
-      ring_.push_back({r, dot3(from, along), dot3(from, across)});
+      const Eigen::Vector3d from = row3(positions, r) - middle;
+      weighted.push_back({r, dot3(from, along), dot3(from, across)});
     }
-    site.end = static_cast<std::uint32_t>(ring_.size());
-    sites_.push_back(site);
+    rings_.add_group(weighted);
+    sites_.push_back(place.corners);
   }
 }
 
-Anchors::Frame Anchors::frame_at(const Site& site, const Positions& positions) const {
-  double along[3] = {}, across[3] = {};
-  for (std::uint32_t i = site.begin; i < site.end; ++i) {
-    const RingVertex& ring = ring_[i];
-    for (Index c = 0; c < 3; ++c) {
-      // From the first corner, so that where the head stands makes no difference to rounding.
-      const double x = positions(ring.vertex, c) - positions(site.corners[0], c);
-      along[c] += ring.along * x;
-      across[c] += ring.across * x;
-    }
+Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) const {
+  // From the first corner, so that where the head stands makes no difference to rounding.
+  const Eigen::Vector3d first = row3(positions, sites_[site][0]);
+  Eigen::Vector3d along = Eigen::Vector3d::Zero(), across = along;
+  for (const RingVertex& ring : rings_.of(site)) {
+    const Eigen::Vector3d from = row3(positions, ring.vertex) - first;
+    along += ring.along * from;
+    across += ring.across * from;
   }
-  const Eigen::Vector3d x = unit3({along[0], along[1], along[2]});
-  const Eigen::Vector3d z = unit3(cross3(x, {across[0], across[1], across[2]}));
+  const Eigen::Vector3d x = unit3(along), z = unit3(cross3(x, across));
   return {x, cross3(z, x), z};
 }
 
 Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const {
-  return point_on(positions, sites_[site_of_[i]].corners, shares_[i]);
+  return point_on(positions, sites_[site_of_[i]], shares_[i]);
 }
 
-bool Anchors::unmoved(const Site& site, const Positions& before, const Positions& after) const {
-  return std::all_of(ring_.begin() + site.begin, ring_.begin() + site.end, [&](const auto& ring) {
+bool Anchors::unmoved(std::size_t site, const Positions& before, const Positions& after) const {
+  return std::ranges::all_of(rings_.of(site), [&](const RingVertex& ring) {
     return before.row(ring.vertex) == after.row(ring.vertex);
   });
 }
 
 std::vector<Eigen::Vector3d> Anchors::places(const Positions& head) const {
   std::vector<Frame> frames;
-  for (const Site& site : sites_) frames.push_back(frame_at(site, head));
+  for (std::size_t s = 0; s < sites_.size(); ++s) frames.push_back(frame_at(s, head));
   std::vector<Eigen::Vector3d> result;
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const Eigen::Vector3d offset = head.row(bound_[i]).transpose() - origin(i, head);
@@ -97,9 +94,9 @@ void Anchors::put(const Positions& target, std::span<const Eigen::Vector3d> plac
                   Positions& result) const {
   std::vector<Frame> frames;
   std::vector<bool> still;
-  for (const Site& site : sites_) {
-    still.push_back(unmoved(site, target, result));
-    frames.push_back(still.back() ? Frame{} : frame_at(site, result));
+  for (std::size_t s = 0; s < sites_.size(); ++s) {
+    still.push_back(unmoved(s, target, result));
+    frames.push_back(still.back() ? Frame{} : frame_at(s, result));
   }
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const std::uint32_t v = bound_[i];
@@ -111,6 +108,39 @@ void Anchors::put(const Positions& target, std::span<const Eigen::Vector3d> plac
     const Eigen::Vector3d offset =
         places[i].x() * frame[0] + places[i].y() * frame[1] + places[i].z() * frame[2];
     result.row(v) = (origin(i, result) + offset).transpose();
+  }
+}
+
+Ties::Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
+           std::span<const std::uint32_t> bound, double reach) {
+  std::vector<PointGrid> grids;
+  grids.reserve(rigid.size());
+  for (const auto& vertices : rigid) grids.emplace_back(positions, vertices);
+  for (const std::uint32_t v : bound) {
+    const std::size_t first = ties_.size();
+    double sum = 0;
+    for (std::uint32_t part = 0; part < grids.size(); ++part) {
+      const auto nearest = grids[part].nearest(positions.row(v).transpose(), reach);
+      if (nearest.vertex == kNoIndex) continue;
+      const double share = biweight(nearest.distance / reach);
+      ties_.push_back({v, part, share});
+      sum += share;
+    }
+    // Between two parts a vertex goes with both.
+    for (std::size_t i = first; i < ties_.size(); ++i) ties_[i].share /= std::max(1.0, sum);
+  }
+}
+
+void Ties::pull(const Positions& target, std::span<const RigidMotion> motions,
+                Positions& result) const {
+  for (std::size_t i = 0; i < ties_.size();) {
+    const std::uint32_t v = ties_[i].vertex;
+    const Eigen::Vector3d bound = result.row(v).transpose();
+    Eigen::Vector3d change = Eigen::Vector3d::Zero();
+    for (; i < ties_.size() && ties_[i].vertex == v; ++i) {
+      change += ties_[i].share * (motions[ties_[i].part].apply(target.row(v).transpose()) - bound);
+    }
+    result.row(v) = (bound + change).transpose();
   }
 }
 

@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "crowdface/core/grouped.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/parts/point_grid.h"
+#include "crowdface/parts/rigid_motion.h"
 #include "crowdface/parts/surface_point.h"
 
 namespace crowdface {
@@ -34,24 +36,44 @@ class Anchors {
 
  private:
   using Frame = std::array<Eigen::Vector3d, 3>;  ///< unit axes
-  struct Site {
-    std::array<std::uint32_t, 3> corners;
-    std::uint32_t begin = 0, end = 0;  ///< of its ring in ring_
-  };
   struct RingVertex {
     std::uint32_t vertex;
     double along, across;  ///< weights in the two moments
   };
 
-  Frame frame_at(const Site& site, const Positions& positions) const;
+  Frame frame_at(std::size_t site, const Positions& positions) const;
   Eigen::Vector3d origin(std::size_t i, const Positions& positions) const;
-  bool unmoved(const Site& site, const Positions& before, const Positions& after) const;
+  bool unmoved(std::size_t site, const Positions& before, const Positions& after) const;
 
   std::vector<std::uint32_t> bound_;           ///< ascending
   std::vector<std::uint32_t> site_of_;         ///< #bound
   std::vector<std::array<double, 3>> shares_;  ///< #bound, barycentric
-  std::vector<Site> sites_;
-  std::vector<RingVertex> ring_;
+  std::vector<Triangle> sites_;                ///< on the skin
+  Grouped<RingVertex> rings_;                  ///< #sites: the skin around
+};
+
+/// What of the bound parts lies at a rigid part and goes along with it: gums with the teeth in them.
+class Ties {
+ public:
+  Ties() = default;
+  /// \param positions  of the head on which distances are measured
+  /// \param rigid      the vertices of each rigid part that ties
+  /// \param bound      vertices that may be tied
+  /// \param reach      a vertex this far off is free, one at the part is wholly tied
+  Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
+       std::span<const std::uint32_t> bound, double reach);
+
+  /// Moves the tied vertices of `result` from where they are bound towards where the motions carry
+  /// them.
+  /// \param motions  #rigid
+  void pull(const Positions& target, std::span<const RigidMotion> motions, Positions& result) const;
+
+ private:
+  struct Tie {
+    std::uint32_t vertex, part;
+    double share;  ///< those of a vertex add up to one at most
+  };
+  std::vector<Tie> ties_;  ///< those of a vertex one after the other
 };
 
 }  // namespace crowdface

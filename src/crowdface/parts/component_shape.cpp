@@ -4,17 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <Eigen/Geometry>
+#include <numbers>
+#include <utility>
 
 #include "crowdface/core/interrupt.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
 
 namespace crowdface {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Vertices of a component whose distance to the skin is looked at.
 constexpr std::size_t kMostProbes = 512;
 
@@ -44,9 +45,7 @@ std::array<double, 4> solve(std::array<std::array<double, 5>, 4> rows) {
 /// |p|² = 2 p·c + (r² − |c|²) in the least-squares sense, about the middle of the vertices.
 void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& vertices,
                 ComponentShape& shape) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const std::uint32_t v : vertices) middle += positions.row(v).transpose();
-  middle /= static_cast<double>(vertices.size());
+  const Eigen::Vector3d middle = centre_of(positions, vertices);
   std::array<std::array<double, 5>, 4> rows{};
   for (const std::uint32_t v : vertices) {
     const std::array<double, 4> term = {2 * (positions(v, 0) - middle.x()),
@@ -90,37 +89,62 @@ void measure_roughness(const Topology& topology, const Components& components,
 /// The farthest that nine in ten of some evenly chosen vertices are from the skin, up to `reach`.
 double distance_to(const PointGrid& skin, const Positions& positions,
                    const std::vector<std::uint32_t>& vertices, double reach) {
-  const std::size_t probes = std::min(vertices.size(), kMostProbes);
   std::vector<double> distances;
-  for (std::size_t i = 0; i < probes; ++i) {
-    const std::uint32_t vertex = vertices[i * vertices.size() / probes];
+  for (const std::uint32_t vertex : some_of(vertices, kMostProbes)) {
     distances.push_back(skin.nearest(positions.row(vertex).transpose(), reach).distance);
   }
-  const auto at = distances.begin() + static_cast<std::ptrdiff_t>((distances.size() - 1) * 9 / 10);
-  std::nth_element(distances.begin(), at, distances.end());
-  return *at;
-}
-
-Eigen::Vector3d box_sides(const Positions& positions, std::span<const std::uint32_t> vertices) {
-  Eigen::AlignedBox3d box;
-  for (const std::uint32_t v : vertices) box.extend(positions.row(v).transpose());
-  return box.sizes();
+  const std::size_t rank = (distances.size() - 1) * 9 / 10;
+  return value_of_rank(std::move(distances), rank);
 }
 
 }  // namespace
 
+std::vector<std::vector<std::uint32_t>> members_of(const Components& components) {
+  std::vector<std::vector<std::uint32_t>> members(components.sizes.size());
+  for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
+    members[components.of_vertex[v]].push_back(v);
+  }
+  return members;
+}
+
+std::uint32_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t vertex) {
+  const auto at = std::ranges::lower_bound(ascending, vertex);
+  if (at == ascending.end() || *at != vertex) return kNoIndex;
+  return static_cast<std::uint32_t>(at - ascending.begin());
+}
+
+Eigen::AlignedBox3d bounding_box(const Positions& positions,
+                                 std::span<const std::uint32_t> vertices) {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t v : vertices) box.extend(row3(positions, v));
+  return box;
+}
+
+Eigen::Vector3d centre_of(const Positions& positions, std::span<const std::uint32_t> vertices) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::uint32_t v : vertices) sum += row3(positions, v);
+  return sum / static_cast<double>(vertices.size());
+}
+
+double radius_about(const Eigen::Vector3d& middle, const Positions& positions,
+                    std::span<const std::uint32_t> vertices) {
+  double squares = 0;
+  for (const std::uint32_t v : vertices) {
+    const Eigen::Vector3d from = row3(positions, v) - middle;
+    squares += dot3(from, from);
+  }
+  return std::sqrt(squares / static_cast<double>(vertices.size()));
+}
+
 double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices) {
-  return box_sides(positions, vertices).norm();
+  return bounding_box(positions, vertices).sizes().norm();
 }
 
 std::vector<ComponentShape> component_shapes(const Topology& topology, const Adjacency& adjacency,
                                              const Components& components,
                                              const Positions& positions) {
   const auto count = static_cast<std::size_t>(components.count());
-  std::vector<std::vector<std::uint32_t>> members(count);
-  for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {
-    members[components.of_vertex[v]].push_back(v);
-  }
+  const std::vector<std::vector<std::uint32_t>> members = members_of(components);
   std::vector<ComponentShape> shapes(count);
   std::vector<double> area(count, 0.0), perimeter(count, 0.0);
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -141,8 +165,9 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
   for (std::size_t c = 0; c < count; ++c) {
     ComponentShape& shape = shapes[c];
     shape.vertices = static_cast<Index>(members[c].size());
-    if (area[c] > 0) shape.openness = perimeter[c] * perimeter[c] / (4 * kPi * area[c]);
-    const Eigen::Vector3d sides = box_sides(positions, members[c]);
+    if (area[c] > 0)
+      shape.openness = perimeter[c] * perimeter[c] / (4 * std::numbers::pi * area[c]);
+    const Eigen::Vector3d sides = bounding_box(positions, members[c]).sizes();
     shape.extent = sides.norm();
     shape.thickness = sides.minCoeff();
   }

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
 
@@ -37,7 +39,21 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
                                              const Components& components,
                                              const Positions& positions);
 
-/// The diagonal of the bounding box of some vertices, at least one.
+/// The vertices of each component, ascending.
+std::vector<std::vector<std::uint32_t>> members_of(const Components& components);
+
+/// The place of a vertex among some that ascend; kNoIndex: it is none of them.
+std::uint32_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t vertex);
+
+// Of some vertices, at least one:
+Eigen::AlignedBox3d bounding_box(const Positions& positions,
+                                 std::span<const std::uint32_t> vertices);
+/// Their mean.
+Eigen::Vector3d centre_of(const Positions& positions, std::span<const std::uint32_t> vertices);
+/// How far they are from a place, the root mean square.
+double radius_about(const Eigen::Vector3d& middle, const Positions& positions,
+                    std::span<const std::uint32_t> vertices);
+/// The diagonal of their bounding box.
 double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices);
 
 }  // namespace crowdface

@@ -2,13 +2,13 @@
 #include "crowdface/parts/contact.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Geometry>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/small_program.h"
 
 namespace crowdface {
@@ -39,15 +39,8 @@ enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepS
 Contact::Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
                  const PointGrid& grid, std::span<const std::uint32_t> skin,
                  std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads)
-    : topology_(&topology), faces_(&faces), reach_(reach), part_(part.begin(), part.end()) {
-  for (const std::uint32_t v : part_) middle_ += positions.row(v).transpose();
-  middle_ /= static_cast<double>(part_.size());
-  for (const std::uint32_t v : part_) {
-    const Eigen::Vector3d from = positions.row(v).transpose() - middle_;
-    radius_ += dot3(from, from);
-  }
-  radius_ = std::max(std::sqrt(radius_ / static_cast<double>(part_.size())), 1e-3 * reach);
-
+    : topology_(&topology), faces_(&faces), reach_(reach), middle_(centre_of(positions, part)) {
+  radius_ = std::max(radius_about(middle_, positions, part), 1e-3 * reach);
   double sum = 0;
   for (const std::uint32_t v : some_of(part, kMostVertices)) {
     const Eigen::Vector3d point = positions.row(v).transpose();

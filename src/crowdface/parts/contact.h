@@ -76,8 +76,7 @@ class Contact {
   double side_ = 1;    ///< −1: the skin's faces look away from the part
   double radius_ = 0;  ///< of the part: root mean square about its middle
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< of the part where the pairs were found
-  std::vector<std::uint32_t> part_;
-  std::vector<Pair> pairs_;  ///< by cluster
+  std::vector<Pair> pairs_;                           ///< by cluster
   std::vector<Cluster> clusters_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/smooth/symmetric_eigen.h"
 
@@ -21,9 +22,7 @@ Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, 
     const Eigen::Vector3d from = pair.middle - middle;
     if (length3(from) > reach) continue;
     const Eigen::Vector3d flat = from - dot3(from, up) * up;
-    for (Index i = 0; i < 3; ++i) {
-      for (Index j = 0; j < 3; ++j) spread(i, j) += flat(i) * flat(j);
-    }
+    spread += flat * flat.transpose();
   }
   const Eigen::Vector3d main = symmetric_eigen(spread).vectors.col(0);
   const Eigen::Vector3d flat = main - dot3(main, up) * up;
@@ -31,6 +30,20 @@ Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, 
   const Eigen::Vector3d axis =
       std::abs(up.x()) < 0.7 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   return unit3(cross3(up, axis));
+}
+
+bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b) {
+  return a == b || contains(adjacency.of(a), b);
+}
+
+/// A cut that passes one edge and then the other crosses one face between them: the edges share an end
+/// and the others are neighbours, or they are opposite sides of a quad.
+bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoint& q) {
+  const auto joined = [&](std::uint32_t qa, std::uint32_t qb) {
+    return are_neighbours(adjacency, p.a, qa) && are_neighbours(adjacency, p.b, qb);
+  };
+  const bool share_an_end = p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b;
+  return share_an_end || joined(q.a, q.b) || joined(q.b, q.a);
 }
 
 }  // namespace
@@ -80,6 +93,82 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
       (side[a] > 0 ? place.high : place.low).push_back(point);
     }
   }
+}
+
+Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
+    : points_(place.low), up_(place.up), deep_(place.deep()) {
+  points_.insert(points_.end(), place.high.begin(), place.high.end());
+  const auto add_pieces = [&](std::size_t begin, std::size_t end, std::vector<Piece>& pieces) {
+    for (std::size_t i = begin; i < end; ++i) {
+      bool alone = true;
+      for (std::size_t j = begin; j < end; ++j) {
+        if (i == j || !share_a_face(adjacency, points_[i], points_[j])) continue;
+        alone = false;
+        if (i < j) pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+      }
+      if (alone) pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i)});
+    }
+  };
+  add_pieces(0, place.low.size(), low_);
+  add_pieces(place.low.size(), points_.size(), high_);
+}
+
+std::vector<double> Clearance::along(const Eigen::Vector3d& direction,
+                                     const Positions& positions) const {
+  std::vector<double> heights;
+  heights.reserve(points_.size());
+  for (const EdgePoint& point : points_) {
+    heights.push_back(height_of(point, direction, positions));
+  }
+  return heights;
+}
+
+std::vector<Clearance::Opposite> Clearance::opposites(std::span<const double> depths) const {
+  const auto shares_at = [&](const Piece& piece, double depth) {
+    const double span = depths[piece[1]] - depths[piece[0]];
+    const double of_second =
+        span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
+    return std::array{1 - of_second, of_second};
+  };
+  const auto reach_of = [&](const Piece& piece) {
+    return std::array{std::min(depths[piece[0]], depths[piece[1]]),
+                      std::max(depths[piece[0]], depths[piece[1]])};
+  };
+  std::vector<std::array<double, 2>> reaches_of_high;
+  for (const Piece& high : high_) reaches_of_high.push_back(reach_of(high));
+  std::vector<Opposite> opposites;
+  Opposite nearest{};
+  double least = std::numeric_limits<double>::max();
+  for (const Piece& low : low_) {
+    const auto [low_from, low_to] = reach_of(low);
+    for (std::size_t h = 0; h < high_.size(); ++h) {
+      const Piece& high = high_[h];
+      const auto [high_from, high_to] = reaches_of_high[h];
+      const double from = std::max(low_from, high_from), to = std::min(low_to, high_to);
+      const auto at = [&](double depth) {
+        return Opposite{low, high, shares_at(low, depth), shares_at(high, depth)};
+      };
+      if (from <= to) {
+        opposites.push_back(at(from));
+        if (from < to) opposites.push_back(at(to));
+      } else if (from - to < least) {
+        least = from - to;
+        nearest = at(from);
+      }
+    }
+  }
+  if (opposites.empty()) opposites.push_back(nearest);
+  return opposites;
+}
+
+double Clearance::gap(std::span<const Opposite> opposites, std::span<const double> heights) {
+  double least = std::numeric_limits<double>::max();
+  for (const Opposite& opposite : opposites) least = std::min(least, opposite.gap(heights));
+  return least;
+}
+
+double Clearance::gap(const Positions& positions) const {
+  return gap(opposites(depths(positions)), heights(positions));
 }
 
 }  // namespace crowdface

@@ -64,12 +64,10 @@ std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const s
 /// 1 if the faces of a mesh look outward, −1 if they look inward.
 double outward_side(const Positions& positions, const Positions& normals,
                     std::span<const std::uint32_t> skin) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const std::uint32_t v : skin) middle += positions.row(v).transpose();
-  middle /= static_cast<double>(skin.size());
+  const Eigen::Vector3d middle = centre_of(positions, skin);
   double volume = 0;
   for (const std::uint32_t v : skin) {
-    volume += dot3(positions.row(v).transpose() - middle, normals.row(v).transpose());
+    volume += dot3(row3(positions, v) - middle, row3(normals, v));
   }
   return volume < 0 ? -1 : 1;
 }
@@ -106,11 +104,7 @@ std::vector<Candidate> opposite(const Positions& positions, const Positions& nor
 /// Turns all pairs of a group the same way.
 void agree_on_sides(FacingGroup& group) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const FacingPair& pair : group) {
-    for (Index i = 0; i < 3; ++i) {
-      for (Index j = 0; j < 3; ++j) spread(i, j) += pair.up(i) * pair.up(j);
-    }
-  }
+  for (const FacingPair& pair : group) spread += pair.up * pair.up.transpose();
   const Eigen::Vector3d up = symmetric_eigen(spread).vectors.col(0);
   for (FacingPair& pair : group) {
     if (dot3(pair.up, up) >= 0) continue;

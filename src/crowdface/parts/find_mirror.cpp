@@ -10,6 +10,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/face_walk.h"
 #include "crowdface/parts/find_mirror_plane.h"
 #include "crowdface/parts/surface_point.h"
@@ -37,26 +38,15 @@ using Vertices = std::vector<std::uint32_t>;
 
 using Box = Eigen::AlignedBox3d;
 
-Box box_of(const Positions& mean, const Vertices& vertices) {
-  Box box;
-  for (const std::uint32_t v : vertices) box.extend(row3(mean, v));
-  return box;
-}
-
 /// The component that lies where the image of each lies, kNoIndex where none does: two and two, the nearest
 /// first of those with as many vertices, so that layers of lashes find their own; then the nearest of all.
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;
   for (const Vertices& vertices : components) {
-    Positions image(static_cast<Index>(vertices.size()), 3);
-    Vertices rows(vertices.size());
-    for (std::uint32_t i = 0; i < rows.size(); ++i) {
-      rows[i] = i;
-      image.row(i) = plane.image(row3(mean, vertices[i])).transpose();
-    }
-    boxes.push_back(box_of(mean, vertices));
-    images.push_back(box_of(image, rows));
+    boxes.push_back(bounding_box(mean, vertices));
+    Box& image = images.emplace_back();
+    for (const std::uint32_t v : vertices) image.extend(plane.image(row3(mean, v)));
   }
   struct Pair {
     bool unlike;
@@ -115,7 +105,7 @@ class PlaceFinder {
     }
     std::ranges::stable_sort(seeds, {}, &Seed::distance);
     seeds.resize(std::min(seeds.size(), kSeeds));
-    const double extent = box_of(mean_, here).sizes().maxCoeff();
+    const double extent = bounding_box(mean_, here).sizes().maxCoeff();
     std::optional<std::vector<MirroredPair>> best;
     double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
     for (const Seed& seed : seeds) {
@@ -127,13 +117,14 @@ class PlaceFinder {
         // What is farther off than the best already need not be walked to its end.
         const double most = kMore * best_rms * best_rms * static_cast<double>(here.size());
         double squares = 0;
-        auto pairs = walk_.from({seed.vertex, to}, {partner_of_to, seed.partner},
-                                [&](const MirroredPair& pair) {
-                                  squares += square_off(pair);
-                                  return squares <= most;
-                                });
+        auto pairs = walk_.from(
+            {seed.vertex, to}, {partner_of_to, seed.partner}, [&](const MirroredPair& pair) {
+              const Eigen::Vector3d off = image(pair.vertex) - row3(mean_, pair.partner);
+              squares += dot3(off, off);
+              return squares <= most;
+            });
         if (!pairs || pairs->size() != here.size()) continue;
-        const double rms = distance(*pairs);
+        const double rms = std::sqrt(squares / static_cast<double>(here.size()));
         if (rms > best_rms) continue;
         best_rms = rms;
         best = std::move(pairs);
@@ -182,18 +173,6 @@ class PlaceFinder {
 
  private:
   Eigen::Vector3d image(std::uint32_t vertex) const { return plane_.image(row3(mean_, vertex)); }
-
-  double square_off(const MirroredPair& pair) const {
-    const Eigen::Vector3d off = image(pair.vertex) - row3(mean_, pair.partner);
-    return dot3(off, off);
-  }
-
-  /// Between images and partners, the root mean square.
-  double distance(const std::vector<MirroredPair>& pairs) const {
-    double squares = 0;
-    for (const MirroredPair& pair : pairs) squares += square_off(pair);
-    return std::sqrt(squares / static_cast<double>(pairs.size()));
-  }
 
   double edge_length(std::uint32_t vertex) const {
     double sum = 0, count = 0;
@@ -267,17 +246,14 @@ double FoundMirror::share() const {
 
 FoundMirror find_mirror(const Topology& topology, const Components& components,
                         const Positions& mean, const Eigen::Vector3d& side) {
-  std::vector<Vertices> of_component(static_cast<std::size_t>(components.count()));
-  for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
-    of_component[components.of_vertex[v]].push_back(v);
-  }
+  const std::vector<Vertices> of_component = members_of(components);
   const Vertices& skin = of_component[components.largest()];
   FoundMirror found;
   MirrorMap& map = found.map;
   const FacesAround around(topology);
   map.corners.resize(components.of_vertex.size());
   map.shares.resize(components.of_vertex.size());
-  const Box box = box_of(mean, skin);
+  const Box box = bounding_box(mean, skin);
   const double extent = box.sizes().maxCoeff();
   map.plane = find_mirror_plane(topology, around, mean, skin,
                                 {side, dot3(side, 0.5 * (box.min() + box.max()))});

@@ -86,9 +86,7 @@ class PlaneSearch {
 
 void PlaneFit::add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner) {
   const Eigen::Vector3d joining = point - partner;
-  for (Index a = 0; a < 3; ++a) {
-    for (Index b = 0; b < 3; ++b) along_(a, b) += joining(a) * joining(b);
-  }
+  along_ += joining * joining.transpose();
   middles_ += 0.5 * (point + partner);
   ++count_;
 }

@@ -11,7 +11,6 @@
 #include "crowdface/parts/contact.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/parts/socket.h"
-#include "crowdface/parts/ties.h"
 
 namespace crowdface {
 namespace {
@@ -40,6 +39,13 @@ std::vector<double> vertex_areas(const Topology& topology, const Positions& posi
   return areas;
 }
 
+/// Whether some skin is where it was, to the bit.
+bool unmoved(const Positions& before, const Positions& after,
+             std::span<const std::uint32_t> vertices) {
+  return std::ranges::all_of(vertices,
+                             [&](std::uint32_t v) { return before.row(v) == after.row(v); });
+}
+
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<double> ones;  ///< #vertices, for fits of its shape
@@ -48,20 +54,6 @@ struct RigidPart {
   EyeSocket eye;    ///< of an eyeball
   Contact contact;  ///< of all else
 };
-
-EyeSocket bind_eye(const FaceSet& faces, const FacesAround& around, const Part& part,
-                   const ComponentShape& ball, const HeadAxes& axes, const Positions& mean,
-                   Lids lids) {
-  const std::vector<double> ones(part.vertices.size(), 1.0);
-  std::vector<BallMap> maps(faces.heads.size());
-  parallel_for_each(maps.size(), [&](std::size_t i) {
-    const Positions& head = faces.heads[i].positions;
-    const RigidMotion motion = fit_rigid_motion(mean, head, part.vertices, ones);
-    maps[i] = BallMap(faces.topology, around, head, part.surface, motion.apply(ball.centre),
-                      motion.scale * ball.radius, axes);
-  });
-  return {std::move(lids), std::move(maps), faces.heads};
-}
 
 /// What parts are bound to: the mean head and its skin.
 struct SkinOfMean {
@@ -87,6 +79,20 @@ Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
   return socket;
 }
 
+EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMean& skin) {
+  const std::vector<double> ones(part.vertices.size(), 1.0);
+  std::vector<BallMap> maps(skin.faces.heads.size());
+  parallel_for_each(maps.size(), [&](std::size_t i) {
+    const Positions& head = skin.faces.heads[i].positions;
+    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, ones);
+    maps[i] = BallMap(skin.faces.topology, skin.around, head, part.surface,
+                      motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
+  });
+  return {find_lids(skin.mean, PointGrid(skin.mean, part.vertices), ball.centre, ball.radius,
+                    skin.axes, skin.vertices),
+          std::move(maps), skin.faces.heads};
+}
+
 RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& skin) {
   RigidPart bound;
   bound.vertices = part.vertices;
@@ -99,11 +105,8 @@ RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& 
     return bound;
   }
   const ComponentShape& ball = parts.shapes[part.ball];
-  const PointGrid grid(skin.mean, part.vertices);
   bound.socket = socket_of(part, kEyeReach * ball.radius, skin);
-  bound.eye =
-      bind_eye(skin.faces, skin.around, part, ball, skin.axes, skin.mean,
-               find_lids(skin.mean, grid, ball.centre, ball.radius, skin.axes, skin.vertices));
+  bound.eye = bind_eye(part, ball, skin);
   return bound;
 }
 

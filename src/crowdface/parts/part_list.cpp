@@ -69,23 +69,23 @@ double overlap(const Box& a, const Box& b, Index axis) {
 /// How many of some components, lowest first, are the teeth of the lower jaw: those below the widest
 /// gap between their middles, if the two rows are flat against that gap, stand above each other and
 /// hardly beside. 0: there are no two rows.
-std::size_t lower_row(const std::vector<Box>& lowest_first) {
+std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;
   for (std::size_t i = 1; i < lowest_first.size(); ++i) {
-    const double gap = box_height(lowest_first[i]) - box_height(lowest_first[i - 1]);
+    const double gap = box_height(lowest_first[i].first) - box_height(lowest_first[i - 1].first);
     if (gap <= widest) continue;
     widest = gap;
     lower = i;
   }
   if (lower == 0) return 0;
-  Box below = lowest_first.front(), above = lowest_first.back();
+  Box below, above;
   for (std::size_t i = 0; i < lowest_first.size(); ++i) {
-    (i < lower ? below : above).extend(lowest_first[i]);
+    (i < lower ? below : above).extend(lowest_first[i].first);
   }
   const double spread =
-      std::max(box_height(lowest_first[lower - 1]) - box_height(lowest_first.front()),
-               box_height(lowest_first.back()) - box_height(lowest_first[lower]));
+      std::max(box_height(lowest_first[lower - 1].first) - box_height(lowest_first.front().first),
+               box_height(lowest_first.back().first) - box_height(lowest_first[lower].first));
   const bool stacked = spread < widest && overlap(below, above, 1) < 0;
   const bool over = overlap(below, above, 0) > 0 && overlap(below, above, 2) > 0;
   return stacked && over ? lower : 0;
@@ -127,24 +127,17 @@ void join_touching(const Positions& positions, const Components& components,
 
 /// Takes groups of teeth apart, jaw by jaw.
 void split_jaws(const Positions& positions, const std::vector<std::vector<std::uint32_t>>& members,
-                const HeadAxes& axes, const std::vector<bool>& eyeball,
-                const std::vector<bool>& by_hand, const std::vector<PartClass>& classes,
-                Grouping& grouping) {
+                const HeadAxes& axes, const std::vector<std::uint32_t>& rigid,
+                const std::vector<bool>& eyeball, Grouping& grouping) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
-  for (std::uint32_t c = 0; c < members.size(); ++c) {
-    if (classes[c] == PartClass::kRigid && !by_hand[c]) groups[grouping.root(c)].push_back(c);
-  }
+  for (const std::uint32_t c : rigid) groups[grouping.root(c)].push_back(c);
   for (auto& [root, group] : groups) {
     const auto is_eyeball = [&](std::uint32_t c) { return eyeball[c]; };
     if (group.size() < 2 || std::ranges::any_of(group, is_eyeball)) continue;
     std::vector<std::pair<Box, std::uint32_t>> boxes;
     for (const std::uint32_t c : group) boxes.emplace_back(box_of(positions, members[c], axes), c);
-    std::ranges::stable_sort(boxes, [](const auto& a, const auto& b) {
-      return box_height(a.first) < box_height(b.first);
-    });
-    std::vector<Box> lowest_first;
-    for (const auto& [box, c] : boxes) lowest_first.push_back(box);
-    const std::size_t lower = lower_row(lowest_first);
+    std::ranges::stable_sort(boxes, {}, [](const auto& box) { return box_height(box.first); });
+    const std::size_t lower = lower_row(boxes);
     if (lower == 0) continue;
     for (const std::uint32_t c : group) grouping.release(c);
     for (std::size_t i = 0; i + 1 < boxes.size(); ++i) {
@@ -168,11 +161,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     if (!overrides.classes.empty() && overrides.classes[c]) list.classes[c] = *overrides.classes[c];
   }
 
-  std::vector<std::vector<std::uint32_t>> members(count);
-  for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {
-    const std::uint32_t c = components.of_vertex[v];
-    if (list.classes[c] != PartClass::kSkin) members[c].push_back(v);
-  }
+  const std::vector<std::vector<std::uint32_t>> members = members_of(components);
   Grouping grouping(count);
   std::vector<bool> by_hand(count, false);
   for (const auto& together : overrides.together) {
@@ -182,16 +171,15 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     }
   }
   std::vector<bool> eyeball(count, false);
-  for (std::uint32_t c = 0; c < count; ++c) {
-    eyeball[c] = list.classes[c] == PartClass::kRigid && is_eyeball(list.shapes[c], extent);
-  }
   std::vector<std::uint32_t> rigid;
   for (std::uint32_t c = 0; c < count; ++c) {
-    if (list.classes[c] == PartClass::kRigid && !by_hand[c]) rigid.push_back(c);
+    if (list.classes[c] != PartClass::kRigid) continue;
+    eyeball[c] = is_eyeball(list.shapes[c], extent);
+    if (!by_hand[c]) rigid.push_back(c);
   }
   join_inside(list, rigid, eyeball, grouping);
   join_touching(positions, components, members, rigid, eyeball, kTouch * extent, grouping);
-  split_jaws(positions, members, axes, eyeball, by_hand, list.classes, grouping);
+  split_jaws(positions, members, axes, rigid, eyeball, grouping);
 
   std::vector<std::size_t> part_of(count, SIZE_MAX);
   for (std::uint32_t c = 0; c < count; ++c) {

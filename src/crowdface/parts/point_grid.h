@@ -25,14 +25,12 @@ class PointGrid {
     double distance = 0;
   };
   /// The nearest vertex within `reach` of a point; of equals the first.
-  Nearest nearest(const Eigen::Vector3d& point, double reach) const;
-  Nearest nearest(const Eigen::Vector3d& point) const { return nearest(point, kHugeReach); }
+  Nearest nearest(const Eigen::Vector3d& point, double reach = 1e300) const;
 
   /// All vertices that may lie within `reach` of a point, some of them farther off.
   std::vector<std::uint32_t> about(const Eigen::Vector3d& point, double reach) const;
 
  private:
-  static constexpr double kHugeReach = 1e300;
   using Cell = std::array<Index, 3>;
 
   Cell cell_of(const Eigen::Vector3d& point) const;

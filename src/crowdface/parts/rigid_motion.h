@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -10,10 +9,17 @@
 
 namespace crowdface {
 
+/// Written out: a library's product chooses its order by the machine.
+inline Eigen::Vector3d apply3(const Eigen::Matrix3d& map, const Eigen::Vector3d& v) {
+  return {map(0, 0) * v.x() + map(0, 1) * v.y() + map(0, 2) * v.z(),
+          map(1, 0) * v.x() + map(1, 1) * v.y() + map(1, 2) * v.z(),
+          map(2, 0) * v.x() + map(2, 1) * v.y() + map(2, 2) * v.z()};
+}
+
 /// x ↦ scale · R (x − from) + to, in plain arithmetic: what a rigid part makes when its face is
 /// blended. (The Similarity of mesh/alignment.h rests on a factorisation whose bits are a library's.)
 struct RigidMotion {
-  std::array<std::array<double, 3>, 3> rotation = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double scale = 1;
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
 

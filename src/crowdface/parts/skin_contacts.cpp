@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/edge_distances.h"
@@ -22,8 +21,7 @@ constexpr double kSide = 0.09;           // how far along the surface a side is 
 constexpr double kRounding = 0.006;      // size of what is smoothed out of a side's edges
 constexpr double kTolerance = 1e-5;      // by which a gap may miss its range
 constexpr double kLeastWeight = 1e-3;    // what moves less does not move
-constexpr Index kRowsPerBlock = 8192;
-constexpr std::size_t kMovedPerBlock = 1024;  // vertices
+constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
 /// Share of what is asked for at a place by which its gap may miss its range: evens out what neighbours ask for
@@ -93,22 +91,20 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
   for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
   std::vector<double> side(rows + 1, 0.0);
-  std::vector<std::uint32_t> neighbours, ends;
+  Grouped<std::uint32_t> neighbours;
   for (std::size_t i = 0; i < rows; ++i) {
     side[i] = sides.side[sides.vertices[i]];
-    for (const std::uint32_t n : adjacency.of(sides.vertices[i])) neighbours.push_back(row_of[n]);
-    ends.push_back(static_cast<std::uint32_t>(neighbours.size()));
+    std::vector<std::uint32_t> around;
+    for (const std::uint32_t n : adjacency.of(sides.vertices[i])) around.push_back(row_of[n]);
+    neighbours.add_group(around);
   }
   std::vector<double> next = side;
   for (int step = 0; step < steps; ++step) {
-    parallel_blocks(static_cast<Index>(rows), kRowsPerBlock, [&](Index begin, Index end) {
-      std::uint32_t n = begin == 0 ? 0 : ends[static_cast<std::size_t>(begin) - 1];
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-        const auto valence = static_cast<double>(std::max(ends[i] - n, 1U));
-        double sum = 0;
-        for (; n < ends[i]; ++n) sum += side[neighbours[n]];
-        next[i] = (side[i] + sum / valence) / 2;
-      }
+    parallel_for_each(rows, kRowsPerBlock, [&](std::size_t i) {
+      const auto around = neighbours.of(i);
+      double sum = 0;
+      for (const std::uint32_t n : around) sum += side[n];
+      next[i] = (side[i] + sum / static_cast<double>(std::max<std::size_t>(around.size(), 1))) / 2;
     });
     std::swap(next, side);
   }
@@ -158,33 +154,29 @@ void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint3
                                const std::vector<double>& side, double extent,
                                Contact& contact) const {
   const double reach = kMotionReach * extent;
-  contact.offsets = {0};
   for (const std::uint32_t v : around) {
+    std::vector<Share> shares;
     for (std::size_t p = contact.begin; p < contact.end; ++p) {
       const double distance = length3(mean.row(v).transpose() - places_[p].middle) / reach;
       const double weight = side[v] * bump(distance);
       if (std::abs(weight) > kLeastWeight) {
-        contact.shares.push_back({static_cast<std::uint32_t>(p), weight});
+        shares.push_back({static_cast<std::uint32_t>(p), weight});
       }
     }
-    if (contact.shares.size() == contact.offsets.back()) continue;
+    if (shares.empty()) continue;
     contact.vertices.push_back(v);
-    contact.offsets.push_back(static_cast<std::uint32_t>(contact.shares.size()));
+    contact.shares.add_group(shares);
   }
 }
 
 void SkinContacts::find_motions(Contact& contact) const {
-  std::unordered_map<std::uint32_t, std::size_t> row_of;
-  for (std::size_t i = 0; i < contact.vertices.size(); ++i) row_of[contact.vertices[i]] = i;
   contact.motions.resize(contact.end - contact.begin);
   for (std::size_t p = contact.begin; p < contact.end; ++p) {
     const Eigen::Vector3d &up = places_[p].up, deep = places_[p].deep();
     const auto add_vertex = [&](std::uint32_t v, double share) {
-      const auto row = row_of.find(v);
-      if (row == row_of.end()) return;
-      for (std::uint32_t s = contact.offsets[row->second]; s < contact.offsets[row->second + 1];
-           ++s) {
-        const auto [place, weight] = contact.shares[s];
+      const std::uint32_t row = place_in(contact.vertices, v);
+      if (row == kNoIndex) return;
+      for (const auto& [place, weight] : contact.shares.of(row)) {
         Motions& motions = contact.motions[place - contact.begin];
         motions.heights.back() += share * weight * dot3(up, places_[place].up);
         motions.depths.back() += share * weight * dot3(deep, places_[place].up);
@@ -266,8 +258,7 @@ void SkinContacts::move(const Contact& contact, std::span<const double> by,
   for (std::size_t p = contact.begin; p < contact.end; ++p) ups.push_back(places_[p].up);
   parallel_for_each(contact.vertices.size(), kMovedPerBlock, [&](std::size_t i) {
     double x = 0, y = 0, z = 0;
-    for (std::uint32_t s = contact.offsets[i]; s < contact.offsets[i + 1]; ++s) {
-      const auto [place, weight] = contact.shares[s];
+    for (const auto& [place, weight] : contact.shares.of(i)) {
       const Eigen::Vector3d& up = ups[place - contact.begin];
       const double share = weight * by[place - contact.begin];
       x += share * up.x();

@@ -5,12 +5,18 @@
 #include <span>
 #include <vector>
 
+#include "crowdface/core/grouped.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
-#include "crowdface/parts/clearance.h"
 #include "crowdface/parts/contact_place.h"
 
 namespace crowdface {
+
+/// What becomes of lips, and of other skin that nearly touches skin, in a generated face.
+enum class Contacts {
+  kAuto,  ///< they are as far apart as in the target and the sources
+  kNone,  ///< as blended (Eq. 7)
+};
 
 /// Where skin nearly touches skin. Lips are near each other in space and far along the surface, so
 /// blending parts them or pushes one into the other. Their gap is measured at places some millimetres
@@ -58,9 +64,8 @@ class SkinContacts {
   /// Places that act on the same skin: a mouth.
   struct Contact {
     std::size_t begin = 0, end = 0;       ///< of the places
-    std::vector<std::uint32_t> vertices;  ///< that move
-    std::vector<std::uint32_t> offsets;   ///< #vertices + 1
-    std::vector<Share> shares;            ///< of vertex i: [offsets[i], offsets[i + 1])
+    std::vector<std::uint32_t> vertices;  ///< that move, ascending
+    Grouped<Share> shares;                ///< #vertices
     std::vector<Motions> motions;         ///< by what is asked for at each place
   };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/parts/socket.h"
 
-#include <algorithm>
-
 #include "crowdface/core/selection.h"
 
 namespace crowdface {
@@ -32,12 +30,6 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
     all.weights.push_back(weight);
   }
   return {some_of(all.vertices, kMostKept), some_of(all.weights, kMostKept)};
-}
-
-bool unmoved(const Positions& before, const Positions& after,
-             std::span<const std::uint32_t> vertices) {
-  return std::ranges::all_of(vertices,
-                             [&](std::uint32_t v) { return before.row(v) == after.row(v); });
 }
 
 }  // namespace crowdface

@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// The skin around a rigid part: what it moves with.
+/// The skin around a rigid part, or a point: what it moves with.
 struct Socket {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<double> weights;          ///< #vertices: area × nearness
@@ -23,9 +23,5 @@ struct Socket {
 Socket find_socket(const Positions& positions, const PointGrid& part,
                    std::span<const std::uint32_t> skin, const std::vector<double>& areas,
                    double reach);
-
-/// Whether all of a socket is where it was, to the bit.
-bool unmoved(const Positions& before, const Positions& after,
-             std::span<const std::uint32_t> vertices);
 
 }  // namespace crowdface

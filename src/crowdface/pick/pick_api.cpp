@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 #include "crowdface/page/answer_request.h"
-#include "crowdface/page/request_values.h"
 #include "crowdface/pick/landmark_file.h"
 #include "crowdface/pick/landmark_names.h"
 
@@ -216,6 +216,15 @@ HttpAnswer PickApi::job(const PickSession& session) const {
        {"loses_comments", session.loses_comments()},
        {"names", names},
        {"landmarks", landmarks}});
+}
+
+void pick_landmarks(PickScans& scans, std::optional<std::filesystem::path> pages, int port,
+                    const std::function<void(const std::string&)>& started) {
+  constexpr std::size_t kMostTriangles = 100'000;
+  PickApi api(scans, std::move(pages), kMostTriangles);
+  LocalServer server([&](const HttpRequest& request) { return api.answer(request); }, port);
+  started(server.address());
+  server.run(interrupted);
 }
 
 }  // namespace crowdface

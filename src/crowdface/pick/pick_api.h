@@ -3,14 +3,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/page/answer_request.h"
 #include "crowdface/page/local_server.h"
-#include "crowdface/page/page_files.h"
 #include "crowdface/pick/pick_scans.h"
 
 namespace crowdface {
@@ -36,5 +37,13 @@ class PickApi {
   PageFiles page_;
   std::size_t most_triangles_;
 };
+
+/// Serves the page on which landmarks are picked until a signal asks to end.
+/// \param pages    the folder of built pages, if there is one
+/// \param port     0: any that is free
+/// \param started  is given the address once the page can be opened
+/// \throws Error
+void pick_landmarks(PickScans& scans, std::optional<std::filesystem::path> pages, int port,
+                    const std::function<void(const std::string&)>& started);
 
 }  // namespace crowdface

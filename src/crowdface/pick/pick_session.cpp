@@ -29,10 +29,6 @@ PoseHint guess_bearing(const Scan& scan) {
   return {unit_vector(bearing->up), unit_vector(bearing->front)};
 }
 
-double rounded_to(double value, double step) {
-  return std::round(value / step) * step;
-}
-
 /// The power of ten that is at most a millionth of the mesh's size.
 double step_of(const PickableMesh& mesh) {
   const double size = length3(mesh.high() - mesh.low());
@@ -72,11 +68,10 @@ PickSession::PickSession(PickInputs inputs)
       stands_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
       known_(text_on_disk()) {
   LandmarkFile file;
-  std::error_code ignored;
   if (!inputs_.of_template.empty()) {
     file.of_template = read_landmarks(inputs_.of_template).of_template;
   }
-  if (std::filesystem::exists(inputs_.landmarks, ignored)) {
+  if (is_there(inputs_.landmarks)) {
     const LandmarkFile own = read_landmarks(inputs_.landmarks);
     for (const auto& [name, place] : own.of_template) file.of_template[name] = place;
     file.of_scan = own.of_scan;
@@ -95,9 +90,7 @@ bool PickSession::loses_comments() const {
 }
 
 std::string PickSession::text_on_disk() const {
-  std::error_code ignored;
-  return std::filesystem::exists(inputs_.landmarks, ignored) ? read_file(inputs_.landmarks)
-                                                             : std::string();
+  return is_there(inputs_.landmarks) ? read_file(inputs_.landmarks) : std::string();
 }
 
 std::optional<PickedPlace> PickSession::pick_on_template(const Eigen::Vector3d& origin,
@@ -116,7 +109,7 @@ std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& orig
   for (double& x : place->point) {
     // By way of a text, so that a decimal number stays the one that is shown.
     const int decimals = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 15);
-    x = parse_double(format_fixed(rounded_to(x, step), decimals)).value_or(x);
+    x = parse_double(format_fixed(std::round(x / step) * step, decimals)).value_or(x);
   }
   return place;
 }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "crowdface/pick/landmark_file.h"
-#include "crowdface/pick/landmark_text.h"
 #include "crowdface/pick/pickable_mesh.h"
 #include "crowdface/pick/suggested_places.h"
 #include "crowdface/wrap/guess_pose.h"

@@ -15,28 +15,21 @@
 namespace crowdface {
 namespace {
 
-std::vector<Quad> quads_of(const std::vector<Triangle>& skin, const std::vector<Triangle>& others) {
+std::vector<Quad> quads_of(const std::vector<Triangle>& triangles) {
   std::vector<Quad> quads;
-  quads.reserve(skin.size() + others.size());
-  for (const std::vector<Triangle>* triangles : {&skin, &others}) {
-    for (const Triangle& t : *triangles) quads.push_back({t[0], t[1], t[2], t[2]});
-  }
+  quads.reserve(triangles.size());
+  for (const Triangle& t : triangles) quads.push_back({t[0], t[1], t[2], t[2]});
   return quads;
 }
 
 /// Boxes are of what triangles use: vertices that none has may lie anywhere.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> box_of(const Positions& positions,
-                                                   const std::vector<Triangle>& triangles) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
+Eigen::AlignedBox3d box_of(const Positions& positions, const std::vector<Triangle>& triangles) {
+  Eigen::AlignedBox3d box;
   for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t) {
-      low = low.cwiseMin(row3(positions, v));
-      high = high.cwiseMax(row3(positions, v));
-    }
+    for (const std::uint32_t v : t) box.extend(row3(positions, v));
   }
-  if (triangles.empty()) low = high = Eigen::Vector3d::Zero();
-  return {low, high};
+  if (triangles.empty()) box.extend(Eigen::Vector3d(0, 0, 0));
+  return box;
 }
 
 /// Counted from the middle, because rays are traced in single precision and scans may lie far from zero.
@@ -60,13 +53,11 @@ PickableMesh::PickableMesh(Positions positions, std::vector<Triangle> skin,
                            const std::vector<Triangle>& others)
     : positions_(std::move(positions)),
       skin_(std::move(skin)),
-      quads_(quads_of(skin_, others)),
+      quads_(quads_of(joined(skin_, others))),
       normals_(vertex_normals(joined(skin_, others), positions_)),
-      scene_([&]() -> RayScene {
-        std::tie(low_, high_) = box_of(positions_, skin_);
-        middle_ = (low_ + high_) / 2;
-        return RayScene(device_, points_around(positions_, middle_), quads_);
-      }()),
+      box_(box_of(positions_, skin_)),
+      middle_(box_.center()),
+      scene_(device_, points_around(positions_, middle_), quads_),
       tree_(positions_, skin_) {}
 
 PickedPlace PickableMesh::place_of(const Triangle& corners,
@@ -77,11 +68,9 @@ PickedPlace PickableMesh::place_of(const Triangle& corners,
     place.normal += shares[k] * row3(normals_, corners[k]);
   }
   place.normal = unit3(place.normal);
-  place.vertex =
-      *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return (row3(positions_, a) - place.point).squaredNorm() <
-               (row3(positions_, b) - place.point).squaredNorm();
-      });
+  place.vertex = *std::ranges::min_element(corners, {}, [&](std::uint32_t corner) {
+    return (row3(positions_, corner) - place.point).squaredNorm();
+  });
   return place;
 }
 
@@ -107,9 +96,7 @@ std::optional<PickedPlace> PickableMesh::cast(const Eigen::Vector3d& origin,
     const Triangle& corners = skin_[met->triangle];
     return place_of(corners, nearest_on_triangle(positions_, corners, met->point).shares);
   }
-  const SurfaceHit hit = tree_.nearest_facing(met->point, -unit3(direction), 0, beside);
-  if (hit.triangle == kNoIndex) return std::nullopt;
-  return place_of(skin_[hit.triangle], hit.shares);
+  return nearest(met->point, -unit3(direction), 0, beside);
 }
 
 std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,
@@ -165,8 +152,8 @@ std::string PickableMesh::preview(std::size_t most_triangles) const {
     return nlohmann::ordered_json::array({v.x(), v.y(), v.z()});
   };
   answer.head["origin"] = list(middle_);
-  answer.head["low"] = list(low_ - middle_);
-  answer.head["high"] = list(high_ - middle_);
+  answer.head["low"] = list(low() - middle_);
+  answer.head["high"] = list(high() - middle_);
   answer.head["whole_triangles"] = quads_.size();
   answer.add("positions", std::span<const float>(points));
   answer.add("normals", std::span<const std::int16_t>(normals));

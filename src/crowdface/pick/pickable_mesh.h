@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/wrap/surface_tree.h"
@@ -53,8 +55,8 @@ class PickableMesh {
 
   const Positions& positions() const { return positions_; }
   const std::vector<Triangle>& skin() const { return skin_; }
-  Eigen::Vector3d low() const { return low_; }
-  Eigen::Vector3d high() const { return high_; }
+  Eigen::Vector3d low() const { return box_.min(); }
+  Eigen::Vector3d high() const { return box_.max(); }
 
   /// For the page: about so many triangles at most, normals of the whole mesh; a BinaryAnswer of `origin` (from
   /// which its points are counted), `low`, `high`, and the arrays positions, normals (sixteen bits a number), triangles,
@@ -68,7 +70,8 @@ class PickableMesh {
   std::vector<Triangle> skin_;
   std::vector<Quad> quads_;  ///< of skin, then of others
   Positions normals_;
-  Eigen::Vector3d low_, high_, middle_;
+  Eigen::AlignedBox3d box_;  ///< of the skin
+  Eigen::Vector3d middle_;
   RayDevice device_;
   RayScene scene_;
   SurfaceTree tree_;

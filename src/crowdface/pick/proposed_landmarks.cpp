@@ -112,29 +112,24 @@ void propose_middle(const FrontView& view, const FaceMarks& marks, Proposals& pr
                                     }));
 }
 
+using Places = std::vector<Eigen::Vector3d>;
+
+Eigen::Vector3d farthest(const Places& places, const Eigen::Vector3d& direction) {
+  return *std::ranges::max_element(
+      places, {}, [&](const Eigen::Vector3d& place) { return dot3(place, direction); });
+}
+
 /// Where an eyeball shows between the lids, from the front.
-struct Opening {
-  std::vector<Eigen::Vector3d> seen;
-
-  /// The place that lies farthest along a direction.
-  Eigen::Vector3d farthest(const Eigen::Vector3d& direction) const {
-    return *std::max_element(seen.begin(), seen.end(),
-                             [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-                               return dot3(a, direction) < dot3(b, direction);
-                             });
-  }
-};
-
-Opening find_opening(const FrontView& view, const Eigen::Vector3d& centre, double radius) {
+Places find_opening(const FrontView& view, const Eigen::Vector3d& centre, double radius) {
   constexpr int kSteps = 48;  // to each side
   constexpr double kFar = 1.2;
-  Opening opening;
+  Places opening;
   for (int x = -kSteps; x <= kSteps; ++x) {
     for (int y = -kSteps; y <= kSteps; ++y) {
       const auto met = view.look(view.across(centre) + kFar * radius * x / kSteps,
                                  view.height(centre) + kFar * radius * y / kSteps);
       if (met && !met->is_skin && length3(met->point - centre) < kFar * radius) {
-        opening.seen.push_back(met->point);
+        opening.push_back(met->point);
       }
     }
   }
@@ -144,8 +139,8 @@ Opening find_opening(const FrontView& view, const Eigen::Vector3d& centre, doubl
 void propose_eye(const FrontView& view, double middle, const Eigen::Vector3d& centre, double radius,
                  Proposals& proposals) {
   constexpr double kReachMm = 6, kHalfSlit = 0.05;  // of the radius: about the middle of the lids
-  const Opening opening = find_opening(view, centre, radius);
-  if (opening.seen.empty()) return;
+  const Places opening = find_opening(view, centre, radius);
+  if (opening.empty()) return;
   const HeadAxes& axes = view.axes();
   const bool is_left = view.across(centre) > middle;
   const std::string half = is_left ? "_left" : "_right";
@@ -153,17 +148,17 @@ void propose_eye(const FrontView& view, double middle, const Eigen::Vector3d& ce
   const auto keep = [&](const char* name, const Eigen::Vector3d& seen) {
     add(name + half, view.mesh().nearest(seen, axes.front, 0, kReachMm), proposals);
   };
-  const Eigen::Vector3d outer = opening.farthest(outwards), inner = opening.farthest(-outwards);
+  const Eigen::Vector3d outer = farthest(opening, outwards), inner = farthest(opening, -outwards);
   keep("eye_outer", outer);
   keep("eye_inner", inner);
   const double between = (view.across(outer) + view.across(inner)) / 2;
-  Opening slit;
-  for (const Eigen::Vector3d& point : opening.seen) {
-    if (std::abs(view.across(point) - between) <= kHalfSlit * radius) slit.seen.push_back(point);
+  Places slit;
+  for (const Eigen::Vector3d& point : opening) {
+    if (std::abs(view.across(point) - between) <= kHalfSlit * radius) slit.push_back(point);
   }
-  if (slit.seen.empty()) return;
-  keep("lid_upper", slit.farthest(axes.up));
-  keep("lid_lower", slit.farthest(-axes.up));
+  if (slit.empty()) return;
+  keep("lid_upper", farthest(slit, axes.up));
+  keep("lid_lower", farthest(slit, -axes.up));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/mirror_map.h"
-#include "crowdface/pick/landmark_text.h"
+#include "crowdface/pick/landmark_file.h"
 #include "crowdface/pick/pickable_mesh.h"
 
 namespace crowdface {

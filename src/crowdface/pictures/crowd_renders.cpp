@@ -58,10 +58,6 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
       {.cut_below = kCutBelow, .beside = reach_of(inputs.attachments, inputs.faces)});
 }
 
-std::string quick_png(const Rgb8Image& image) {
-  return encode_png(image.width, image.height, 3, image.pixels, PngEffort::kFast);
-}
-
 }  // namespace
 
 CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& sheet,
@@ -131,7 +127,8 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
   for (const Camera& camera : cameras_) {
     views.push_back(renderer_.render(positions, camera, colours, coat, meshes));
   }
-  return quick_png(side_by_side(views));
+  const Rgb8Image image = side_by_side(views);
+  return encode_png(image.width, image.height, 3, image.pixels, PngEffort::kFast);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
@@ -143,11 +140,6 @@ std::string CrowdRenders::render_png(const Positions& positions, const FaceTextu
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
   const std::optional<TextureCoat> coat = coat_of(head);
   return render_png(positions, nullptr, coat ? &*coat : nullptr);
-}
-
-std::string CrowdRenders::render_png(const Positions& positions,
-                                     const VertexColours& colours) const {
-  return render_png(positions, &colours, nullptr);
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/likeness.h"
 #include "crowdface/config/config.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/gallery.h"
@@ -17,6 +19,19 @@
 #include "crowdface/render/face_renderer.h"
 
 namespace crowdface {
+
+class CrowdRenders;
+
+/// A crowd whose pictures lie in its folder. What it refers to must outlive it.
+struct PicturedCrowd {
+  const Config& config;  ///< with contact sheets
+  const Inputs& inputs;
+  const CrowdDirectory& directory;
+  const CrowdRenders& renders;
+  const FaceShapes& shapes;
+  const std::vector<CastFace>& faces;
+  const Likeness& likeness;
+};
 
 /// What is shown of one face: files' bytes.
 struct FacePictures {
@@ -47,6 +62,8 @@ class CrowdRenders {
                     std::span<const Displacements> moves, const OwnCoat* own,
                     const std::vector<WornAttachment>& worn = {}) const;
 
+  /// What a head wears in pictures; nothing if it has no texture, or none is shown.
+  std::optional<TextureCoat> coat_of(Index head) const;
   /// To be given a face's own pictures; nothing if none are shown.
   std::optional<OwnCoat> own_coat() const;
   /// The same with the pictures of a face.
@@ -57,17 +74,15 @@ class CrowdRenders {
                          const Recipe& recipe) const;
   /// \param head  whose texture it bears, if there are textures.
   std::string render_png(const Positions& positions, Index head) const;
-  /// The same in colours of the vertices.
-  std::string render_png(const Positions& positions, const VertexColours& colours) const;
+  /// \param colours  of the vertices, or null: those of the surfaces.
+  /// \param coat     its textures, or null.
+  std::string render_png(const Positions& positions, const VertexColours* colours,
+                         const TextureCoat* coat = nullptr,
+                         const std::vector<WornAttachment>& worn = {}) const;
   /// The first of the views alone.
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
  private:
-  std::string render_png(const Positions& positions, const VertexColours* colours,
-                         const TextureCoat* coat,
-                         const std::vector<WornAttachment>& worn = {}) const;
-  std::optional<TextureCoat> coat_of(Index head) const;
-
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;
   const Inputs& inputs_;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/pictures/crowd_scripts.h"
-
+// The gallery's scripts of a crowd's recipes.
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
-#include <system_error>
 
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/interrupt.h"
-#include "crowdface/core/list_files.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/face_json.h"
+#include "crowdface/pictures/pictures.h"
 
 namespace crowdface {
 namespace {
@@ -69,13 +69,11 @@ Json whole_crowd(Json json, const std::vector<CastFace>& crowd, const PlanNames&
   return json;
 }
 
-/// "[a,b,…]" of what `of` says of each face.
+/// "[a,b,…]" of what `of` says of each face by its place.
 template <class Of>
-std::string list_of(const std::vector<CastFace>& crowd, const Of& of) {
+std::string list_of(std::size_t faces, const Of& of) {
   std::string text = "[";
-  for (std::size_t i = 0; i < crowd.size(); ++i) {
-    text += concat(i > 0 ? "," : "", of(crowd[i], i));
-  }
+  for (std::size_t i = 0; i < faces; ++i) text += concat(i > 0 ? "," : "", of(i));
   return text + ']';
 }
 
@@ -90,44 +88,37 @@ Json some_of_them(const std::vector<CastFace>& crowd, const Of& of) {
   return json;
 }
 
-std::string text_json(const std::optional<std::string>& text) {
-  return text ? Json(*text).dump() : "null";
-}
-
 /// What filters, orders and the grid need of each face, column by column.
 std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness) {
-  const auto any = [&](const auto& has) { return std::any_of(crowd.begin(), crowd.end(), has); };
-  std::string text =
-      concat("{\"id\":",
-             list_of(crowd, [](const CastFace& face, std::size_t) { return Json(face.id).dump(); }),
-             ",\n\"target\":",
-             list_of(crowd, [](const CastFace& face, std::size_t) { return face.recipe.target; }),
-             ",\n\"attempt\":",
-             list_of(crowd, [](const CastFace& face, std::size_t) { return face.notes.attempt; }),
-             ",\n\"near_mm\":",
-             list_of(crowd,
-                     [&](const CastFace&, std::size_t i) {
-                       const auto& near = likeness.near[i];
-                       return near.empty() ? std::string("null") : concat(near.front().mm);
-                     }),
-             ",\n\"head_mm\":", list_of(crowd, [](const CastFace& face, std::size_t) {
-               const auto& nearest = face.notes.nearest;
-               return nearest ? concat(rounded(nearest->head_mm)) : std::string("null");
-             }));
-  if (any([](const CastFace& face) { return face.family.has_value(); })) {
-    text += concat(",\n\"family\":", list_of(crowd, [](const CastFace& face, std::size_t) {
-                     return text_json(face.family);
-                   }));
-  }
-  if (any([](const CastFace& face) { return face.group.has_value(); })) {
-    text += concat(",\n\"group\":", list_of(crowd, [](const CastFace& face, std::size_t) {
-                     return text_json(face.group);
-                   }));
-  }
-  if (any([](const CastFace& face) { return !face.attachments.empty(); })) {
-    text += concat(",\n\"attachments\":", list_of(crowd, [](const CastFace& face, std::size_t) {
-                     return Json(face.attachments).dump();
-                   }));
+  std::string text;
+  const auto add = [&](const char* name, const auto& of) {
+    text += concat(text.empty() ? "{\"" : ",\n\"", name, "\":", list_of(crowd.size(), of));
+  };
+  add("id", [&](std::size_t i) { return Json(crowd[i].id).dump(); });
+  add("target", [&](std::size_t i) { return crowd[i].recipe.target; });
+  add("attempt", [&](std::size_t i) { return crowd[i].notes.attempt; });
+  add("near_mm", [&](std::size_t i) {
+    const auto& near = likeness.near[i];
+    return near.empty() ? std::string("null") : concat(near.front().mm);
+  });
+  add("head_mm", [&](std::size_t i) {
+    const auto& nearest = crowd[i].notes.nearest;
+    return nearest ? concat(rounded(nearest->head_mm)) : std::string("null");
+  });
+  const auto add_if_any = [&](const char* name, std::optional<std::string> CastFace::*kin) {
+    if (std::ranges::none_of(crowd,
+                             [&](const CastFace& face) { return (face.*kin).has_value(); })) {
+      return;
+    }
+    add(name, [&](std::size_t i) {
+      const auto& own = crowd[i].*kin;
+      return own ? Json(*own).dump() : "null";
+    });
+  };
+  add_if_any("family", &CastFace::family);
+  add_if_any("group", &CastFace::group);
+  if (std::ranges::any_of(crowd, [](const CastFace& face) { return !face.attachments.empty(); })) {
+    add("attachments", [&](std::size_t i) { return Json(crowd[i].attachments).dump(); });
   }
   const Json parents = some_of_them(crowd, [](const CastFace& face) {
     return face.parents.empty() ? Json()
@@ -167,19 +158,18 @@ Json on_plane(const std::vector<CastFace>& crowd, const PlanNames& names, const 
 
 }  // namespace
 
-void write_crowd_scripts(const CrowdDirectory& directory, const Config& config,
-                         const ShapeSet& shapes, const std::vector<CastFace>& crowd,
-                         const Digest& settings, const CrowdLikeness& likeness) {
-  const PlanNames names = config.plan_names();
-  Json head = head_of_script(config, shapes, likeness);
+void CrowdPictures::write_scripts(const std::vector<CastFace>& crowd,
+                                  const CrowdLikeness& likeness) const {
+  const PlanNames names = config_.plan_names();
+  Json head = head_of_script(config_, inputs_.shapes, likeness);
   std::set<std::filesystem::path> pages;
   std::string script;
-  if (const auto a_page = static_cast<std::size_t>(directory.faces_per_folder); a_page == 0) {
-    script = whole_crowd(std::move(head), crowd, names, settings, likeness.likeness).dump();
+  if (const auto a_page = static_cast<std::size_t>(directory_.faces_per_folder); a_page == 0) {
+    script = whole_crowd(std::move(head), crowd, names, settings_, likeness.likeness).dump();
   } else {
-    make_directories(directory.gallery_pages());
+    make_directories(directory_.gallery_pages());
     const auto file = [&](std::size_t page) {
-      return directory.gallery_pages() / concat(zero_padded(page, 3), ".js");
+      return directory_.gallery_pages() / concat(zero_padded(page, 3), ".js");
     };
     const std::size_t count = (crowd.size() + a_page - 1) / a_page;
     for (std::size_t page = 0; page < count; ++page) pages.insert(file(page));
@@ -187,21 +177,20 @@ void write_crowd_scripts(const CrowdDirectory& directory, const Config& config,
       throw_if_interrupted();
       const std::size_t begin = page * a_page, end = std::min(begin + a_page, crowd.size());
       write_file(file(page),
-                 page_script(crowd, begin, end, page, names, settings, likeness.likeness));
+                 page_script(crowd, begin, end, page, names, settings_, likeness.likeness));
     });
     head["faces_per_page"] = a_page;
-    head["on_plane"] = on_plane(crowd, names, settings);
+    head["on_plane"] = on_plane(crowd, names, settings_);
     const std::vector<std::size_t> rank = ranks(likeness.likeness, crowd.size());
     script = head.dump();
     script.pop_back();
     script += concat(",\n\"columns\":", columns(crowd, likeness.likeness), ",\n\"likeness\":",
-                     list_of(crowd, [&](const CastFace&, std::size_t i) { return rank[i]; }), '}');
+                     list_of(crowd.size(), [&](std::size_t i) { return rank[i]; }), '}');
   }
-  for (const auto& path : list_files(directory.gallery_pages(), has_ending(".js"))) {
-    std::error_code ignored;
-    if (!pages.contains(path)) std::filesystem::remove(path, ignored);
+  for (const auto& path : list_files(directory_.gallery_pages(), has_ending(".js"))) {
+    if (!pages.contains(path)) remove_if_there(path);
   }
-  write_file(directory.gallery() / "data/crowd.js", concat("crowdface.setCrowd(", script, ");\n"));
+  write_file(directory_.gallery() / "data/crowd.js", concat("crowdface.setCrowd(", script, ");\n"));
 }
 
 }  // namespace crowdface

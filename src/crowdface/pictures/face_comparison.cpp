@@ -52,46 +52,40 @@ CrowdDirectory crowd_at(const std::filesystem::path& folder) {
 Positions read_reference(const std::filesystem::path& file, Index vertices) {
   Positions positions = read_obj(file).positions;
   if (positions.rows() == vertices) return positions;
-  throw InvalidInput(concat(file.string(), ": expected ", vertices,
-                            " vertices to compare with, found ", positions.rows()));
+  refuse_file(file,
+              concat("expected ", vertices, " vertices to compare with, found ", positions.rows()));
 }
 
 }  // namespace
 
-FaceComparison::FaceComparison(const Config& config, const Config::Comparison& comparison,
-                               const Inputs& inputs, const CrowdDirectory& directory,
-                               const std::vector<CastFace>& crowd, const Likeness& likeness)
-    : config_(config),
-      comparison_(comparison),
-      inputs_(inputs),
-      directory_(directory),
-      crowd_(crowd),
-      likeness_(likeness) {
-  if (comparison.with != With::kFile) return;
-  if (std::filesystem::is_directory(comparison.file)) {
-    others_ = crowd_at(comparison.file);
+FaceComparison::FaceComparison(const PicturedCrowd& crowd)
+    : crowd_(crowd), comparison_(crowd.config.output.contact_sheet->compare) {
+  if (comparison_.with != With::kFile) return;
+  if (std::filesystem::is_directory(comparison_.file)) {
+    others_ = crowd_at(comparison_.file);
   } else {
-    reference_ = read_reference(comparison.file, inputs.faces.topology.vertex_count);
+    reference_ = read_reference(comparison_.file, crowd.inputs.faces.topology.vertex_count);
   }
 }
 
 Positions FaceComparison::mesh_of(std::size_t face) const {
-  return read_face(directory_, crowd_[face].id, config_.output.meshes,
-                   inputs_.faces.topology.vertex_count);
+  return read_face(crowd_.directory, crowd_.faces[face].id, crowd_.config.output.meshes,
+                   crowd_.inputs.faces.topology.vertex_count);
 }
 
 /// Nothing if the face has no neighbour.
 std::optional<Positions> FaceComparison::other(std::size_t face) const {
   switch (comparison_.with) {
     case With::kTarget:
-      return target_positions(inputs_.faces, crowd_[face].recipe);
+      return target_positions(crowd_.inputs.faces, crowd_.faces[face].recipe);
     case With::kNearest:
-      if (likeness_.near[face].empty()) return std::nullopt;
-      return mesh_of(likeness_.near[face].front().face);
+      if (crowd_.likeness.near[face].empty()) return std::nullopt;
+      return mesh_of(crowd_.likeness.near[face].front().face);
     case With::kFile:
       if (reference_.rows() > 0) return reference_;
-      return read_face(others_, crowd_[face].id, {format_of_face(others_, crowd_[face].id)},
-                       inputs_.faces.topology.vertex_count);
+      return read_face(others_, crowd_.faces[face].id,
+                       {format_of_face(others_, crowd_.faces[face].id)},
+                       crowd_.inputs.faces.topology.vertex_count);
     case With::kNothing:
       break;
   }
@@ -103,7 +97,7 @@ ComparedFace FaceComparison::compare(std::size_t face) const {
   const auto with = other(face);
   if (!with) return {mesh, Eigen::VectorXd::Zero(mesh.rows())};
   const Similarity move = fit_similarity(*with, mesh, ScaleFit::kRigid);
-  return {mesh, mm_per(config_.faces.units) * (move.apply(*with) - mesh).rowwise().norm()};
+  return {mesh, mm_per(crowd_.config.faces.units) * (move.apply(*with) - mesh).rowwise().norm()};
 }
 
 std::string FaceComparison::label(const ComparedFace& compared) const {
@@ -116,18 +110,12 @@ std::string FaceComparison::label(const ComparedFace& compared) const {
 }
 
 std::optional<HeatLegend> FaceComparison::legend() const {
-  switch (comparison_.with) {
-    case With::kTarget:
-      return HeatLegend{comparison_.scale_mm, "distance from its target"};
-    case With::kNearest:
-      return HeatLegend{comparison_.scale_mm, "distance from its nearest face"};
-    case With::kFile:
-      return HeatLegend{comparison_.scale_mm,
-                        concat("distance from ", comparison_.file.filename().string())};
-    case With::kNothing:
-      break;
-  }
-  return std::nullopt;
+  if (comparison_.with == With::kNothing) return std::nullopt;
+  const std::string other = comparison_.with == With::kTarget ? "its target"
+                            : comparison_.with == With::kNearest
+                                ? "its nearest face"
+                                : comparison_.file.filename().string();
+  return HeatLegend{comparison_.scale_mm, concat("distance from ", other)};
 }
 
 void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems) {

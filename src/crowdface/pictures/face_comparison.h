@@ -5,12 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
-#include "crowdface/cast/likeness.h"
-#include "crowdface/config/config.h"
 #include "crowdface/core/problems.h"
-#include "crowdface/crowd/crowd_directory.h"
-#include "crowdface/heads/inputs.h"
+#include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/render/contact_sheet.h"
 
 namespace crowdface {
@@ -26,9 +22,7 @@ struct ComparedFace {
 class FaceComparison {
  public:
   /// \throws Error  of a file to compare with.
-  FaceComparison(const Config& config, const Config::Comparison& comparison, const Inputs& inputs,
-                 const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
-                 const Likeness& likeness);
+  explicit FaceComparison(const PicturedCrowd& crowd);
 
   ComparedFace compare(std::size_t face) const;
   /// "rms 0.12 mm, largest 3.40 mm".
@@ -40,14 +34,10 @@ class FaceComparison {
   Positions mesh_of(std::size_t face) const;
   std::optional<Positions> other(std::size_t face) const;
 
-  const Config& config_;
+  const PicturedCrowd& crowd_;
   const Config::Comparison& comparison_;
-  const Inputs& inputs_;
-  const CrowdDirectory& directory_;
   CrowdDirectory others_;  ///< the crowd that `comparison` names, if it names one
-  const std::vector<CastFace>& crowd_;
-  const Likeness& likeness_;
-  Positions reference_;  ///< the one mesh that all are compared with, or empty
+  Positions reference_;    ///< the one mesh that all are compared with, or empty
 };
 
 /// Adds what is wrong with the mesh, if it is one, that the faces are to be compared with.

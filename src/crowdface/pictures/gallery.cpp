@@ -5,17 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
-#include <system_error>
 
 #include <nlohmann/json.hpp>
 
-#include "crowdface/core/file.h"
-#include "crowdface/core/list_files.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
-#include "crowdface/pictures/crowd_scripts.h"
 #include "crowdface/pictures/page_pictures.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/preview/reduced_mesh.h"
@@ -27,7 +22,6 @@
 namespace crowdface {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have some 12,000 vertices of ten bytes each: as text 160 kB a face.
@@ -136,14 +130,6 @@ std::array<std::uint8_t, 3> bytes_of(const Light& light) {
         static_cast<std::uint8_t>(std::lround(std::clamp(srgb[c], 0.0F, 255.0F)));
   }
   return bytes;
-}
-
-/// Removes scripts of faces that the crowd no longer has.
-void remove_others(const fs::path& folder, const std::set<std::string>& names) {
-  std::error_code ignored;
-  for (const fs::path& path : list_files(folder, has_ending(".js"))) {
-    if (!names.contains(path.stem().string())) fs::remove(path, ignored);
-  }
 }
 
 }  // namespace
@@ -269,15 +255,6 @@ std::string GalleryMeshes::shades(const VertexColours& colours) const {
   return bytes;
 }
 
-std::optional<TextureCoat> GalleryMeshes::coat_of(Index head) const {
-  const Config::ContactSheet& sheet = *config_.output.contact_sheet;
-  if (sheet.texture == SheetTexture::kNo) return std::nullopt;
-  const int most_px = shown_texels(sheet);
-  std::optional<TextureCoat> coat = coat_of_head(inputs_.textures, head, most_px);
-  if (coat) add_finish_of_head(inputs_.maps, head, most_px, *coat);
-  return coat;
-}
-
 std::string GalleryMeshes::shared_script() const {
   Json json;
   json["vertices"] = mesh_.vertices.size();
@@ -341,39 +318,6 @@ std::string GalleryMeshes::attachment_script(const std::string& name,
   const Attachment& item = inputs_.attachments.at(name);
   return concat("crowdface.setAttachment(", Json(name).dump(), ',',
                 attachments_.look(item, surfaces.at(item)), ");\n");
-}
-
-void write_gallery(const CrowdDirectory& directory, const Config& config, const fs::path& page,
-                   const GalleryMeshes& meshes, const FaceShapes& shapes,
-                   const WornSurfaces& surfaces, const std::vector<CastFace>& crowd,
-                   const Digest& settings, const CrowdLikeness& likeness) {
-  make_directories(directory.gallery_head("").parent_path());
-  std::set<std::string> ids, worn;
-  for (const CastFace& face : crowd) {
-    ids.insert(face.id);
-    worn.insert(face.attachments.begin(), face.attachments.end());
-  }
-  for (const fs::path& folder : with_numbered_folders(directory.gallery_faces())) {
-    remove_others(folder, ids);
-  }
-  remove_others(directory.gallery_attachment("").parent_path(), worn);
-  if (!worn.empty()) make_directories(directory.gallery_attachment("").parent_path());
-  for (const std::string& name : worn) {
-    write_file(directory.gallery_attachment(name), meshes.attachment_script(name, surfaces));
-  }
-  for (std::size_t h = 0; h < meshes.heads().size(); ++h) {
-    const Head& head = meshes.heads()[h];
-    const std::optional<TextureCoat> coat = meshes.coat_of(static_cast<Index>(h));
-    // A face may bear a head's name.
-    write_file(directory.gallery_head(head.name),
-               meshes.face_script(concat("head ", head.name), head.positions,
-                                  shapes.of_head(static_cast<Index>(h)), coat ? &*coat : nullptr));
-  }
-  write_file(directory.gallery() / "data/mesh.js", meshes.shared_script());
-  write_crowd_scripts(directory, config, meshes.shapes(), crowd, settings, likeness);
-  for (const std::string_view file : kGalleryPageFiles) {
-    write_file(directory.gallery() / file, read_file(page / file));
-  }
 }
 
 }  // namespace crowdface

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "crowdface/config/config.h"
-#include "crowdface/crowd/crowd_directory.h"
-#include "crowdface/crowd/likeness_file.h"
 #include "crowdface/heads/face_attachments.h"
-#include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/shown_attachments.h"
 #include "crowdface/pictures/vertex_finish.h"
@@ -42,11 +37,6 @@ class GalleryMeshes {
                           const std::vector<WornAttachment>& worn = {}) const;
   /// data/attachments/NAME.js
   std::string attachment_script(const std::string& name, const WornSurfaces& surfaces) const;
-
-  const std::vector<Head>& heads() const { return inputs_.faces.heads; }
-  const ShapeSet& shapes() const { return inputs_.shapes; }
-  /// What a head wears in pictures.
-  std::optional<TextureCoat> coat_of(Index head) const;
 
  private:
   /// Colours as the page shows them, three bytes a vertex, darker where little light arrives.
@@ -79,12 +69,5 @@ class GalleryMeshes {
   std::size_t widest_ = 0;             ///< the shape that moves most: a jaw that opens
   std::vector<float> open_in_widest_;  ///< as `open_`, in that shape
 };
-
-/// Everything of the gallery but its faces' scripts: the page, the crowd's recipes, the heads.
-void write_gallery(const CrowdDirectory& directory, const Config& config,
-                   const std::filesystem::path& page, const GalleryMeshes& meshes,
-                   const FaceShapes& shapes, const WornSurfaces& surfaces,
-                   const std::vector<CastFace>& crowd, const Digest& settings,
-                   const CrowdLikeness& likeness);
 
 }  // namespace crowdface

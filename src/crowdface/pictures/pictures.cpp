@@ -2,10 +2,11 @@
 #include "crowdface/pictures/pictures.h"
 
 #include <algorithm>
+#include <set>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/interrupt.h"
-#include "crowdface/core/list_files.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
@@ -15,6 +16,8 @@
 
 namespace crowdface {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The page, if this crowd is to have one; says what is missing.
 std::optional<std::filesystem::path> page_for(const Config& config) {
@@ -27,20 +30,25 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
   return page;
 }
 
+/// Removes scripts of faces that the crowd no longer has.
+void remove_others(const fs::path& folder, const std::set<std::string>& names) {
+  for (const fs::path& path : list_files(folder, has_ending(".js"))) {
+    if (!names.contains(path.stem().string())) remove_if_there(path);
+  }
+}
+
 }  // namespace
 
-CrowdPictures::CrowdPictures(const Config& config, const Config::ContactSheet& sheet,
-                             const Inputs& inputs, const Digest& settings,
+CrowdPictures::CrowdPictures(const Config& config, const Inputs& inputs, const Digest& settings,
                              const CrowdDirectory& directory, const FaceTextures& textures,
                              const FaceShapes& shapes)
     : config_(config),
-      sheet_(sheet),
       inputs_(inputs),
       settings_(settings),
       directory_(directory),
       textures_(textures),
       shapes_(shapes),
-      renders_(config, sheet, inputs),
+      renders_(config, *config.output.contact_sheet, inputs),
       page_(page_for(config)) {
   if (!page_) return;
   gallery_ = std::make_unique<GalleryMeshes>(config, inputs);
@@ -70,9 +78,9 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
                                 const FaceAttachments& attachments) const {
   renders_.make_folders(directory_, crowd);
   Progress progress("pictures", crowd.size());
-  parallel_for_each(static_cast<Index>(crowd.size()), [&](Index i) {
+  parallel_for_each(crowd.size(), [&](std::size_t i) {
     throw_if_interrupted();
-    const CastFace& face = crowd[static_cast<std::size_t>(i)];
+    const CastFace& face = crowd[i];
     const std::optional<OwnCoat> own = renders_.own_coat(textures_, face.recipe);
     const Positions positions =
         read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count);
@@ -88,6 +96,40 @@ void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
   });
 }
 
+void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
+                                  const CrowdLikeness& likeness) const {
+  make_directories(directory_.gallery_head("").parent_path());
+  std::set<std::string> ids, worn;
+  for (const CastFace& face : crowd) {
+    ids.insert(face.id);
+    worn.insert(face.attachments.begin(), face.attachments.end());
+  }
+  for (const fs::path& folder : with_numbered_folders(directory_.gallery_faces())) {
+    remove_others(folder, ids);
+  }
+  const fs::path attachments = directory_.gallery_attachment("").parent_path();
+  remove_others(attachments, worn);
+  if (!worn.empty()) make_directories(attachments);
+  for (const std::string& name : worn) {
+    write_file(directory_.gallery_attachment(name),
+               gallery_->attachment_script(name, renders_.worn_surfaces()));
+  }
+  for (std::size_t h = 0; h < inputs_.faces.heads.size(); ++h) {
+    const auto& [name, positions] = inputs_.faces.heads[h];
+    const std::optional<TextureCoat> coat = renders_.coat_of(static_cast<Index>(h));
+    // A face may bear a head's name.
+    write_file(
+        directory_.gallery_head(name),
+        gallery_->face_script(concat("head ", name), positions,
+                              shapes_.of_head(static_cast<Index>(h)), coat ? &*coat : nullptr));
+  }
+  write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
+  write_scripts(crowd, likeness);
+  for (const std::string_view file : kGalleryPageFiles) {
+    write_file(directory_.gallery() / file, read_file(*page_ / file));
+  }
+}
+
 WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
                                     const CrowdLikeness& likeness) const {
   std::vector<std::string> ids;
@@ -95,12 +137,10 @@ WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
   const PlanNames names = config_.plan_names();
   write_file(directory_.likeness(), likeness_text(likeness, names, ids));
   if (page_) {
-    write_gallery(directory_, config_, *page_, *gallery_, shapes_, renders_.worn_surfaces(), crowd,
-                  settings_, likeness);
+    write_gallery(crowd, likeness);
     log_info(concat("gallery: ", (directory_.gallery() / "index.html").string()));
   }
-  return write_sheets(config_, sheet_, inputs_, directory_, renders_, shapes_, crowd,
-                      likeness.likeness);
+  return write_sheets({config_, inputs_, directory_, renders_, shapes_, crowd, likeness.likeness});
 }
 
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,

@@ -16,14 +16,13 @@ namespace crowdface {
 /// Everything of a crowd that is for looking at: renders, contact sheets, the gallery.
 class CrowdPictures {
  public:
-  /// \param config, inputs, directory  must outlive this object.
-  /// \param sheet     how its sheets are to be; likewise.
+  /// \param config, inputs, directory  must outlive this object; the config has contact sheets.
   /// \param settings  see settings_digest; the gallery shows it.
   /// \param textures  of faces' own, if they have any; likewise.
   /// \param shapes    of faces; likewise.
-  CrowdPictures(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
-                const Digest& settings, const CrowdDirectory& directory,
-                const FaceTextures& textures, const FaceShapes& shapes);
+  CrowdPictures(const Config& config, const Inputs& inputs, const Digest& settings,
+                const CrowdDirectory& directory, const FaceTextures& textures,
+                const FaceShapes& shapes);
 
   const CrowdRenders& renders() const { return renders_; }
 
@@ -39,8 +38,14 @@ class CrowdPictures {
   WrittenSheets finish(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
 
  private:
+  /// Everything of the gallery but its faces' scripts: the page, the crowd's recipes, the heads.
+  void write_gallery(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
+  /// What the gallery knows of a crowd's recipes, as scripts: data/crowd.js, and of a crowd in numbered
+  /// subfolders there only what filters and orders need of each face; the recipes lie in data/pages,
+  /// as many faces a script as a subfolder, which the page loads as it shows them.
+  void write_scripts(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
+
   const Config& config_;
-  const Config::ContactSheet& sheet_;
   const Inputs& inputs_;
   Digest settings_;
   const CrowdDirectory& directory_;

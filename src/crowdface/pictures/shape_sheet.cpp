@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/pictures/shape_sheet.h"
-
+// Pages of faces and their shapes.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -11,6 +10,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/face_mesh.h"
+#include "crowdface/pictures/sheets.h"
 
 namespace crowdface {
 namespace {
@@ -53,16 +53,14 @@ void add_row(const CrowdRenders& renders, std::span<const Column> columns, const
 
 }  // namespace
 
-void add_shape_pages(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
-                     const CrowdDirectory& directory, const CrowdRenders& renders,
-                     const FaceShapes& shapes, const std::vector<CastFace>& crowd,
-                     SheetWriter& pages) {
-  const ShapeSet& set = inputs.shapes;
-  const std::size_t faces = std::min(crowd.size(), static_cast<std::size_t>(sheet.shapes));
+void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
+  const ShapeSet& set = crowd.inputs.shapes;
+  const std::size_t faces = std::min(
+      crowd.faces.size(), static_cast<std::size_t>(crowd.config.output.contact_sheet->shapes));
   if (faces == 0) return;
   std::vector<Displacements> of_template;
   for (const Shape& shape : set.shapes) of_template.push_back(shape.moves);
-  const std::vector<Column> columns = columns_of(set, shapes);
+  const std::vector<Column> columns = columns_of(set, crowd.shapes);
   const std::size_t count = (set.shapes.size() + kMostColumns - 2) / (kMostColumns - 1);
   const std::size_t per_page = (set.shapes.size() + count - 1) / count;
   Progress progress("sheets of shapes", count);
@@ -71,18 +69,20 @@ void add_shape_pages(const Config& config, const Config::ContactSheet& sheet, co
     const std::span shown =
         std::span(columns).subspan(first, std::min(per_page, columns.size() - first));
     std::vector<SheetCell> cells;
-    add_row(renders, shown, set.of_head.empty() ? "template" : "mean head", set.neutral,
+    add_row(crowd.renders, shown, set.of_head.empty() ? "template" : "mean head", set.neutral,
             of_template, cells);
     for (std::size_t f = 0; f < faces; ++f) {
       throw_if_interrupted();
-      const Positions face = read_face(directory, crowd[f].id, config.output.meshes,
-                                       inputs.faces.topology.vertex_count);
-      add_row(renders, shown, crowd[f].id, face, shapes.of_face(crowd[f].recipe, face), cells);
+      const CastFace& shown_face = crowd.faces[f];
+      const Positions face = read_face(crowd.directory, shown_face.id, crowd.config.output.meshes,
+                                       crowd.inputs.faces.topology.vertex_count);
+      add_row(crowd.renders, shown, shown_face.id, face,
+              crowd.shapes.of_face(shown_face.recipe, face), cells);
     }
     pages.add(concat("shapes_", zero_padded(page + 1, 3)), "shapes",
               contact_sheet(cells, {.columns = static_cast<int>(1 + shown.size()),
                                     .rows = 0,
-                                    .title = concat(config.crowd.name, ": shapes"),
+                                    .title = concat(crowd.config.crowd.name, ": shapes"),
                                     .legend = {},
                                     .note = count > 1 ? concat("sheet ", page + 1, " of ", count)
                                                       : std::string()}));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string_view>
 
 #include "crowdface/cast/typical_head.h"
@@ -33,15 +34,13 @@ std::vector<std::string> given_by(std::string_view parent, const CastFace& face,
           " parts where there are ", names.regions.size(), " regions of ", bands);
   std::vector<std::string> given;
   for (std::size_t k = 0; k < names.regions.size(); ++k) {
-    const auto first = face.inherits.begin() + static_cast<std::ptrdiff_t>(k * bands);
-    const auto last = first + static_cast<std::ptrdiff_t>(bands);
-    if (std::all_of(first, last, [&](const auto& by) { return by == parent; })) {
+    const std::span own = std::span(face.inherits).subspan(k * bands, bands);
+    if (std::ranges::all_of(own, [&](const auto& by) { return by == parent; })) {
       given.push_back(names.regions[k]);
       continue;
     }
     for (std::size_t b = 0; b < names.bands.size(); ++b) {
-      if (first[static_cast<std::ptrdiff_t>(b)] != parent) continue;
-      given.push_back(concat(names.regions[k], '/', names.bands[b]));
+      if (own[b] == parent) given.push_back(concat(names.regions[k], '/', names.bands[b]));
     }
   }
   return given;
@@ -97,9 +96,7 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
   };
   std::vector<std::string> lines;
   for (const SheetLabel label : labels) lines.push_back(line(label));
-  std::string text;
-  for (std::size_t i = 0; i < lines.size(); ++i) text += concat(i > 0 ? "\n" : "", lines[i]);
-  return text;
+  return join(lines, "\n");
 }
 
 std::string inheritance_label(const CastFace& face, const PlanNames& names) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
@@ -36,10 +37,6 @@ SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFo
                          std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {}
 
-bool SheetWriter::has(SheetFormat format) const {
-  return std::find(formats_.begin(), formats_.end(), format) != formats_.end();
-}
-
 void SheetWriter::write(const std::string& name, const std::string& bytes) {
   written_.push_back(folder_ / name);
   write_file(written_.back(), bytes);
@@ -49,8 +46,8 @@ void SheetWriter::add(const std::string& stem, const std::string& caption, const
   if (index_.size() == kPagesAVolume) finish_volume(false);
   std::string png = to_png(page);
   write(stem + ".png", png);
-  if (has(SheetFormat::kExr)) write(stem + ".exr", to_exr(page));
-  if (has(SheetFormat::kPdf)) pngs_.push_back(std::move(png));
+  if (contains(formats_, SheetFormat::kExr)) write(stem + ".exr", to_exr(page));
+  if (contains(formats_, SheetFormat::kPdf)) pngs_.push_back(std::move(png));
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
   index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
                     concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
@@ -67,7 +64,7 @@ void SheetWriter::write_index(const std::string& number) {
       index_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
   const std::string png = to_png(page);
   write(concat("index", number, ".png"), png);
-  if (has(SheetFormat::kPdf)) pngs_.insert(pngs_.begin(), png);
+  if (contains(formats_, SheetFormat::kPdf)) pngs_.insert(pngs_.begin(), png);
 }
 
 void SheetWriter::finish_volume(bool is_last) {

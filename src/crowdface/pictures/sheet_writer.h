@@ -24,7 +24,6 @@ class SheetWriter {
   std::vector<std::filesystem::path> finish();
 
  private:
-  bool has(SheetFormat format) const;
   void write(const std::string& name, const std::string& bytes);
   void write_index(const std::string& number);
   void finish_volume(bool is_last);

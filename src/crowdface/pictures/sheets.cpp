@@ -5,10 +5,8 @@
 #include <array>
 #include <functional>
 #include <map>
-#include <system_error>
 
-#include "crowdface/config/sheet_page_size.h"
-#include "crowdface/core/error.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
@@ -16,9 +14,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/pictures/face_comparison.h"
-#include "crowdface/pictures/shape_sheet.h"
 #include "crowdface/pictures/sheet_labels.h"
-#include "crowdface/pictures/sheet_writer.h"
 #include "crowdface/render/heat_colours.h"
 
 namespace crowdface {
@@ -33,53 +29,44 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 /// The sheets of one crowd.
 class CrowdSheets {
  public:
-  CrowdSheets(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
-              const CrowdDirectory& directory, const CrowdRenders& renders,
-              const FaceShapes& shapes, const std::vector<CastFace>& crowd,
-              const Likeness& likeness)
-      : config_(config),
-        sheet_(sheet),
-        inputs_(inputs),
-        directory_(directory),
-        renders_(renders),
-        shapes_(shapes),
-        crowd_(crowd),
-        likeness_(likeness),
-        compared_(config, sheet.compare, inputs, directory, crowd, likeness),
-        pages_(directory.sheets(), sheet.formats, title()) {}
+  explicit CrowdSheets(const PicturedCrowd& crowd)
+      : crowd_(crowd),
+        sheet_(*crowd.config.output.contact_sheet),
+        compared_(crowd),
+        pages_(crowd.directory.sheets(), sheet_.formats, title()) {}
 
   WrittenSheets write() {
     const std::size_t pages = write_faces();
     write_heads();
     write_families();
-    add_shape_pages(config_, sheet_, inputs_, directory_, renders_, shapes_, crowd_, pages_);
+    add_shape_pages(crowd_, pages_);
     return {pages, pages_.finish()};
   }
 
  private:
   std::string title() const {
-    return concat(config_.crowd.name, " · ", counted(crowd_.size(), "face", "faces"), " · seed ",
-                  config_.crowd.seed);
+    return concat(crowd_.config.crowd.name, " · ", counted(crowd_.faces.size(), "face", "faces"),
+                  " · seed ", crowd_.config.crowd.seed);
   }
 
   SheetCell cell(std::size_t face) const {
-    SheetCell cell{read_render(directory_.render(crowd_[face].id)),
-                   sheet_label(sheet_.labels, crowd_, face, likeness_, config_.faces.names,
-                               config_.faces.tags)};
+    SheetCell cell{read_render(crowd_.directory.render(crowd_.faces[face].id)),
+                   sheet_label(sheet_.labels, crowd_.faces, face, crowd_.likeness,
+                               crowd_.config.faces.names, crowd_.config.faces.tags)};
     if (sheet_.compare.with == Config::Comparison::With::kNothing) return cell;
     const ComparedFace compared = compared_.compare(face);
     const VertexColours colours = heat_colours(compared.mm, sheet_.compare.scale_mm);
     cell.image =
-        side_by_side(std::vector{cell.image, renders_.render_front(compared.mesh, &colours)});
+        side_by_side(std::vector{cell.image, crowd_.renders.render_front(compared.mesh, &colours)});
     cell.label += concat("\n", compared_.label(compared));
     return cell;
   }
 
   /// "sheet_001", below its subfolder if there is one.
   std::string stem_of_page(std::size_t page) const {
-    const std::filesystem::path path = directory_.sheet(page);
+    const std::filesystem::path path = crowd_.directory.sheet(page);
     make_directories(path.parent_path());
-    return path.lexically_relative(directory_.sheets()).replace_extension().generic_string();
+    return path.lexically_relative(crowd_.directory.sheets()).replace_extension().generic_string();
   }
 
   void add_page(const std::string& stem, const std::string& caption, const std::string& title,
@@ -96,7 +83,7 @@ class CrowdSheets {
   }
 
   std::size_t write_faces() {
-    const std::vector<std::size_t> order = sheet_order(sheet_.order, crowd_, likeness_);
+    const std::vector<std::size_t> order = sheet_order(sheet_.order, crowd_.faces, crowd_.likeness);
     const std::size_t per_page =
         static_cast<std::size_t>(sheet_.columns) * static_cast<std::size_t>(sheet_.rows);
     const std::size_t pages = sheet_page_count(sheet_, order.size());
@@ -105,12 +92,10 @@ class CrowdSheets {
       throw_if_interrupted();
       const std::size_t first = page * per_page;
       std::vector<SheetCell> cells(std::min(per_page, order.size() - first));
-      parallel_for_each(static_cast<Index>(cells.size()), [&](Index c) {
-        const auto i = static_cast<std::size_t>(c);
-        cells[i] = cell(order[first + i]);
-      });
+      parallel_for_each(cells.size(), [&](std::size_t c) { cells[c] = cell(order[first + c]); });
       add_page(stem_of_page(page + 1),
-               concat(crowd_[order[first]].id, " to ", crowd_[order[first + cells.size() - 1]].id),
+               concat(crowd_.faces[order[first]].id, " to ",
+                      crowd_.faces[order[first + cells.size() - 1]].id),
                title(), pages > 1 ? concat("sheet ", page + 1, " of ", pages) : std::string(),
                cells, compared_.legend());
       progress.step();
@@ -127,7 +112,7 @@ class CrowdSheets {
         static_cast<std::size_t>(sheet_.columns) *
         static_cast<std::size_t>(std::min(
             kMostRows,
-            most_rows(plain_cell_size(sheet_),
+            most_rows(sheet_.plain_cell_size(),
                       {.columns = sheet_.columns, .title = title, .legend = {}, .note = note})));
     const std::size_t pages = (count + per_page - 1) / per_page;
     for (std::size_t page = 0; page < pages; ++page) {
@@ -143,30 +128,30 @@ class CrowdSheets {
   }
 
   void write_heads() {
-    const std::vector<std::string>& names = config_.faces.names;
+    const std::vector<std::string>& names = crowd_.config.faces.names;
     add_tall_pages([](std::size_t page) { return concat("heads_", zero_padded(page, 3)); },
-                   "the heads", config_.crowd.name, counted(names.size(), "head", "heads"),
+                   "the heads", crowd_.config.crowd.name, counted(names.size(), "head", "heads"),
                    names.size(),
                    [&](std::size_t h) {
                      std::string label = names[h];
-                     const auto& tags = config_.faces.tags[h];
+                     const auto& tags = crowd_.config.faces.tags[h];
                      if (!tags.empty()) label += concat("\n", join(tags));
-                     return SheetCell{read_render(directory_.head_render(names[h])), label};
+                     return SheetCell{read_render(crowd_.directory.head_render(names[h])), label};
                    });
   }
 
   /// Each family on a sheet of its own, after those whom its members take after.
   void write_families() {
     std::map<std::string, std::vector<std::size_t>> families;
-    for (std::size_t face = 0; face < crowd_.size(); ++face) {
-      if (crowd_[face].family) families[*crowd_[face].family].push_back(face);
+    for (std::size_t face = 0; face < crowd_.faces.size(); ++face) {
+      if (crowd_.faces[face].family) families[*crowd_.faces[face].family].push_back(face);
     }
     for (const auto& family : families) write_family(family.first, family.second);
   }
 
   /// With parents a tree, a generation a row: grandparents, parents, children. Else the founder first.
   void write_family(const std::string& family, const std::vector<std::size_t>& members) {
-    const std::vector<std::string>& parents = crowd_[members.front()].parents;
+    const std::vector<std::string>& parents = crowd_.faces[members.front()].parents;
     std::vector<Relative> cells;
     if (!parents.empty()) {
       std::vector<Relative> grandparents;
@@ -186,12 +171,12 @@ class CrowdSheets {
       cells.push_back({*founder, "founder\nnot in the crowd"});
     }
     for (const std::size_t member : members) {
-      cells.push_back({directory_.render(crowd_[member].id), label_of_member(member)});
+      cells.push_back({crowd_.directory.render(crowd_.faces[member].id), label_of_member(member)});
     }
     const auto cell = [&](std::size_t i) -> SheetCell {
       const Relative& shown = cells[i];
       if (!shown.picture.empty()) return {read_render(shown.picture), shown.label};
-      const Rgb8Image face = read_render(directory_.render(crowd_[members.front()].id));
+      const Rgb8Image face = read_render(crowd_.directory.render(crowd_.faces[members.front()].id));
       return {padded({}, face.width, face.height), ""};
     };
     // No family's name holds a '+'.
@@ -214,49 +199,42 @@ class CrowdSheets {
 
   /// The face of that id, if it is one of the crowd and no head.
   const CastFace* face_called(const std::string& name) const {
-    const auto& heads = config_.faces.names;
-    if (std::find(heads.begin(), heads.end(), name) != heads.end()) return nullptr;
-    const auto found = std::find_if(crowd_.begin(), crowd_.end(),
-                                    [&](const CastFace& face) { return face.id == name; });
-    return found == crowd_.end() ? nullptr : &*found;
+    if (contains(crowd_.config.faces.names, name)) return nullptr;
+    const auto found = std::ranges::find(crowd_.faces, name, &CastFace::id);
+    return found == crowd_.faces.end() ? nullptr : &*found;
   }
 
   Relative relative(const std::string& name, const std::string& role) const {
-    return {face_called(name) != nullptr ? directory_.render(name) : directory_.head_render(name),
+    return {face_called(name) != nullptr ? crowd_.directory.render(name)
+                                         : crowd_.directory.head_render(name),
             concat(name, '\n', role)};
   }
 
   /// Who gave what, or for those of no parents who is nearest.
   std::string label_of_member(std::size_t member) const {
-    const CastFace& face = crowd_[member];
+    const CastFace& face = crowd_.faces[member];
     if (face.parents.empty()) {
-      return sheet_label({SheetLabel::kId, SheetLabel::kNearest}, crowd_, member, likeness_,
-                         config_.faces.names, config_.faces.tags);
+      return sheet_label({SheetLabel::kId, SheetLabel::kNearest}, crowd_.faces, member,
+                         crowd_.likeness, crowd_.config.faces.names, crowd_.config.faces.tags);
     }
-    return inheritance_label(face, config_.plan_names());
+    return inheritance_label(face, crowd_.config.plan_names());
   }
 
   /// The picture of a family's founder, if there is one that can stand beside the members'.
   std::optional<std::filesystem::path> founder_of(const std::string& family,
                                                   std::size_t member) const {
-    const std::filesystem::path path = directory_.founder_render(family);
+    const std::filesystem::path path = crowd_.directory.founder_render(family);
     if (!std::filesystem::exists(path)) return std::nullopt;
     const Rgb8Image founder = read_render(path);
-    const Rgb8Image other = read_render(directory_.render(crowd_[member].id));
+    const Rgb8Image other = read_render(crowd_.directory.render(crowd_.faces[member].id));
     if (founder.width == other.width && founder.height == other.height) return path;
     log_info(concat("the founder of ", family, " is left out of its sheet: there is no mesh to ",
                     "make a picture of another size from; crowdface generate does it"));
     return std::nullopt;
   }
 
-  const Config& config_;
+  const PicturedCrowd& crowd_;
   const Config::ContactSheet& sheet_;
-  const Inputs& inputs_;
-  const CrowdDirectory& directory_;
-  const CrowdRenders& renders_;
-  const FaceShapes& shapes_;
-  const std::vector<CastFace>& crowd_;
-  const Likeness& likeness_;
   FaceComparison compared_;
   SheetWriter pages_;
 };
@@ -269,17 +247,11 @@ std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t face
   return (faces + per_page - 1) / per_page;
 }
 
-WrittenSheets write_sheets(const Config& config, const Config::ContactSheet& sheet,
-                           const Inputs& inputs, const CrowdDirectory& directory,
-                           const CrowdRenders& renders, const FaceShapes& shapes,
-                           const std::vector<CastFace>& crowd, const Likeness& likeness) {
-  make_directories(directory.sheets());
-  WrittenSheets sheets =
-      CrowdSheets(config, sheet, inputs, directory, renders, shapes, crowd, likeness).write();
-  for (const std::filesystem::path& old : crowd_sheets(directory)) {
-    if (std::find(sheets.files.begin(), sheets.files.end(), old) != sheets.files.end()) continue;
-    std::error_code ignored;
-    std::filesystem::remove(old, ignored);
+WrittenSheets write_sheets(const PicturedCrowd& crowd) {
+  make_directories(crowd.directory.sheets());
+  WrittenSheets sheets = CrowdSheets(crowd).write();
+  for (const std::filesystem::path& old : crowd_sheets(crowd.directory)) {
+    if (!contains(sheets.files, old)) remove_if_there(old);
   }
   return sheets;
 }

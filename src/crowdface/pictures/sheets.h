@@ -3,11 +3,8 @@
 
 #include <vector>
 
-#include "crowdface/cast/likeness.h"
-#include "crowdface/crowd/crowd_directory.h"
-#include "crowdface/heads/face_shapes.h"
-#include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/crowd_renders.h"
+#include "crowdface/pictures/sheet_writer.h"
 
 namespace crowdface {
 
@@ -19,10 +16,12 @@ struct WrittenSheets {
 
 /// Writes the contact sheets of a crowd from the pictures in its folder: the faces, the heads, each
 /// family, an index; removes what an earlier run left over.
-WrittenSheets write_sheets(const Config& config, const Config::ContactSheet& sheet,
-                           const Inputs& inputs, const CrowdDirectory& directory,
-                           const CrowdRenders& renders, const FaceShapes& shapes,
-                           const std::vector<CastFace>& crowd, const Likeness& likeness);
+WrittenSheets write_sheets(const PicturedCrowd& crowd);
+
+/// Adds pages `shapes_001` … of faces and their shapes: a row a face, first at rest, then each shape,
+/// from the front. The template stands above them all.
+/// \param crowd  its first faces are shown, as many as the sheet asks for, from their meshes in the folder.
+void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages);
 
 /// How many pages a crowd's contact sheets have.
 std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces);

@@ -2,7 +2,6 @@
 #include "crowdface/preview/packed_face.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -109,16 +108,6 @@ std::string base64(std::string_view bytes) {
     text += left > 2 ? kDigits[group & 63U] : '=';
   }
   return text;
-}
-
-std::string little_endian(std::span<const std::uint32_t> numbers) {
-  static_assert(std::endian::native == std::endian::little);
-  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
-}
-
-std::string little_endian(std::span<const float> numbers) {
-  static_assert(std::endian::native == std::endian::little);
-  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
 }
 
 }  // namespace crowdface

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
@@ -44,7 +46,10 @@ std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame)
 std::string base64(std::string_view bytes);
 
 /// Numbers as little-endian bytes.
-std::string little_endian(std::span<const std::uint32_t> numbers);
-std::string little_endian(std::span<const float> numbers);
+template <class Number>
+std::string little_endian(const std::vector<Number>& numbers) {
+  static_assert(std::endian::native == std::endian::little);
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
 
 }  // namespace crowdface

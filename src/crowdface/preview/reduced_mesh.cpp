@@ -6,24 +6,10 @@
 
 #include <meshoptimizer.h>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/require.h"
 
 namespace crowdface {
 namespace {
-
-/// Every polygon as a fan around its first corner.
-std::vector<unsigned int> triangles_of(const Topology& topology, const std::vector<bool>& drawn) {
-  std::vector<unsigned int> triangles;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    if (!drawn.empty() && !drawn[static_cast<std::size_t>(f)]) continue;
-    const std::span<const std::uint32_t> face = topology.face(f);
-    for (std::size_t c = 1; c + 1 < face.size(); ++c) {
-      triangles.insert(triangles.end(), {face[0], face[c], face[c + 1]});
-    }
-  }
-  return triangles;
-}
 
 /// \param options  meshoptimizer's
 void reduce(std::vector<unsigned int>& triangles, const Positions& positions, std::size_t most,
@@ -54,43 +40,30 @@ std::vector<Triangle> for_drawing(std::vector<unsigned int> corners, Index verte
   return triangles;
 }
 
-/// Numbers the vertices anew in the order in which triangles first use them, which suits both the
-/// graphics card and compression.
-ReducedMesh compact(const std::vector<unsigned int>& triangles, std::size_t vertex_count) {
-  std::vector<std::uint32_t> number(vertex_count, kNoIndex);
-  ReducedMesh mesh;
-  mesh.triangles.reserve(triangles.size());
-  for (const unsigned int vertex : triangles) {
-    if (number[vertex] == kNoIndex) {
-      number[vertex] = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.push_back(vertex);
-    }
-    mesh.triangles.push_back(number[vertex]);
-  }
-  return mesh;
-}
-
 }  // namespace
-
-ReducedMesh reduce_mesh(const Topology& topology, const Positions& typical,
-                        const std::vector<bool>& drawn, std::size_t most_triangles) {
-  require(typical.rows() == topology.vertex_count, "reduce: ", typical.rows(), " positions, ",
-          topology.vertex_count, " vertices");
-  require(drawn.empty() || static_cast<Index>(drawn.size()) == topology.face_count(),
-          "reduce: ", drawn.size(), " marks, ", topology.face_count(), " faces");
-  if (!typical.allFinite()) throw InvalidInput("a mesh to reduce needs finite positions");
-  std::vector<unsigned int> triangles = triangles_of(topology, drawn);
-  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  reduce(triangles, typical, most_triangles);
-  meshopt_optimizeVertexCache(triangles.data(), triangles.data(), triangles.size(), vertices);
-  return compact(triangles, vertices);
-}
 
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
                                        const Positions& positions, std::size_t most) {
   std::vector<unsigned int> corners = corners_of(triangles);
   reduce(corners, positions, most);
   return for_drawing(std::move(corners), positions.rows());
+}
+
+ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions& positions,
+                        std::size_t most) {
+  ReducedMesh mesh;
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(positions.rows()), kNoIndex);
+  for (Triangle triangle : reduce_triangles(triangles, positions, most)) {
+    for (std::uint32_t& vertex : triangle) {
+      if (number[vertex] == kNoIndex) {
+        number[vertex] = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(vertex);
+      }
+      vertex = number[vertex];
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
 }
 
 std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,

@@ -28,11 +28,6 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
   return count > 0 ? Eigen::RowVector2d(sum / count) : sum;
 }
 
-UvSample sample_at(const Eigen::RowVector2d& uv, const Eigen::RowVector2d& mean, Tiles tiles) {
-  if (tiles == Tiles::kOne) return {kFirstTile, uv[0], uv[1]};
-  return {tile_number(tile_step(uv[0], mean[0]), tile_step(uv[1], mean[1])), uv[0], uv[1]};
-}
-
 /// One for each corner that has a texture coordinate, in the order of the corners.
 UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
   const auto for_each_sample = [&](const auto& put) {
@@ -41,7 +36,11 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
       const Eigen::RowVector2d mean = mean_uv(face_uvs, uvs);
       for (std::size_t c = 0; c < face_uvs.size(); ++c) {
         if (face_uvs[c] == kNoIndex) continue;
-        put(topology.face(f)[c], sample_at(uvs.row(face_uvs[c]), mean, tiles));
+        const Eigen::RowVector2d uv = uvs.row(face_uvs[c]);
+        const int tile = tiles == Tiles::kOne
+                             ? kFirstTile
+                             : tile_number(tile_step(uv[0], mean[0]), tile_step(uv[1], mean[1]));
+        put(topology.face(f)[c], {tile, uv[0], uv[1]});
       }
     }
   };

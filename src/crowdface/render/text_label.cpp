@@ -16,7 +16,6 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/core/utf8.h"
 
 namespace crowdface {
 namespace {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/run/worn_level.h"
 
 namespace crowdface {
 
@@ -33,13 +32,23 @@ std::size_t worn_at_most(const std::map<const Attachment*, Form>& forms, const S
 template <class Part, class Placed>
 class AttachmentParts {
  public:
-  /// \param make  makes the part of an attachment, or nothing.
+  /// All whole, or those that somebody wears on a level of detail.
+  /// \param level  null: whole. \param make  makes the part of an attachment on a level, or whole.
   template <class Make>
-  AttachmentParts(const AttachmentSet& set, const Make& make) {
+  AttachmentParts(const AttachmentSet& set, const WornLevel* level, const Make& make) {
     for (const Attachment& item : set.items) {
-      std::optional<Part> part = make(item);
-      if (part) parts_.emplace(&item, std::move(*part));
+      const DetailLevel* here = level == nullptr ? nullptr : level->find(item);
+      if (level == nullptr || here != nullptr) parts_.emplace(&item, make(item, here));
     }
+  }
+  /// Whole, and then on each of the levels.
+  template <class Make>
+  static std::vector<AttachmentParts> on_all(const AttachmentSet& set,
+                                             std::span<const WornLevel> levels, const Make& make) {
+    std::vector<AttachmentParts> all;
+    all.emplace_back(set, nullptr, make);
+    for (const WornLevel& level : levels) all.emplace_back(set, &level, make);
+    return all;
   }
 
   /// What a face wears; refers to both.

@@ -6,7 +6,6 @@
 #include "crowdface/core/contains.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/attachment_parts.h"
-#include "crowdface/run/library_line.h"
 
 namespace crowdface {
 

@@ -291,40 +291,10 @@ Casting casting_of(const Config& config, const Inputs& inputs,
 }
 
 AttachmentDraw attachment_draw(const Config& config) {
-  AttachmentDraw draw{config.crowd.seed,         {},
-                      config.attachments.none,   config.faces.tags,
-                      config.attachments.quotas, config.faces.names};
-  for (const Config::Attachment& item : config.attachments.items) draw.items.push_back(item);
-  return draw;
-}
-
-std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast) {
-  constexpr double kLeastShare = 0.5;
-  std::vector<std::string> warnings;
-  const auto& quotas = config.diversity.quotas;
-  for (std::size_t q = 0; q < quotas.size(); ++q) {
-    if (quotas[q].band) continue;
-    const std::vector<Index>& heads = quotas[q].heads;
-    double own = 0, all = 0;
-    for (const CastFace& face : cast.crowd) {
-      if (!face.index || cast.kinds[*face.index - 1] != static_cast<int>(q)) continue;
-      for (const RegionRecipe& region : face.recipe.regions) {
-        for (std::size_t b = 0; b < band_count(region); ++b) {
-          for (const SourceWeight& source : band_of(region, b).weights) {
-            const bool counts = std::find(heads.begin(), heads.end(), source.head) != heads.end();
-            own += counts ? source.weight : 0;
-            all += source.weight;
-          }
-        }
-      }
-    }
-    if (all == 0 || own >= kLeastShare * all) continue;
-    warnings.push_back(concat("faces of the quota ", quotas[q].name, " have ",
-                              std::lround(100 * (1 - own / all)), " % of their detail from heads ",
-                              "that are not ", quotas[q].name, ", so they will hardly look it; a ",
-                              "group with sources: [", quotas[q].name, "] binds both"));
-  }
-  return warnings;
+  const Config::Attachments& worn = config.attachments;
+  return {config.crowd.seed, {worn.items.begin(), worn.items.end()},
+          worn.none,         config.faces.tags,
+          worn.quotas,       config.faces.names};
 }
 
 Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
@@ -370,7 +340,9 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
     if (member != result.crowd.end()) {
       family.founder.recipe.colours = member->recipe.colours;
     }
-    result.founders.push_back({family.name, std::move(family.founder)});
+    family.founder.id = concat(family.name, "_founder");
+    family.founder.family = family.name;
+    result.founders.push_back(std::move(family.founder));
   }
   // Of a million faces they take a gigabyte.
   if (config.output.contact_sheet || !config.groups.empty()) {

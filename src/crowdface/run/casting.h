@@ -42,12 +42,6 @@ struct FamilyReport {
   std::optional<double> strangers_nearer;  ///< with parents: than one of them to a child, a share
 };
 
-/// The hidden head of a family, who is not in the crowd.
-struct FamilyFounder {
-  std::string family;
-  CastFace face;
-};
-
 /// A crowd cast: where the heads stand on the plane, and its faces.
 struct Cast {
   std::vector<PlanePoint> anchors;  ///< #heads
@@ -56,7 +50,7 @@ struct Cast {
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
-  std::vector<FamilyFounder> founders;
+  std::vector<CastFace> founders;  ///< hidden heads of families, who are not in the crowd
   std::vector<CastFace> rejected;  ///< by reviews
   std::vector<FaceSpace::Point>
       points;  ///< of each face of the crowd; none if there are neither sheets nor groups
@@ -64,9 +58,6 @@ struct Cast {
 
 /// What may sit on the faces of a config's crowd.
 AttachmentDraw attachment_draw(const Config& config);
-
-/// A warning for each quota whose faces have most of their detail from heads that do not count for it.
-std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast);
 
 /// Casts the crowd.
 /// \param defects  what is wrong with a candidate's whole mesh; none: meshes are not judged.

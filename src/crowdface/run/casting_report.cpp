@@ -2,12 +2,14 @@
 #include "crowdface/run/casting_report.h"
 
 #include <algorithm>
-#include <system_error>
+#include <cmath>
 #include <utility>
 
 #include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/typical_head.h"
 #include "crowdface/config/words.h"
+#include "crowdface/core/contains.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 
@@ -56,9 +58,8 @@ Json asked_to_json(const DiversityOptions& diversity) {
 Json quotas_to_json(const std::vector<Quota>& quotas, const Cast& cast) {
   Json json = Json::object();
   for (std::size_t q = 0; q < quotas.size(); ++q) {
-    std::uint64_t faces = 0;
-    for (const int quota : cast.kinds) faces += quota == static_cast<int>(q) ? 1U : 0U;
-    json[quotas[q].name] = {{"share", quotas[q].share}, {"faces", faces}};
+    json[quotas[q].name] = {{"share", quotas[q].share},
+                            {"faces", std::ranges::count(cast.kinds, static_cast<int>(q))}};
   }
   return json;
 }
@@ -93,8 +94,7 @@ Json tags_to_json(const Config& config, const Cast& cast) {
 Json attachments_to_json(const Config::Attachments& attachments, const Cast& cast) {
   const auto wears = [&](const CastFace& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {
-      return is_called(item, word) && std::find(face.attachments.begin(), face.attachments.end(),
-                                                item.name) != face.attachments.end();
+      return is_called(item, word) && contains(face.attachments, item.name);
     });
   };
   const auto count = [&](const std::string& word) {
@@ -144,26 +144,68 @@ Json families_to_json(const Cast& cast) {
 
 }  // namespace
 
-std::string format_founders(const Job& job, const std::vector<FamilyFounder>& founders) {
-  std::vector<CastFace> faces;
-  for (const FamilyFounder& founder : founders) {
-    CastFace face = founder.face;
-    face.id = concat(founder.family, "_founder");
-    face.family = founder.family;
-    face.index.reset();
-    faces.push_back(std::move(face));
+std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads) {
+  constexpr double kSamePersonMm = 0.5;  // docs/casting.md
+  constexpr std::size_t kMostNamed = 8;
+  std::vector<std::string> near;
+  for (const CastFace& face : cast.crowd) {
+    if (!face.index || !face.notes.nearest || face.notes.nearest->head_mm >= kSamePersonMm)
+      continue;
+    near.push_back(concat(face.id, " (", heads[static_cast<std::size_t>(face.notes.nearest->head)],
+                          ", ", format_fixed(face.notes.nearest->head_mm, 2), " mm)"));
   }
-  return joined(plan_text(job, faces));
+  if (near.empty()) return {};
+  const std::size_t count = near.size();
+  near.resize(std::min(count, kMostNamed));
+  return {concat(count, count == 1 ? " face passes" : " faces pass",
+                 " for one of the heads: ", join(near), count > kMostNamed ? ", …" : "",
+                 "; diversity.min_distance_to_faces keeps faces away from them")};
 }
 
-std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& directory) {
-  std::vector<FamilyFounder> founders;
-  std::error_code ignored;
-  if (!std::filesystem::exists(directory.founders(), ignored)) return founders;
-  for (PlanLine& line : read_plan(directory.founders(), job.names)) {
-    founders.push_back({line.face.family.value_or(line.face.id), std::move(line.face)});
+std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast) {
+  constexpr double kLeastShare = 0.5;
+  std::vector<std::string> warnings;
+  const auto& quotas = config.diversity.quotas;
+  for (std::size_t q = 0; q < quotas.size(); ++q) {
+    if (quotas[q].band) continue;
+    const std::vector<Index>& heads = quotas[q].heads;
+    double own = 0, all = 0;
+    for (const CastFace& face : cast.crowd) {
+      if (!face.index || cast.kinds[*face.index - 1] != static_cast<int>(q)) continue;
+      for (const RegionRecipe& region : face.recipe.regions) {
+        for (std::size_t b = 0; b < band_count(region); ++b) {
+          for (const SourceWeight& source : band_of(region, b).weights) {
+            own += contains(heads, source.head) ? source.weight : 0;
+            all += source.weight;
+          }
+        }
+      }
+    }
+    if (all == 0 || own >= kLeastShare * all) continue;
+    warnings.push_back(concat("faces of the quota ", quotas[q].name, " have ",
+                              std::lround(100 * (1 - own / all)), " % of their detail from heads ",
+                              "that are not ", quotas[q].name, ", so they will hardly look it; a ",
+                              "group with sources: [", quotas[q].name, "] binds both"));
   }
-  return founders;
+  return warnings;
+}
+
+void log_casting(const Cast& cast, const std::vector<std::string>& heads) {
+  const CrowdDistances& distances = cast.distances;
+  const auto mm = [](double value) { return format_fixed(value, 2); };
+  if (distances.crowd.count > 0) {
+    log_info(concat("distances between faces: closest ", mm(distances.crowd.min), " mm, median ",
+                    mm(distances.crowd.median), " mm; between the input heads: closest ",
+                    mm(distances.heads.min), " mm, median ", mm(distances.heads.median),
+                    " mm; ratio of the medians ", mm(distances.ratio)));
+  }
+  std::vector<std::string> thrown;
+  for (std::size_t r = 0; r < kReasonCount; ++r) {
+    const std::uint64_t count = cast.rejections.count[r];
+    if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
+  }
+  if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
+  for (const std::string& text : near_heads(cast, heads)) log_warning(text);
 }
 
 Json casting_to_json(const Config& config, const Cast& cast) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The casting part of the report.
+// What is told of a crowd that was cast, in the log and in the report.
 #pragma once
 
 #include <string>
@@ -12,10 +12,14 @@
 
 namespace crowdface {
 
-/// The founders as they stand in founders.jsonl: lines as in a plan.
-std::string format_founders(const Job& job, const std::vector<FamilyFounder>& founders);
-/// Those that stand in the folder; none if it has no such file.
-std::vector<FamilyFounder> read_founders(const Job& job, const CrowdDirectory& directory);
+/// A warning of faces that pass for one of the heads, if there are any that were drawn.
+std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads);
+
+/// A warning for each quota whose faces have most of their detail from heads that do not count for it.
+std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast);
+
+/// Logs what the crowd is like: distances, candidates thrown away, faces too near to heads.
+void log_casting(const Cast& cast, const std::vector<std::string>& heads);
 
 /// What was asked, what was reached, what was thrown away.
 nlohmann::ordered_json casting_to_json(const Config& config, const Cast& cast);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/crowd_sheets.h"
 
-#include "crowdface/config/config_writer.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
@@ -13,10 +12,10 @@
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/gallery_page.h"
-#include "crowdface/run/casting_report.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/output_check.h"
+#include "crowdface/run/planned.h"
 #include "crowdface/run/resume.h"
 
 namespace crowdface {
@@ -35,14 +34,11 @@ std::vector<std::string> sheet_files(const CrowdDirectory& directory, const Writ
   return names;
 }
 
-void write_founders(const std::vector<FamilyFounder>& founders, const FaceBuilder& builder,
+void write_founders(const std::vector<CastFace>& founders, const FaceBuilder& builder,
                     const CrowdPictures& pictures) {
-  std::vector<Positions> built(1);
-  for (const FamilyFounder& founder : founders) {
+  for (const CastFace& founder : founders) {
     throw_if_interrupted();
-    const Recipe* recipe = &founder.face.recipe;
-    builder.build({&recipe, 1}, built);
-    pictures.write_founder(founder.family, built[0], *recipe);
+    pictures.write_founder(*founder.family, builder.build(founder.recipe), founder.recipe);
   }
 }
 
@@ -65,12 +61,12 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
   } catch (const MissingInput& error) {  // it was there a moment ago
     throw IoError(error.what());
   }
-  hasher.add(format_founders(job, cast.founders));
+  hasher.add(joined(plan_text(cast.founders, job.names, job.settings)));
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     ids.push_back(cast.crowd[i].id);
     hasher.add(files[i].picture->digest);
-    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.digest);
+    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.content.digest);
     for (const FileDigest& own : files[i].own) hasher.add(own.digest);
   }
   add_text(likeness_text(likeness, job.names, ids), hasher);
@@ -110,11 +106,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const C
 void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set,
                    const fs::path& cache) {
   CrowdDirectory directory{crowd_directory};
-  std::error_code ignored;
-  if (!fs::exists(directory.config(), ignored)) {
-    throw MissingInput(
-        concat(directory.config().string(), ": not there; expected a crowd's folder"));
-  }
+  require_crowd(directory);
   const CrowdLock lock(directory, {});  // another run may be about to replace what is read here
   ConfigOverrides overrides;
   overrides.set = set;
@@ -138,14 +130,13 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
   const FaceTextures textures(job.config, job.inputs);
   const FaceShapes shapes(job.config, job.inputs);
-  CrowdPictures pictures(job.config, *job.config.output.contact_sheet, job.inputs, job.settings,
-                         directory, textures, shapes);
+  CrowdPictures pictures(job.config, job.inputs, job.settings, directory, textures, shapes);
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   const std::vector<CastFace> to_draw =
-      faces_to_draw(FaceLedger(ledger, job, directory, face_extras(job), {}), crowd);
+      faces_to_draw(FaceLedger(ledger, job, directory, {}), crowd);
   pictures.write_faces(to_draw, FaceAttachments(job.config, job.inputs, to_draw));
-  const std::vector<FamilyFounder> founders = read_founders(job, directory);
+  const std::vector<CastFace> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);

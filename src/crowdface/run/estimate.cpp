@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "crowdface/cast/estimate.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
@@ -17,11 +19,9 @@ constexpr std::uint64_t kSmallestPool = 5000;
 constexpr std::uint64_t kLargestPool = 20000;
 
 std::vector<std::uint64_t> counts_up_to(std::uint64_t asked) {
-  std::vector<std::uint64_t> counts = {10, 20, 50, 100, 200, 500, 1000, 2000};
-  if (asked >= 2) counts.push_back(asked);
-  std::sort(counts.begin(), counts.end());
-  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
-  return counts;
+  std::set<std::uint64_t> counts = {10, 20, 50, 100, 200, 500, 1000, 2000};
+  if (asked >= 2) counts.insert(asked);
+  return {counts.begin(), counts.end()};
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -82,8 +82,7 @@ std::string line_of(const Frame& frame, const std::vector<EstimateRow>& rows,
                 points, "\"/>\n");
 }
 
-}  // namespace
-
+/// The table with columns for people to read.
 std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
                             double asked_mm) {
   std::string table = "   faces   spread, mm   first fit, mm\n";
@@ -96,6 +95,8 @@ std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t 
   return table;
 }
 
+/// A plot as SVG: faces across (each decade the same width), millimetres upwards, one line a mode,
+/// and what is asked for as a cross.
 std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
                           double asked_mm) {
   const Frame frame(rows, asked_count, asked_mm);
@@ -131,6 +132,8 @@ std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t as
                  "<tspan fill=\"#d0632a\">first fit</tspan>");
   return svg + "</svg>\n";
 }
+
+}  // namespace
 
 std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
                      const std::filesystem::path& cache) {

@@ -3,9 +3,7 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "crowdface/cast/estimate.h"
 #include "crowdface/config/config_reader.h"
 
 namespace crowdface {
@@ -15,14 +13,5 @@ namespace crowdface {
 /// \param cache  folder of prepared heads.
 std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
                      const std::filesystem::path& cache);
-
-/// The table with columns for people to read.
-std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
-                            double asked_mm);
-
-/// A plot as SVG: faces across (each decade the same width), millimetres upwards, one line a mode,
-/// and what is asked for as a cross.
-std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
-                          double asked_mm);
 
 }  // namespace crowdface

@@ -15,14 +15,6 @@
 namespace crowdface {
 namespace {
 
-std::vector<std::uint32_t> vertices_of(const Components& components, std::uint32_t component) {
-  std::vector<std::uint32_t> vertices;
-  for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
-    if (components.of_vertex[v] == component) vertices.push_back(v);
-  }
-  return vertices;
-}
-
 /// The regions at the profiles of each place: #places by #regions, rows summing to one.
 std::vector<std::vector<double>> masks_at(const SkinContacts& contacts,
                                           const RegionWeights& regions) {
@@ -53,8 +45,7 @@ FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepa
       mm_per_unit_(mm_per(config.faces.units)) {
   parallel_for_each(2, [&](int i) {
     if (i == 0) {
-      contacts_.emplace(inputs.faces, inputs.adjacency,
-                        vertices_of(inputs.skin, inputs.skin.largest()));
+      contacts_.emplace(inputs.faces, inputs.adjacency, skin_vertices(inputs));
     } else if (!inputs.parts.parts.empty()) {
       follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
     }
@@ -83,19 +74,18 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
     blend_exact(inputs_.faces, *prepared_.filter, regions_, recipes, results);
   }
   require_whole(prepared_);
-  parallel_for_each(static_cast<Index>(recipes.size()), [&](Index f) {
-    const auto i = static_cast<std::size_t>(f);
-    finish(*recipes[i], results[i]);
-  });
+  parallel_for_each(recipes.size(), [&](std::size_t f) { finish(*recipes[f], results[f]); });
+}
+
+Positions FaceBuilder::build(const Recipe& recipe) const {
+  const Recipe* one = &recipe;
+  Positions face;
+  build({&one, 1}, {&face, 1});
+  return face;
 }
 
 Positions FaceBuilder::rebuild(const Recipe& recipe, Kept& kept) const {
-  if (!blender_) {
-    const Recipe* one = &recipe;
-    Positions face;
-    build(std::span(&one, 1), std::span(&face, 1));
-    return face;
-  }
+  if (!blender_) return build(recipe);
   // What fails half-way leaves nothing to go on from.
   if (const auto before = std::exchange(kept.recipe, std::nullopt)) {
     blender_->change(*before, recipe, kept.blended);

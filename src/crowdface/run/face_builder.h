@@ -26,6 +26,7 @@ class FaceBuilder {
 
   /// \param results  one for each recipe, #V by 3 in file units; their memory is used again.
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
+  Positions build(const Recipe& recipe) const;
 
   /// A face that the next one changes little of.
   struct Kept {

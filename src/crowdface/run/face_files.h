@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "crowdface/core/file.h"
-#include "crowdface/core/hash.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/validity/skin_check.h"
@@ -35,8 +34,7 @@ std::filesystem::path mesh_path(const CrowdDirectory& directory, const std::stri
 /// A face's file as it was written.
 struct MeshFile {
   MeshName name;
-  Digest digest;
-  std::uint64_t bytes = 0;
+  FileDigest content;
 };
 
 /// What one face's files are.

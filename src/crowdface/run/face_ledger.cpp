@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
@@ -20,12 +21,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// What determines a face's files beside its recipe and `settings`: formats, frame, pictures.
-Digest digest_of_output(const Config& config, const Job& job, FaceExtras extras) {
+Digest digest_of_output(const Job& job, const FaceExtras& extras) {
+  const Config& config = job.config;
   Hasher hasher;
   hasher.add(kFaceFilesVersion).add(kPrepareVersion).add(job.settings);
   hasher.add(config.output.meshes.size());
   for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
-  if (std::ranges::count(config.output.meshes, MeshFormat::kUsd) > 0) {
+  if (contains(config.output.meshes, MeshFormat::kUsd)) {
     hasher.add(static_cast<int>(config.output.subdivision));
   }
   if (!job.inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(job.inputs.shapes_digest);
@@ -100,21 +102,21 @@ std::size_t carried_shapes(const Job& job) {
   return is_carried ? job.inputs.shapes.shapes.size() : 0;
 }
 
-}  // namespace
-
-FaceExtras face_extras(const Job& job) {
+FaceExtras extras_of(const Job& job) {
   return {job.config.output.contact_sheet.has_value(), has_gallery(job.config),
           skin_is_judged(job.config, job.inputs), carried_shapes(job)};
 }
 
+}  // namespace
+
 FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
-                       FaceExtras extras, std::function<void()> recorded)
+                       std::function<void()> recorded)
     : ledger_(ledger),
       job_(job),
       directory_(directory),
-      extras_(extras),
+      extras_(extras_of(job)),
       recorded_(std::move(recorded)),
-      output_(digest_of_output(job.config, job, extras)) {}
+      output_(digest_of_output(job, extras_)) {}
 
 Digest FaceLedger::key_of(const CastFace& face) const {
   CastFace shape = face;
@@ -132,8 +134,7 @@ std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
   if (entry->files.size() != names.size() + own.size() + pictures) return std::nullopt;
   FaceFiles files;
   for (std::size_t f = 0; f < names.size(); ++f) {
-    files.meshes.push_back(
-        {names[f], entry->files[f].content.digest, entry->files[f].content.bytes});
+    files.meshes.push_back({names[f], entry->files[f].content});
   }
   for (std::size_t o = 0; o < own.size(); ++o) {
     files.own.push_back(entry->files[names.size() + o].content);
@@ -156,8 +157,8 @@ std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
 LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceFiles& files) const {
   LedgerEntry entry{item_of(face), key_of(face), {}, {}};
   for (const MeshFile& mesh : files.meshes) {
-    entry.files.push_back({directory_.relative(mesh_path(directory_, face.id, mesh.name)),
-                           {mesh.bytes, mesh.digest}});
+    entry.files.push_back(
+        {directory_.relative(mesh_path(directory_, face.id, mesh.name)), mesh.content});
   }
   const std::vector<std::string> own =
       own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);

@@ -19,7 +19,6 @@ struct FaceExtras {
   bool skin = false;       ///< its mesh is judged
   std::size_t shapes = 0;  ///< how many are carried to it
 };
-FaceExtras face_extras(const Job& job);
 
 /// A face and what its files are.
 struct MadeFace {
@@ -32,7 +31,7 @@ struct MadeFace {
 class FaceLedger {
  public:
   /// All must outlive this object. \param recorded  called after each face that is, by any thread.
-  FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory, FaceExtras extras,
+  FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
              std::function<void()> recorded);
 
   /// A face's files if all of them are there as an earlier run wrote them.

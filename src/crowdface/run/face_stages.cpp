@@ -117,149 +117,6 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
   return at_once;
 }
 
-/// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
-class FaceOutput {
- public:
-  FaceOutput(const FaceBuilder& builder, const MeshWriters& writers, const FaceTextures& textures,
-             const OwnTextures* own, std::span<const MeshFormat> formats,
-             const CrowdDirectory& directory, const CrowdRenders* renders, const SkinCheck* check,
-             FaceWriter& writer, const FaceAttachments* attachments, const FaceShapes& shapes,
-             const AttachmentWriters& attachment_writers)
-      : builder_(builder),
-        writers_(writers),
-        textures_(textures),
-        own_(own),
-        formats_(formats),
-        directory_(directory),
-        renders_(renders),
-        check_(check),
-        writer_(writer),
-        attachments_(attachments),
-        shapes_(shapes),
-        attachment_writers_(attachment_writers) {}
-
-  FaceFiles make(const CastFace& face, const Positions& positions) {
-    throw_if_interrupted();
-    MadeFace made{&face, {}};
-    const Skin skin = paint(face.recipe);
-    std::vector<Displacements> moves;
-    if (writers_.holds_shapes() || (renders_ != nullptr && renders_->show_shapes())) {
-      const Busy busy(encode_);
-      moves = shapes_.of_face(face.recipe, as_written(positions), &made.files.crossing);
-    }
-    std::vector<WornAttachment> worn;
-    if (attachments_ != nullptr) {
-      const Busy busy(blend_);
-      worn = attachments_->worn_by(face, positions, moves);
-    }
-    std::vector<ReadyFile> ready = encode(face, positions, moves, worn, skin.files, made.files);
-    if (renders_ != nullptr) {
-      const Busy busy(render_);
-      FacePictures drawn = renders_->draw(face.id, face.recipe.target, positions, moves,
-                                          skin.coat ? &*skin.coat : nullptr, worn);
-      made.files.picture =
-          add(directory_.render(face.id), EncodedFile(std::move(drawn.picture)), ready);
-      if (drawn.preview) {
-        made.files.preview =
-            add(directory_.gallery_face(face.id), EncodedFile(std::move(*drawn.preview)), ready);
-      }
-    }
-    if (check_ != nullptr) {
-      const Busy busy(check_seconds_);
-      made.files.skin = builder_.defects(*check_, face.recipe, positions);
-    }
-    FaceFiles files = made.files;
-    writer_.add(std::move(made), std::move(ready));
-    return files;
-  }
-
-  void add_to(StageBusy& busy) const {
-    busy.blend += blend_;
-    busy.encode += encode_;
-    busy.write += writer_.busy_seconds();
-    busy.render += render_;
-    busy.check += check_seconds_;
-  }
-
- private:
-  static FileDigest add(fs::path path, EncodedFile file, std::vector<ReadyFile>& to) {
-    const FileDigest content{file.size(), file.digest()};
-    to.push_back({std::move(path), std::move(file)});
-    return content;
-  }
-
-  /// A face's own textures: in their files' bytes, if it has files, and as pictures show them.
-  struct Skin {
-    std::shared_ptr<OwnTextures::Encoded> files = std::make_shared<OwnTextures::Encoded>();
-    std::optional<OwnCoat> coat;
-  };
-
-  /// One texture after the other is blended, encoded and forgotten.
-  Skin paint(const Recipe& recipe) {
-    Skin skin;
-    if (renders_ != nullptr) skin.coat = renders_->own_coat();
-    const bool written = own_ != nullptr && !formats_.empty();
-    if (!written && !skin.coat) return skin;
-    skin.files->resize(textures_.picture_count());
-    parallel_for_each(textures_.picture_count(), [&](std::size_t p) {
-      const BlendedPicture picture = [&] {
-        const Busy busy(blend_);
-        return textures_.blend(recipe, p);
-      }();
-      if (written) {
-        const Busy busy(encode_);
-        (*skin.files)[p] = own_->encode(p, picture);
-      }
-      if (skin.coat) {
-        const Busy busy(render_);
-        skin.coat->add(p, picture);
-      }
-    });
-    return skin;
-  }
-
-  /// The face's meshes, what it wears and its textures. \param files  of which they are noted.
-  std::vector<ReadyFile> encode(const CastFace& face, const Positions& positions,
-                                std::span<const Displacements> moves,
-                                const std::vector<WornAttachment>& worn,
-                                const std::shared_ptr<const OwnTextures::Encoded>& textures,
-                                FaceFiles& files) {
-    std::vector<ReadyFile> ready;
-    if (formats_.empty()) return ready;
-    const Busy busy(encode_);
-    std::vector<std::string_view> of_mesh;
-    if (own_ != nullptr) of_mesh = own_->of_mesh(*textures);
-    std::vector<EncodedMesh> meshes = writers_.encode(face, positions, moves, of_mesh, worn);
-    attachment_writers_.add_to(meshes, face.id, worn);
-    for (EncodedMesh& mesh : meshes) {
-      mesh.file.keep(textures);
-      const fs::path path = mesh_path(directory_, face.id, mesh.name);
-      const FileDigest content = add(path, std::move(mesh.file), ready);
-      files.meshes.push_back({mesh.name, content.digest, content.bytes});
-    }
-    if (own_ == nullptr) return ready;
-    for (OwnFile& file : own_->files(face, formats_, textures)) {
-      files.own.push_back(
-          add(directory_.meshes_of(face.id) / file.name, std::move(file.file), ready));
-    }
-    return ready;
-  }
-
-  const FaceBuilder& builder_;
-  const MeshWriters& writers_;
-  const FaceTextures& textures_;
-  const OwnTextures* own_;
-  std::span<const MeshFormat> formats_;
-  const CrowdDirectory& directory_;
-  const CrowdRenders* renders_;
-  const SkinCheck* check_;
-  FaceWriter& writer_;
-  const FaceAttachments* attachments_;
-  const FaceShapes& shapes_;
-  const AttachmentWriters& attachment_writers_;
-  std::atomic<double> blend_ = 0, encode_ = 0, render_ = 0, check_seconds_ = 0;
-};
-
 /// Memory of faces that are done, for faces to come: memory that is new to a process costs as much as
 /// half of blending.
 class FaceMemory {
@@ -330,8 +187,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                        const FaceBuilder& builder, const FaceTextures& textures,
                        const FaceAttachments* attachments, const FaceShapes& shapes,
                        const std::vector<CastFace>& crowd, std::uint64_t memory)
-    : writes_meshes_(!config.output.meshes.empty()),
-      writers_(config, inputs, config.output.meshes, crowd,
+    : writers_(config, inputs, config.output.meshes, crowd,
                directory_of(config).shared_from_mesh()),
       builder_(builder),
       textures_(textures),
@@ -339,7 +195,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
       shapes_(shapes),
       attachment_writers_(inputs, config.output.meshes, directory_of(config).shared_from_mesh(),
                           writers_.worn_on_levels()),
-      meshes_(config.output.meshes) {
+      formats_(config.output.meshes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + writers_.memory_bytes() + shapes.memory_bytes();
   std::uint64_t of_thread = writers_.encode_bytes();
@@ -377,21 +233,142 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   encoded_bytes_ = of_threads + 2 * waiting_bytes_;
 }
 
+/// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
+class FaceStages::Output {
+ public:
+  Output(const FaceStages& stages, const CrowdDirectory& directory, const CrowdRenders* renders,
+         FaceWriter& writer)
+      : stages_(stages), directory_(directory), renders_(renders), writer_(writer) {}
+
+  FaceFiles make(const CastFace& face, const Positions& positions) {
+    throw_if_interrupted();
+    MadeFace made{&face, {}};
+    const Skin skin = paint(face.recipe);
+    std::vector<Displacements> moves;
+    if (stages_.writers_.holds_shapes() || (renders_ != nullptr && renders_->show_shapes())) {
+      const Busy busy(encode_);
+      moves = stages_.shapes_.of_face(face.recipe, as_written(positions), &made.files.crossing);
+    }
+    std::vector<WornAttachment> worn;
+    if (stages_.attachments_ != nullptr) {
+      const Busy busy(blend_);
+      worn = stages_.attachments_->worn_by(face, positions, moves);
+    }
+    std::vector<ReadyFile> ready = encode(face, positions, moves, worn, skin.files, made.files);
+    if (renders_ != nullptr) {
+      const Busy busy(render_);
+      FacePictures drawn = renders_->draw(face.id, face.recipe.target, positions, moves,
+                                          skin.coat ? &*skin.coat : nullptr, worn);
+      made.files.picture =
+          add(directory_.render(face.id), EncodedFile(std::move(drawn.picture)), ready);
+      if (drawn.preview) {
+        made.files.preview =
+            add(directory_.gallery_face(face.id), EncodedFile(std::move(*drawn.preview)), ready);
+      }
+    }
+    if (stages_.check_) {
+      const Busy busy(check_seconds_);
+      made.files.skin = stages_.builder_.defects(*stages_.check_, face.recipe, positions);
+    }
+    FaceFiles files = made.files;
+    writer_.add(std::move(made), std::move(ready));
+    return files;
+  }
+
+  void add_to(StageBusy& busy) const {
+    busy.blend += blend_;
+    busy.encode += encode_;
+    busy.write += writer_.busy_seconds();
+    busy.render += render_;
+    busy.check += check_seconds_;
+  }
+
+ private:
+  static FileDigest add(fs::path path, EncodedFile file, std::vector<ReadyFile>& to) {
+    const FileDigest content{file.size(), file.digest()};
+    to.push_back({std::move(path), std::move(file)});
+    return content;
+  }
+
+  /// A face's own textures: in their files' bytes, if it has files, and as pictures show them.
+  struct Skin {
+    std::shared_ptr<OwnTextures::Encoded> files = std::make_shared<OwnTextures::Encoded>();
+    std::optional<OwnCoat> coat;
+  };
+
+  /// One texture after the other is blended, encoded and forgotten.
+  Skin paint(const Recipe& recipe) {
+    Skin skin;
+    if (renders_ != nullptr) skin.coat = renders_->own_coat();
+    const bool written = stages_.own_ && !stages_.formats_.empty();
+    if (!written && !skin.coat) return skin;
+    skin.files->resize(stages_.textures_.picture_count());
+    parallel_for_each(stages_.textures_.picture_count(), [&](std::size_t p) {
+      const BlendedPicture picture = [&] {
+        const Busy busy(blend_);
+        return stages_.textures_.blend(recipe, p);
+      }();
+      if (written) {
+        const Busy busy(encode_);
+        (*skin.files)[p] = stages_.own_->encode(p, picture);
+      }
+      if (skin.coat) {
+        const Busy busy(render_);
+        skin.coat->add(p, picture);
+      }
+    });
+    return skin;
+  }
+
+  /// The face's meshes, what it wears and its textures. \param files  of which they are noted.
+  std::vector<ReadyFile> encode(const CastFace& face, const Positions& positions,
+                                std::span<const Displacements> moves,
+                                const std::vector<WornAttachment>& worn,
+                                const std::shared_ptr<const OwnTextures::Encoded>& textures,
+                                FaceFiles& files) {
+    std::vector<ReadyFile> ready;
+    if (stages_.formats_.empty()) return ready;
+    const Busy busy(encode_);
+    std::vector<std::string_view> of_mesh;
+    if (stages_.own_) of_mesh = stages_.own_->of_mesh(*textures);
+    std::vector<EncodedMesh> meshes =
+        stages_.writers_.encode(face, positions, moves, of_mesh, worn);
+    stages_.attachment_writers_.add_to(meshes, face.id, worn);
+    for (EncodedMesh& mesh : meshes) {
+      mesh.file.keep(textures);
+      const fs::path path = mesh_path(directory_, face.id, mesh.name);
+      files.meshes.push_back({mesh.name, add(path, std::move(mesh.file), ready)});
+    }
+    if (!stages_.own_) return ready;
+    for (OwnFile& file : stages_.own_->files(face, stages_.formats_, textures)) {
+      files.own.push_back(
+          add(directory_.meshes_of(face.id) / file.name, std::move(file.file), ready));
+    }
+    return ready;
+  }
+
+  const FaceStages& stages_;
+  const CrowdDirectory& directory_;
+  const CrowdRenders* renders_;
+  FaceWriter& writer_;
+  std::atomic<double> blend_ = 0, encode_ = 0, render_ = 0, check_seconds_ = 0;
+};
+
 BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders* renders,
                              const FaceLedger& ledger, const std::vector<CastFace>& faces) const {
   BuiltFaces built;
   built.files.resize(faces.size());
-  for (const std::string& id : one_of_each_folder(directory, faces)) {
-    if (writes_meshes_) make_directories(own_ ? directory.blended_of(id) : directory.meshes_of(id));
+  if (!formats_.empty()) {
+    for (const std::string& id : one_of_each_folder(directory, faces)) {
+      make_directories(own_ ? directory.blended_of(id) : directory.meshes_of(id));
+    }
   }
   if (renders != nullptr) renders->make_folders(directory, faces);
 
   Progress progress("faces", faces.size());
   const KeptBlocks kept(encoded_bytes_);
   FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
-  FaceOutput output(builder_, writers_, textures_, own_ ? &*own_ : nullptr, meshes_, directory,
-                    renders, check_ ? &*check_ : nullptr, writer, attachments_, shapes_,
-                    attachment_writers_);
+  Output output(*this, directory, renders, writer);
   std::atomic<double> blend_seconds = 0;
   FaceMemory memory;
   std::array<FaceGroup, 2> groups;

@@ -53,7 +53,8 @@ class FaceStages {
                    const FaceLedger& ledger, const std::vector<CastFace>& faces) const;
 
  private:
-  bool writes_meshes_;
+  class Output;
+
   MeshWriters writers_;
   const FaceBuilder& builder_;
   const FaceTextures& textures_;
@@ -61,7 +62,7 @@ class FaceStages {
   const FaceShapes& shapes_;
   AttachmentWriters attachment_writers_;
   std::optional<OwnTextures> own_;  ///< none: faces have no textures of their own
-  std::span<const MeshFormat> meshes_;
+  std::span<const MeshFormat> formats_;
   std::optional<SkinCheck> check_;  ///< none: no mesh is judged
   std::size_t at_once_;
   std::uint64_t waiting_bytes_;  ///< of files that are ready, at most

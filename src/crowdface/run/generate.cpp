@@ -5,9 +5,9 @@
 #include <chrono>
 #include <exception>
 #include <memory>
-#include <system_error>
 #include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -24,7 +24,6 @@
 #include "crowdface/pictures/face_comparison.h"
 #include "crowdface/pictures/sheets.h"
 #include "crowdface/run/casting.h"
-#include "crowdface/run/casting_log.h"
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/copy_materials.h"
 #include "crowdface/run/crowd_sheets.h"
@@ -49,18 +48,10 @@ namespace fs = std::filesystem;
 template <class Work>
 auto timed(StageSeconds& stages, const char* stage, const Work& work) {
   const auto start = std::chrono::steady_clock::now();
-  const auto note = [&] {
-    stages.emplace_back(
-        stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  };
-  if constexpr (std::is_void_v<decltype(work())>) {
-    work();
-    note();
-  } else {
-    auto result = work();
-    note();
-    return result;
-  }
+  auto result = work();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  stages.emplace_back(stage, took.count());
+  return result;
 }
 
 /// The log of a crowd stands in its folder, for as long as the run lasts.
@@ -199,12 +190,10 @@ StageBusy build_missing(const CrowdDirectory& directory, const std::vector<CastF
 std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& directory,
                                          const Cast& cast, Ledger& ledger) {
   std::vector<std::string> warnings = job.inputs.warnings;
-  if (auto text = near_heads(cast, job.names.heads)) warnings.push_back(std::move(*text));
-  for (std::string& text : contradicted_quotas(job.config, cast)) {
-    warnings.push_back(std::move(text));
-  }
-  for (std::string& text : copy_materials(job.config, job.inputs, directory, cast.crowd, ledger)) {
-    warnings.push_back(std::move(text));
+  for (const std::vector<std::string>& more :
+       {near_heads(cast, job.names.heads), contradicted_quotas(job.config, cast),
+        copy_materials(job.config, job.inputs, directory, cast.crowd, ledger)}) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
   }
   return warnings;
 }
@@ -231,7 +220,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   const bool has_whole_crowd = options.shard.whole() || !cast_job.planned();
 
   const auto& sheet = job.config.output.contact_sheet;
-  const FaceLedger face_ledger(ledger, job, directory, face_extras(job), [&] {
+  const FaceLedger face_ledger(ledger, job, directory, [&] {
     if (progress) progress->step();
   });
   const Shard asked_for = has_whole_crowd ? options.shard : Shard();
@@ -248,14 +237,13 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
 
   std::vector<std::string> warnings;
   if (has_whole_crowd) warnings = write_materials(job, directory, cast, ledger);
-  const auto& formats = job.config.output.meshes;
-  if (has_whole_crowd && std::ranges::find(formats, MeshFormat::kUsd) != formats.end()) {
+  if (has_whole_crowd && contains(job.config.output.meshes, MeshFormat::kUsd)) {
     ledger.write(directory.relative(directory.stage()),
                  format_stage(job.config, job.inputs, crowd));
   }
   write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
-    return std::make_unique<CrowdPictures>(job.config, *sheet, job.inputs, job.settings, directory,
+    return std::make_unique<CrowdPictures>(job.config, job.inputs, job.settings, directory,
                                            cast_job.textures.get(), cast_job.shapes.get());
   });
   const StageBusy busy = timed(stages, "build", [&] {
@@ -302,10 +290,8 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
 
 /// Whether a run before this one may have made all its faces.
 bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
-  std::error_code ignored;
-  if (fs::exists(directory.ledger(), ignored)) return true;
-  return shard.whole() ? !directory.shard_ledgers().empty()
-                       : fs::exists(directory.ledger(shard), ignored);
+  return is_there(directory.ledger()) ||
+         (shard.whole() ? !directory.shard_ledgers().empty() : is_there(directory.ledger(shard)));
 }
 
 /// Whether it is certain that faces will be made: a crowd that goes on may have none to make; a new
@@ -330,7 +316,8 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
         job.config, job.inputs, crowd->prepared, crowd->builder.get(), crowd->textures.get(),
         &crowd->attachments.get(), crowd->shapes.get(), crowd->cast.crowd, memory_for(options));
   });
-  if (is_new && !crowd->cast.crowd.empty()) timed(stages, "setup", [&] { face_stages.get(); });
+  if (is_new && !crowd->cast.crowd.empty())
+    timed(stages, "setup", [&] { return &face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
   refuse_other_heads(job.settings, directory,
                      options.replace);  // another run may have come before this one

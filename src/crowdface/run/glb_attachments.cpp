@@ -10,6 +10,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/named_parts.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/surface_materials.h"
 #include "crowdface/mesh/vector3.h"
@@ -90,12 +91,8 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
 Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
   Grouped<Influence> influences;
   if (inputs.rig.empty()) return influences;
-  std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
-    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
-  }
   const Positions& points = item.file.positions;
-  const PointGrid grid(inputs.attachments.fitted_to, skin);
+  const PointGrid grid(inputs.attachments.fitted_to, skin_vertices(inputs));
   const auto nearest = [&](const Eigen::Vector3d& point) {
     return inputs.rig.skin.influences.of(grid.nearest(point).vertex);
   };
@@ -130,25 +127,24 @@ WornLook look_of(const Attachment& item) {
   return look;
 }
 
-GlbPart worn_part(const Attachment& item, const WornLook& look, const Inputs& inputs) {
-  std::vector<std::string> targets;
-  for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return {item.name,   item.file.topology,          item.file.uvs,     look.materials, look.of_face,
-          look.images, influences_of(item, inputs), std::move(targets)};
-}
-
+/// \param level  null: whole.
 GlbPart worn_part(const Attachment& item, const WornLook& look, const Inputs& inputs,
-                  const DetailLevel& level) {
-  const Grouped<Influence> whole = influences_of(item, inputs);
-  Grouped<Influence> influences;
-  if (whole.group_count() > 0) {
-    for (const std::uint32_t vertex : level.vertices) influences.add_group(whole.of(vertex));
-  }
+                  const DetailLevel* level) {
+  const Grouped<Influence> influences = influences_of(item, inputs);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return {
-      item.name,   level.topology, level.uvs,         look.materials, on_level(level, look.of_face),
-      look.images, influences,     std::move(targets)};
+  if (level == nullptr) {
+    return {item.name,    item.file.topology, item.file.uvs, look.materials,
+            look.of_face, look.images,        influences,    std::move(targets)};
+  }
+  return {item.name,
+          level->topology,
+          level->uvs,
+          look.materials,
+          at_rows(look.of_face, level->faces),
+          look.images,
+          at_rows(influences, level->vertices),
+          std::move(targets)};
 }
 
 }  // namespace
@@ -157,18 +153,10 @@ std::vector<GlbAttachments> glb_attachments(const Inputs& inputs,
                                             std::span<const WornLevel> levels) {
   std::map<const Attachment*, WornLook> looks;
   for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
-  std::vector<GlbAttachments> all;
-  all.emplace_back(inputs.attachments, [&](const Attachment& item) {
-    return worn_part(item, looks.at(&item), inputs);
-  });
-  for (const WornLevel& worn : levels) {
-    all.emplace_back(inputs.attachments, [&](const Attachment& item) -> std::optional<GlbPart> {
-      const DetailLevel* level = worn.find(item);
-      if (level == nullptr) return std::nullopt;
-      return worn_part(item, looks.at(&item), inputs, *level);
-    });
-  }
-  return all;
+  return GlbAttachments::on_all(inputs.attachments, levels,
+                                [&](const Attachment& item, const DetailLevel* level) {
+                                  return worn_part(item, looks.at(&item), inputs, level);
+                                });
 }
 
 }  // namespace crowdface

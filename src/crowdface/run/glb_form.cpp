@@ -16,6 +16,7 @@
 #include "crowdface/render/shading.h"
 #include "crowdface/render/vertex_colours.h"
 #include "crowdface/run/own_textures.h"
+#include "crowdface/run/worn_level.h"
 
 namespace crowdface {
 namespace {
@@ -153,28 +154,12 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
 }
 
 GlbOptions glb_options(GlbOptions whole, const DetailLevel& level, const ShapeSet& shapes) {
-  if (!whole.face_materials.empty()) {
-    std::vector<std::uint32_t> materials;
-    for (const std::uint32_t face : level.faces) materials.push_back(whole.face_materials[face]);
-    whole.face_materials = std::move(materials);
-  }
+  whole.face_materials = at_rows(whole.face_materials, level.faces);
   for (std::size_t t = 0; t < whole.targets.size(); ++t) {
     whole.targets[t].vertices = level.of(shapes.shapes[t].moves).vertices;
   }
-  if (whole.overlay) {
-    std::vector<std::array<std::uint16_t, 2>> places;
-    for (const std::uint32_t vertex : level.vertices) {
-      places.push_back(whole.overlay->places[vertex]);
-    }
-    whole.overlay->places = std::move(places);
-  }
-  if (!whole.skin.joints.empty()) {
-    Grouped<Influence> influences;
-    for (const std::uint32_t vertex : level.vertices) {
-      influences.add_group(whole.skin.influences.of(vertex));
-    }
-    whole.skin.influences = std::move(influences);
-  }
+  if (whole.overlay) whole.overlay->places = at_rows(whole.overlay->places, level.vertices);
+  whole.skin.influences = at_rows(whole.skin.influences, level.vertices);
   whole.vertex_ids = level.vertices;
   whole.points.clear();  // those of the whole mesh are the face's
   return whole;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/glb_form.h"
 
@@ -19,7 +18,6 @@ bool is_same(const MaterialRange& a, const MaterialRange& b) {
 std::vector<MaterialRange> material_ranges(const FaceMaterials& materials,
                                            const std::vector<std::uint32_t>& faces) {
   std::vector<MaterialRange> ranges;
-  if (materials.of_face.empty()) return ranges;
   for (std::size_t t = 0; t < faces.size(); ++t) {
     const std::string& name = materials.names[materials.of_face[faces[t]]];
     if (name.empty() || (!ranges.empty() && ranges.back().name == name)) continue;
@@ -76,8 +74,7 @@ EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
   if (name.format == MeshFormat::kGlb || name.format == MeshFormat::kUsd) {
     std::vector<Displacements> moves;
     for (const Displacements& shape : face.moves) moves.push_back(level_.of(shape));
-    std::vector<WornAttachment> worn;
-    if (worn_.worn != nullptr) worn = worn_.worn->of(face.worn);
+    const std::vector<WornAttachment> worn = worn_.worn.of(face.worn);
     if (name.format == MeshFormat::kGlb) {
       std::vector<PlacedGlbPart> parts;
       if (worn_.glb != nullptr) parts = worn_.glb->parts(worn);
@@ -87,7 +84,6 @@ EncodedFile LevelWriter::encode(const MeshName& name, const WholeFace& face,
     if (worn_.usd != nullptr) parts = worn_.usd->parts(worn);
     return usd_->encode(positions, normals, id, moves, face.texture_names, {}, parts);
   }
-  require(name.format == MeshFormat::kObj, "LevelWriter: a format without faces");
   std::string head;
   for (const std::string& library :
        inputs_.files[static_cast<std::size_t>(face.target)].material_libraries) {
@@ -110,8 +106,7 @@ std::size_t LevelWriter::memory_bytes() const {
 std::size_t LevelWriter::encode_bytes() const {
   std::size_t obj = 0;
   for (const PlainObjTemplate& form : obj_) obj = std::max(obj, form.encode_bytes());
-  return (1 + inputs_.shapes.shapes.size()) * obj +
-         (ply_ ? ply_->encode_bytes(PlyTemplate::Normals::kVertex) : 0) +
+  return (1 + inputs_.shapes.shapes.size()) * obj + (ply_ ? ply_->encode_bytes() : 0) +
          (glb_ ? glb_->encode_bytes() : 0) + (usd_ ? usd_->encode_bytes() : 0) +
          (worn_.usd != nullptr ? usd_bytes_worn_at_most(*worn_.usd) : 0);
 }

@@ -38,7 +38,7 @@ struct WholeFace {
 
 /// What files of faces on a level hold of attachments; null where they have none.
 struct LevelAttachments {
-  const WornLevel* worn = nullptr;
+  const WornLevel& worn;
   const GlbAttachments* glb = nullptr;
   const UsdAttachments* usd = nullptr;
 };
@@ -59,7 +59,7 @@ class LevelWriter {
               const std::vector<MeshFormat>& formats, const std::vector<Index>& targets,
               const std::string& shared, const LevelAttachments& worn);
 
-  /// \param name  of this level. \param ply_normals  whether PLY files have any.
+  /// \param name  of this level, no points. \param ply_normals  whether PLY files have any.
   EncodedFile encode(const MeshName& name, const WholeFace& face, bool ply_normals) const;
 
   /// What this object itself takes, and what the encoding of one face takes at most.

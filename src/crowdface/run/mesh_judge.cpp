@@ -2,7 +2,6 @@
 #include "crowdface/run/mesh_judge.h"
 
 #include <memory>
-#include <span>
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
@@ -49,10 +48,7 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
   const auto check = std::make_shared<SkinCheck>(skin_check(config, inputs, targets));
   return [&builder, check](const Recipe& recipe) {
-    const Recipe* one = &recipe;
-    Positions face;
-    builder.build(std::span(&one, 1), std::span(&face, 1));
-    return builder.defects(*check, recipe, face);
+    return builder.defects(*check, recipe, builder.build(recipe));
   };
 }
 

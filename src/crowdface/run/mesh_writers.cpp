@@ -6,27 +6,16 @@
 #include <set>
 #include <utility>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/run/glb_form.h"
-#include "crowdface/run/library_line.h"
 #include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 namespace {
-
-std::vector<std::uint32_t> skin_of_heads(const Inputs& inputs) {
-  std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < inputs.skin.of_vertex.size(); ++v) {
-    if (inputs.skin.of_vertex[v] == inputs.skin.largest()) skin.push_back(v);
-  }
-  return skin;
-}
 
 EncodedFile encode_points(const std::vector<std::string>& names, const Positions& points,
                           const std::string& id) {
@@ -65,6 +54,16 @@ std::string file_end(const MeshName& name) {
   const std::string part = part_of(name);
   if (part == kFollowingPoints) return concat('+', part);
   return concat(part.empty() ? "" : "+", part, extension_of(name.format));
+}
+
+std::string library_line(const std::vector<MaterialFile>& files,
+                         const std::filesystem::path& from) {
+  std::string line;
+  for (const MaterialFile& file : files) {
+    if (!file.is_library) continue;
+    line += concat(line.empty() ? "mtllib " : " ", (from / file.relative).generic_string());
+  }
+  return line;
 }
 
 std::filesystem::path mesh_path(const CrowdDirectory& directory, const std::string& id,
@@ -107,14 +106,7 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
   const bool need_normals =
       std::ranges::any_of(targets, [&](Index target) { return needs_normals(target); });
   const std::vector<Index> all_targets(targets.begin(), targets.end());
-  if (has(MeshFormat::kObj)) add_obj_templates(all_targets);
-  if (has(MeshFormat::kObj) && !shared.empty()) {
-    for (const Index target : all_targets) {
-      const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
-      libraries_[target] =
-          library_line(find_material_files(file.path, file.material_libraries).files, shared);
-    }
-  }
+  if (has(MeshFormat::kObj)) add_obj_templates(all_targets, shared);
   if (has(MeshFormat::kPly)) ply_.emplace(faces.topology);
   if (has(MeshFormat::kGlb)) {
     glb_.emplace(faces.topology, faces.uvs, glb_options(config, inputs));
@@ -128,9 +120,9 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
     }
   }
   if (need_normals) fans_.emplace(faces.topology);
-  if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_of_heads(inputs));
+  if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_vertices(inputs));
   if (!inputs.rig.empty() && glb_)
-    joints_.emplace(inputs.rig.points, inputs.parts, skin_of_heads(inputs));
+    joints_.emplace(inputs.rig.points, inputs.parts, skin_vertices(inputs));
   for (std::size_t level = 1; level <= inputs.levels.size(); ++level) {
     levels_.emplace_back(config, inputs, level, formats_, all_targets, shared,
                          attachments_on(level));
@@ -138,23 +130,24 @@ MeshWriters::MeshWriters(const Config& config, const Inputs& inputs,
 }
 
 LevelAttachments MeshWriters::attachments_on(std::size_t level) const {
-  LevelAttachments on;
-  on.worn = &worn_levels_[level - 1];
+  LevelAttachments on{worn_levels_[level - 1]};
   if (!glb_attachments_.empty()) on.glb = &glb_attachments_[level];
   if (!usd_attachments_.empty()) on.usd = &usd_attachments_[level];
   return on;
 }
 
-void MeshWriters::add_obj_templates(const std::vector<Index>& targets) {
+void MeshWriters::add_obj_templates(const std::vector<Index>& targets, const std::string& shared) {
   std::vector<std::optional<ObjTemplate>> forms(targets.size());
   parallel_for_each(targets.size(), [&](std::size_t t) {
     forms[t].emplace(inputs_.files[static_cast<std::size_t>(targets[t])], inputs_.faces.topology);
   });
-  for (std::size_t t = 0; t < targets.size(); ++t) obj_.emplace(targets[t], std::move(*forms[t]));
-}
-
-bool MeshWriters::has(MeshFormat format) const {
-  return std::find(formats_.begin(), formats_.end(), format) != formats_.end();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    obj_.emplace(targets[t], std::move(*forms[t]));
+    if (shared.empty()) continue;
+    const ObjFile& file = inputs_.files[static_cast<std::size_t>(targets[t])];
+    libraries_[targets[t]] =
+        library_line(find_material_files(file.path, file.material_libraries).files, shared);
+  }
 }
 
 bool MeshWriters::holds_shapes() const {
@@ -176,8 +169,7 @@ bool MeshWriters::needs_normals(Index target) const {
 
 Positions MeshWriters::in_shape(const WholeFace& face, const std::string& name) const {
   const std::vector<Shape>& shapes = inputs_.shapes.shapes;
-  const auto shape = std::find_if(shapes.begin(), shapes.end(),
-                                  [&](const Shape& known) { return known.name == name; });
+  const auto shape = std::ranges::find(shapes, name, &Shape::name);
   Positions moved = face.positions;
   face.moves[static_cast<std::size_t>(shape - shapes.begin())].add_to(moved);
   return moved;
@@ -217,10 +209,10 @@ EncodedFile MeshWriters::encode(const MeshName& mesh, const WholeFace& face) con
       return usd_->encode(positions, normals, id, moves, texture_names, points, parts);
     }
     case MeshFormat::kPoints:
-      if (mesh.shape == kFollowingPoints) return encode_points(inputs_.points.names, points, id);
-      return mesh.shape.empty() ? encode_npy(positions, id) : encode_npy(moves, id);
+      break;
   }
-  throw BrokenPrecondition("MeshWriters: an unknown format");
+  if (mesh.shape == kFollowingPoints) return encode_points(inputs_.points.names, points, id);
+  return mesh.shape.empty() ? encode_npy(positions, id) : encode_npy(moves, id);
 }
 
 std::vector<EncodedMesh> MeshWriters::encode(const CastFace& face, const Positions& positions,
@@ -270,18 +262,13 @@ std::size_t MeshWriters::encode_bytes() const {
   if (has(MeshFormat::kObj)) obj *= 1 + inputs_.shapes.shapes.size();
   std::size_t bytes = (holds_shapes() ? 2 * displacement_bytes(inputs_.shapes) : 0) + obj +
                       (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
-  if (ply_) bytes += ply_->encode_bytes(PlyTemplate::Normals::kVertex);
+  if (ply_) bytes += ply_->encode_bytes();
   if (glb_) bytes += glb_->encode_bytes();
   if (usd_) bytes += usd_->encode_bytes();
   if (!usd_attachments_.empty()) bytes += usd_bytes_worn_at_most(usd_attachments_[0]);
   for (const LevelWriter& level : levels_) bytes += level.encode_bytes();
   if (has(MeshFormat::kPoints)) bytes += npy_encode_bytes(inputs_.faces.topology.vertex_count);
   return bytes;
-}
-
-MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path) {
-  mesh.file.write(path);
-  return {mesh.name, mesh.file.digest(), mesh.file.size()};
 }
 
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, const std::vector<MeshFormat>& formats) {

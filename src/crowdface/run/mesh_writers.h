@@ -12,10 +12,12 @@
 
 #include "crowdface/cast/cast_face.h"
 #include "crowdface/config/config.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_template.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/ply_template.h"
@@ -41,6 +43,10 @@ struct EncodedMesh {
 /// one beside it for each of them, and points have their displacements; a GLB file holds them.
 /// Those of levels of detail follow, level by level, but for points, which have no faces.
 std::vector<MeshName> mesh_names(const std::vector<MeshFormat>& formats, const Inputs& inputs);
+
+/// The `mtllib` line that names material files; nothing if there are none.
+/// \param from  where their places are relative to.
+std::string library_line(const std::vector<MaterialFile>& files, const std::filesystem::path& from);
 
 /// Writes the faces of a crowd in the formats asked for. What the faces share is prepared once;
 /// encoding and writing then need no more than positions, and may be done by different threads.
@@ -77,8 +83,8 @@ class MeshWriters {
 
  private:
   LevelAttachments attachments_on(std::size_t level) const;
-  void add_obj_templates(const std::vector<Index>& targets);
-  bool has(MeshFormat format) const;
+  void add_obj_templates(const std::vector<Index>& targets, const std::string& shared);
+  bool has(MeshFormat format) const { return contains(formats_, format); }
   EncodedFile encode(const MeshName& mesh, const WholeFace& face) const;
   EncodedFile encode_level(const MeshName& mesh, const WholeFace& face) const;
   Positions in_shape(const WholeFace& face, const std::string& name) const;
@@ -103,9 +109,6 @@ class MeshWriters {
   std::vector<LevelWriter> levels_;
   std::optional<NormalFans> fans_;  ///< of the vertices, if a format needs normals
 };
-
-/// Writes what `encode` made and tells what it was.
-MeshFile write_mesh(const EncodedMesh& mesh, const std::filesystem::path& path);
 
 /// About how many bytes one face takes in these formats.
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, const std::vector<MeshFormat>& formats);

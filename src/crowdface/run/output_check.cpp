@@ -6,21 +6,15 @@
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/shallow_json.h"
-#include "crowdface/run/report_summary.h"
+#include "crowdface/run/report.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool lies_below(const fs::path& path, const fs::path& folder) {
-  std::error_code of_path, of_folder;
-  const fs::path way = fs::weakly_canonical(path, of_path)
-                           .lexically_relative(fs::weakly_canonical(folder, of_folder));
-  return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
-}
 
 /// \throws UsageError if an input lies where this run writes files and removes those of an old
 /// crowd.
@@ -29,7 +23,7 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
   for (const fs::path& input : input_files(config)) {
     if (sheet && input == sheet->compare.file) continue;  // may be one of this crowd's own
     for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
-      if (!lies_below(input, folder)) continue;
+      if (!leads_below(input, folder)) continue;
       throw UsageError(concat(directory.root.string(), ": the input ", input.string(),
                               " lies where files of this crowd are written; choose another folder "
                               "with --out"));
@@ -41,7 +35,7 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
 void refuse_to_write_over_config(const Config& config, const CrowdDirectory& directory) {
   std::error_code ignored;
   if (!fs::equivalent(config.file, directory.config(), ignored)) return;
-  if (fs::exists(directory.plan(), ignored)) return;  // it is a crowd's own
+  if (is_there(directory.plan())) return;  // it is a crowd's own
   if (read_file(config.file) == config_in_folder(config, directory)) return;
   throw UsageError(concat(config.file.string(),
                           ": stands where the crowd's own config would be written; choose another "
@@ -51,8 +45,7 @@ void refuse_to_write_over_config(const Config& config, const CrowdDirectory& dir
 }  // namespace
 
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace) {
-  std::error_code ignored;
-  if (replace == Replace::kForce || !fs::exists(directory.plan(), ignored)) return;
+  if (replace == Replace::kForce || !is_there(directory.plan())) return;
   const MappedFile file(directory.plan());
   const std::string_view plan = file.bytes();
   // Of a plan that is damaged some line tells.
@@ -65,21 +58,6 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
              "version of crowdface (\"settings\" in its plan.jsonl); choose another "
              "folder with --out, or replace it with --force (before shards: crowdface "
              "plan --force)"));
-}
-
-std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs) {
-  std::vector<std::pair<std::string, Digest>> digests = {
-      {"textures", inputs.textures.digest},
-      {"shapes", inputs.shapes_digest},
-      {"points", inputs.points_digest},
-      {"rig", inputs.rig.digest},
-      {"attachments", inputs.attachments.digest}};
-  for (const HeadTextures& maps : inputs.maps) {
-    const TextureKind kind = maps.names.front().kind;
-    digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);
-  }
-  std::erase_if(digests, [](const auto& each) { return each.second == Digest(); });
-  return digests;
 }
 
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) {

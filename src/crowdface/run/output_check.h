@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/run/pipeline.h"
 
@@ -17,9 +13,6 @@ void check_output(const Job& job, Replace replace);
 /// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
 /// \param settings  of the heads as they are now, see settings_digest.
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
-
-/// Hashes of what faces have from elsewhere than heads and masks, each by the name that report.json has.
-std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs);
 
 /// \throws UsageError if the report says that the folder's faces have other textures, attachments, shapes,
 /// points or another rig than these.

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "crowdface/core/contains.h"
-#include "crowdface/core/parallel.h"
-#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
@@ -18,15 +16,8 @@ namespace crowdface {
 namespace {
 
 std::string_view ending_of(TextureFormat format) {
-  switch (format) {
-    case TextureFormat::kPng:
-      return ".png";
-    case TextureFormat::kJpeg:
-      return ".jpg";
-    case TextureFormat::kExr:
-      return ".exr";
-  }
-  throw BrokenPrecondition("ending_of: an unknown format");
+  constexpr std::array<std::string_view, 3> kEndings = {".png", ".jpg", ".exr"};
+  return kEndings[static_cast<std::size_t>(format)];
 }
 
 /// \param tile  a number, or <UDIM>; empty for a picture that is no tile.
@@ -98,12 +89,8 @@ std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
   return pictures;
 }
 
-}  // namespace
-
-std::string material_file_name(const std::string& id) {
-  return id + ".mtl";
-}
-
+/// The formats that a face's picture is written in. Of colours those of the config. What is not colour is
+/// never JPEG, which would blur it, but PNG; and heights that a head has in floats are EXR alone.
 std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture) {
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =
@@ -115,6 +102,12 @@ std::vector<TextureFormat> formats_of(const Config& config, const PictureName& p
     if (!contains(formats, format)) formats.push_back(format);
   }
   return formats;
+}
+
+}  // namespace
+
+std::string material_file_name(const std::string& id) {
+  return id + ".mtl";
 }
 
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs) {

@@ -30,10 +30,6 @@ struct OwnFile {
 std::vector<std::string> own_file_names(const Config& config, const Inputs& inputs,
                                         std::span<const MeshFormat> meshes, const std::string& id);
 
-/// The formats that a face's picture is written in. Of colours those of the config. What is not colour is
-/// never JPEG, which would blur it, but PNG; and heights that a head has in floats are EXR alone.
-std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture);
-
 /// A picture that a GLB file holds. It knows no EXR, and nothing but colours, normals and roughness.
 struct GlbPicture {
   std::size_t picture = 0;  ///< of own_pictures

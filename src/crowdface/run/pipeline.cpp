@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "crowdface/config/config_difference.h"
-#include "crowdface/config/config_writer.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
@@ -51,15 +50,20 @@ void check_smoothness(const SmoothnessDistribution& distribution, const std::str
 }
 
 /// Each band must begin below the one before it, wherever in their ranges both are drawn.
-void check_bands(const SamplingOptions& sampling, const std::string& where, const Config& config,
-                 const Inputs& inputs, Problems& problems) {
+/// \param where  what keys begin with in messages
+void check_sampling(const SamplingOptions& sampling, const std::string& where, const Config& config,
+                    const Inputs& inputs, Problems& problems) {
   const LevelScale scale = level_scale(config, inputs);
   const auto names = config.region_names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    check_smoothness(sampling.regions[k].smoothness, concat(where, "smoothness (", names[k], ')'),
+                     config, inputs, problems);
+  }
   for (std::size_t k = 0; k < names.size(); ++k) {
     SmoothnessDistribution before;
     for (std::size_t b = 0; b < sampling.bands.size(); ++b) {
       const SmoothnessDistribution& own = smoothness_of(sampling, k, b);
-      const std::string here = concat(where, '.', sampling.bands[b].name, " (", names[k], ')');
+      const std::string here = concat(where, "bands.", sampling.bands[b].name, " (", names[k], ')');
       check_smoothness(own, here, config, inputs, problems);
       const double least = level_of(before.range.low, before.unit, scale);
       const double most = level_of(own.range.high, own.unit, scale);
@@ -97,19 +101,9 @@ std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Conf
 }
 
 void check_levels(const Config& config, const Inputs& inputs, Problems& problems) {
-  const auto names = config.region_names();
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    check_smoothness(config.sampling.regions[k].smoothness,
-                     concat("sampling.smoothness (", names[k], ')'), config, inputs, problems);
-  }
-  check_bands(config.sampling, "sampling.bands", config, inputs, problems);
+  check_sampling(config.sampling, "sampling.", config, inputs, problems);
   for (const Group& group : config.groups) {
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      check_smoothness(group.sampling.regions[k].smoothness,
-                       concat("group ", group.name, ", smoothness (", names[k], ')'), config,
-                       inputs, problems);
-    }
-    check_bands(group.sampling, concat("group ", group.name, ", bands"), config, inputs, problems);
+    check_sampling(group.sampling, concat("group ", group.name, ", "), config, inputs, problems);
   }
   for (const HandRecipe& recipe : config.recipes) {
     const std::string where = concat("recipe ", recipe.id);
@@ -130,9 +124,8 @@ constexpr std::uint64_t kFacesPerFolder = 1'000;
 void choose_folders(Config& config) {
   if (config.output.faces_per_folder || face_count(config) <= kMostInOneFolder) return;
   const CrowdDirectory directory{config.output.directory};
-  std::error_code ignored;
   const bool stands_there =
-      std::filesystem::exists(directory.config(), ignored) &&
+      is_there(directory.config()) &&
       !config_difference(read_file(directory.config()), effective_config(config, directory.root));
   if (!stands_there) config.output.faces_per_folder = kFacesPerFolder;
 }
@@ -143,8 +136,7 @@ ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
   ConfigReading reading = read_config_parts(config_file, overrides, problems);
   if (reading.complete) choose_folders(reading.config);
   const CrowdDirectory directory{reading.config.output.directory};
-  std::error_code ignored;
-  if (!reading.complete || !std::filesystem::exists(directory.config(), ignored)) return reading;
+  if (!reading.complete || !is_there(directory.config())) return reading;
   overrides.kept_reviews = directory.kept_reviews();
   if (overrides.kept_reviews.empty()) return reading;
   const std::string config = effective_config(reading.config, directory.root);
@@ -224,10 +216,6 @@ CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) 
 
 LevelScale level_scale(const Config& config, const Inputs& inputs) {
   return {config.smoothing.operator_kind, inputs.max_level, inputs.edge_length_mm};
-}
-
-TextPieces plan_text(const Job& job, const std::vector<CastFace>& crowd) {
-  return plan_text(crowd, job.names, job.settings);
 }
 
 }  // namespace crowdface

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/config/config.h"
@@ -45,8 +44,5 @@ CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
 /// What turns a smoothness into iterations on these heads.
 LevelScale level_scale(const Config& config, const Inputs& inputs);
-
-/// The plan as it stands in plan.jsonl. Both must outlive the text.
-TextPieces plan_text(const Job& job, const std::vector<CastFace>& crowd);
 
 }  // namespace crowdface

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/planned.h"
 
-#include <algorithm>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "crowdface/cast/quotas.h"
@@ -14,8 +12,6 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/io/shallow_json.h"
-#include "crowdface/run/casting_report.h"
-#include "crowdface/run/resume.h"
 
 namespace crowdface {
 namespace {
@@ -27,28 +23,6 @@ Digest key_of(const Job& job, const CrowdDirectory& directory) {
   hasher.add_array(std::span(job.inputs.distance_mask));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
   return hasher.digest();
-}
-
-std::optional<std::string> text_at(const nlohmann::ordered_json& json, const char* key) {
-  const auto found = json.find(key);
-  if (found == json.end() || !found->is_string()) return std::nullopt;
-  return found->get<std::string>();
-}
-
-/// Those that the mark names, the plan first; none if it is not whole.
-std::vector<LedgerEntry::File> files_of(const nlohmann::ordered_json& mark) {
-  std::vector<LedgerEntry::File> files;
-  const auto list = mark.find("files");
-  if (list == mark.end() || !list->is_array()) return {};
-  for (const auto& json : *list) {
-    if (!json.is_object()) return {};
-    const auto name = text_at(json, "file"), hash = text_at(json, "hash");
-    const auto digest = hash ? parse_digest(*hash) : std::nullopt;
-    const auto bytes = json.find("bytes");
-    if (!name || !digest || bytes == json.end() || !bytes->is_number_unsigned()) return {};
-    files.push_back({*name, {bytes->get<std::uint64_t>(), *digest}});
-  }
-  return files;
 }
 
 /// The faces that a shard has in the plan, read by several threads.
@@ -77,10 +51,17 @@ std::vector<CastFace> read_faces(const Job& job, const std::filesystem::path& pl
   return faces;
 }
 
-/// Of a file that this run has just written. \throws IoError if it is gone.
-FileDigest hash_own_file(const std::filesystem::path& file) {
+/// A folder with a report is complete: another plan's report must not outlive the plan.
+void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan) {
+  if (!is_there(directory.report()) || holds(directory.plan(), digest_of(plan))) return;
+  remove_if_there(directory.report());
+}
+
+/// As the mark has a file that this run has just written. \throws IoError if it is gone.
+nlohmann::ordered_json own_file_to_json(const CrowdDirectory& directory,
+                                        const std::filesystem::path& file) {
   try {
-    return hash_file(file);
+    return file_to_json({directory.relative(file), hash_file(file)});
   } catch (const MissingInput&) {
     throw IoError(concat(file.string(),
                          ": was removed while the run was at work; run the same command again"));
@@ -93,18 +74,17 @@ void write_plan(
     const Job& job, const CrowdDirectory& directory, const Cast& cast,
     const nlohmann::ordered_json& casting,
     const std::function<void(const std::filesystem::path& path, const TextPieces& text)>& write) {
-  const auto write_whole = [&](const std::filesystem::path& path, const std::string& bytes) {
-    write(path, [&](const TakePiece& take) { take(bytes); });
-  };
-  const TextPieces plan = plan_text(job, cast.crowd);
+  const TextPieces plan = plan_text(cast.crowd, job.names, job.settings);
   remove_report_of_other_plan(directory, plan);
   write(directory.plan(), plan);
   write(directory.table(), table_text(cast.crowd, job.names));
   if (!cast.founders.empty()) {
-    write_whole(directory.founders(), format_founders(job, cast.founders));
+    write(directory.founders(), plan_text(cast.founders, job.names, job.settings));
   }
-  if (!cast.rejected.empty()) write(directory.rejected(), plan_text(job, cast.rejected));
-  write_whole(directory.casting(), casting.dump(2) + "\n");
+  if (!cast.rejected.empty()) {
+    write(directory.rejected(), plan_text(cast.rejected, job.names, job.settings));
+  }
+  write(directory.casting(), [&](const TakePiece& take) { take(casting.dump(2) + "\n"); });
 }
 
 void mark_planned(const Job& job, const CrowdDirectory& directory) {
@@ -112,12 +92,7 @@ void mark_planned(const Job& job, const CrowdDirectory& directory) {
   for (const std::filesystem::path& file :
        {directory.plan(), directory.table(), directory.founders(), directory.rejected(),
         directory.casting()}) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) continue;
-    const FileDigest content = hash_own_file(file);
-    files.push_back({{"file", directory.relative(file)},
-                     {"bytes", content.bytes},
-                     {"hash", content.digest.hex()}});
+    if (is_there(file)) files.push_back(own_file_to_json(directory, file));
   }
   const nlohmann::ordered_json mark = {{"job", key_of(job, directory).hex()}, {"files", files}};
   write_file(directory.planned(), mark.dump() + "\n");
@@ -125,26 +100,29 @@ void mark_planned(const Job& job, const CrowdDirectory& directory) {
 
 std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,
                                           const Shard& shard) {
-  std::error_code ignored;
-  for (const std::filesystem::path& file : {directory.planned(), directory.plan()}) {
-    if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
-  }
+  if (!is_file(directory.planned()) || !is_file(directory.plan())) return std::nullopt;
   const auto mark = parse_shallow_json(read_file(directory.planned()));
-  if (!mark.is_object() || text_at(mark, "job") != key_of(job, directory).hex()) {
+  if (!mark.is_object() || !mark.contains("files")) return std::nullopt;
+  const auto files = files_from_json(mark["files"]);
+  if (!files || files->empty() ||
+      mark.value("job", nlohmann::ordered_json()) != key_of(job, directory).hex()) {
     return std::nullopt;
   }
-  PlannedFaces planned;
-  planned.files = files_of(mark);
   // What a shard does not read it leaves to those who gather.
-  const std::size_t read = shard.whole() ? planned.files.size() : 1;
-  if (planned.files.empty() ||
-      !std::all_of(
-          planned.files.begin(), planned.files.begin() + static_cast<std::ptrdiff_t>(read),
-          [&](const auto& file) { return holds(directory.root / file.name, file.content); })) {
-    return std::nullopt;
+  for (const LedgerEntry::File& file : std::span(*files).first(shard.whole() ? files->size() : 1)) {
+    if (!holds(directory.root / file.name, file.content)) return std::nullopt;
   }
-  planned.faces = read_faces(job, directory.plan(), shard);
-  return planned;
+  return PlannedFaces{read_faces(job, directory.plan(), shard), *files};
+}
+
+std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& directory) {
+  std::vector<CastFace> founders;
+  if (!is_there(directory.founders())) return founders;
+  for (PlanLine& line : read_plan(directory.founders(), job.names)) {
+    founders.push_back(std::move(line.face));
+    founders.back().family = founders.back().family.value_or(founders.back().id);
+  }
+  return founders;
 }
 
 Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,

@@ -39,6 +39,9 @@ struct PlannedFaces {
 std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,
                                           const Shard& shard);
 
+/// The founders of families that stand in the folder; none if it has no such file.
+std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& directory);
+
 /// What `cast` says of a crowd, as far as it is needed once its plan is written: nothing of distances,
 /// rejections and how families came out, which casting.json tells.
 Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,

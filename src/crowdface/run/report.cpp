@@ -7,20 +7,23 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/core/file.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
-#include "crowdface/run/output_check.h"
-#include "crowdface/run/report_summary.h"
+#include "crowdface/io/shallow_json.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// What stands in a report between its summary and its faces.
+constexpr std::string_view kBeforeFaces = ",\n  \"faces\": [";
 
 /// Smallest, median and largest of what casting.json says of distances; null where there is nothing.
 Json distribution(const Json& of) {
@@ -133,17 +136,18 @@ Json face_to_json(const std::string& id, const FaceFiles& files) {
   Json face = {{"id", id}};
   for (const MeshFile& mesh : files.meshes) {
     const MeshName& name = mesh.name;
+    const std::string hash = mesh.content.digest.hex();
     const std::string file = part_of(name).empty() ? "" : file_end(name).substr(1);
     if (name.level > 0) {
-      face["lods"][file] = mesh.digest.hex();
+      face["lods"][file] = hash;
     } else if (!name.attachment.empty()) {
-      face["attachments"][file] = mesh.digest.hex();
+      face["attachments"][file] = hash;
     } else if (name.shape == kFollowingPoints) {
-      face["following_points"] = mesh.digest.hex();
+      face["following_points"] = hash;
     } else if (name.shape.empty()) {
-      face[report_key(name.format)] = mesh.digest.hex();
+      face[report_key(name.format)] = hash;
     } else {
-      face["shapes"][file] = mesh.digest.hex();
+      face["shapes"][file] = hash;
     }
   }
   if (files.skin) {
@@ -231,6 +235,27 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cas
     })(take);
     take(files.empty() ? "]\n}\n" : "\n  ]\n}\n");
   };
+}
+
+Json read_report_summary(const std::filesystem::path& file) {
+  const MappedFile report(file);
+  const std::string_view whole = report.bytes();
+  return parse_shallow_json(concat(whole.substr(0, whole.find(kBeforeFaces)), "\n}"));
+}
+
+std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs) {
+  std::vector<std::pair<std::string, Digest>> digests = {
+      {"textures", inputs.textures.digest},
+      {"shapes", inputs.shapes_digest},
+      {"points", inputs.points_digest},
+      {"rig", inputs.rig.digest},
+      {"attachments", inputs.attachments.digest}};
+  for (const HeadTextures& maps : inputs.maps) {
+    const TextureKind kind = maps.names.front().kind;
+    digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);
+  }
+  std::erase_if(digests, [](const auto& each) { return each.second == Digest(); });
+  return digests;
 }
 
 std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,13 @@ namespace crowdface {
 TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cast,
                        const nlohmann::ordered_json& casting, const std::vector<FaceFiles>& files,
                        std::size_t sheets, const std::vector<std::string>& warnings);
+
+/// A report.json without its faces, which may be a million.
+/// \return what `is_discarded()` if it is no report of ours.
+nlohmann::ordered_json read_report_summary(const std::filesystem::path& file);
+
+/// Hashes of what faces have from elsewhere than heads and masks, each by the name that report.json has.
+std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs);
 
 /// How long each stage took, in the order it ran.
 using StageSeconds = std::vector<std::pair<std::string, double>>;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "crowdface/core/append_file.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -55,20 +55,13 @@ void write_iris(const Config& config, const Inputs& inputs, const CrowdDirectory
 
 }  // namespace
 
-void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan) {
-  std::error_code ignored;
-  if (!fs::exists(directory.report(), ignored) || holds(directory.plan(), digest_of(plan))) return;
-  fs::remove(directory.report(), ignored);
-}
-
 FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
                            const Shard& shard, const std::function<void()>& asked) {
   FacesSoFar so_far;
   so_far.files.resize(crowd.size());
   std::vector<char> missing(crowd.size(), 0);
-  parallel_for_each(static_cast<Index>(crowd.size()), [&](Index c) {
+  parallel_for_each(crowd.size(), [&](std::size_t i) {
     throw_if_interrupted();
-    const auto i = static_cast<std::size_t>(c);
     if (!shard.owns(i)) return;
     if (auto files = ledger.done(crowd[i])) {
       so_far.files[i] = std::move(*files);
@@ -103,11 +96,9 @@ void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Cas
 
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
                         Ledger& ledger) {
-  const auto writes = [&](MeshFormat format) {
-    return std::ranges::find(config.output.meshes, format) != config.output.meshes.end();
-  };
-  if (writes(MeshFormat::kPoints)) write_shared_arrays(inputs, directory, ledger);
-  if (writes(MeshFormat::kUsd)) write_iris(config, inputs, directory, ledger);
+  const std::vector<MeshFormat>& formats = config.output.meshes;
+  if (contains(formats, MeshFormat::kPoints)) write_shared_arrays(inputs, directory, ledger);
+  if (contains(formats, MeshFormat::kUsd)) write_iris(config, inputs, directory, ledger);
 }
 
 std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const Shard& shard) {
@@ -121,19 +112,14 @@ std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const
 }
 
 void remove_notes_of_shards(const CrowdDirectory& directory) {
-  std::vector<fs::path> notes = directory.all_progress();
-  notes.push_back(directory.planned());
-  for (const fs::path& path : notes) {
-    std::error_code ignored;
-    fs::remove(path, ignored);
-  }
+  for (const fs::path& path : directory.all_progress()) remove_if_there(path);
+  remove_if_there(directory.planned());
 }
 
 void gather_logs(const CrowdDirectory& directory) {
   for (const fs::path& log : directory.shard_logs()) {
     AppendFile(directory.log()).append(read_file(log));
-    std::error_code ignored;
-    fs::remove(log, ignored);
+    remove_if_there(log);
   }
 }
 

@@ -5,15 +5,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "crowdface/run/face_ledger.h"
 
 namespace crowdface {
-
-/// A folder with a report is complete: another plan's report must not outlive the plan.
-void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan);
 
 /// The crowd's faces as far as they are done, and which are not.
 struct FacesSoFar {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "crowdface/crowd/shard_notes.h"
+#include "crowdface/crowd/shard.h"
 
 namespace crowdface {
 

@@ -2,6 +2,7 @@
 #include "crowdface/run/task_scripts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -57,10 +58,8 @@ double face_seconds(const Config& config, const Inputs& inputs) {
 
 /// How many tasks of at most so many seconds.
 std::uint64_t tasks_for(double seconds, double seconds_a_task, std::uint64_t most) {
-  const double tasks = std::ceil(seconds / seconds_a_task);
-  return tasks >= static_cast<double>(most)
-             ? std::max<std::uint64_t>(most, 1)
-             : std::max<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1);
+  const double tasks = std::min(std::ceil(seconds / seconds_a_task), static_cast<double>(most));
+  return std::max<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1);
 }
 
 std::filesystem::path script_of(const TaskJob& job) {
@@ -267,8 +266,7 @@ std::string openjd_template(const TaskJob& job, const EngineOptions& options) {
 std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
                              std::uint64_t processors) {
   constexpr double kSeconds = 600;
-  constexpr std::uint64_t kMost =
-      1000;  // as many tasks as Slurm's arrays have unless a site says more
+  constexpr std::uint64_t kMost = 1000;  // as Slurm's arrays have unless a site says more
   const double all = face_seconds(config, inputs) * static_cast<double>(faces);
   return tasks_for(all / static_cast<double>(processors), kSeconds, std::min(kMost, faces));
 }
@@ -282,15 +280,8 @@ std::uint64_t fitting_prepares(const Inputs& inputs, std::uint64_t processors) {
 }
 
 std::string_view name_of(Engine engine) {
-  switch (engine) {
-    case Engine::kSlurm:
-      return "slurm";
-    case Engine::kParallel:
-      return "parallel";
-    case Engine::kOpenJd:
-      return "openjd";
-  }
-  return "";
+  constexpr std::array<std::string_view, 3> kNames = {"slurm", "parallel", "openjd"};
+  return kNames[static_cast<std::size_t>(engine)];
 }
 
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,

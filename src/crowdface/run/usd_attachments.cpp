@@ -81,22 +81,15 @@ std::vector<UsdAttachments> usd_attachments(const Inputs& inputs, const std::str
   }
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  std::vector<UsdAttachments> all;
-  all.emplace_back(inputs.attachments, [&](const Attachment& item) {
-    const PrimLook& look = looks.at(&item);
-    return UsdaPart(look.prim, item.file.topology, item.file.uvs, look.materials, look.of_face,
-                    targets);
-  });
-  for (const WornLevel& worn : levels) {
-    all.emplace_back(inputs.attachments, [&](const Attachment& item) -> std::optional<UsdaPart> {
-      const DetailLevel* level = worn.find(item);
-      if (level == nullptr) return std::nullopt;
-      const PrimLook& look = looks.at(&item);
-      return UsdaPart(look.prim, level->topology, level->uvs, look.materials,
-                      on_level(*level, look.of_face), targets);
-    });
-  }
-  return all;
+  return UsdAttachments::on_all(
+      inputs.attachments, levels, [&](const Attachment& item, const DetailLevel* level) {
+        const auto& [prim, materials, of_face] = looks.at(&item);
+        if (level == nullptr) {
+          return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets);
+        }
+        return UsdaPart(prim, level->topology, level->uvs, materials,
+                        at_rows(of_face, level->faces), targets);
+      });
 }
 
 }  // namespace crowdface

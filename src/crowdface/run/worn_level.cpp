@@ -14,40 +14,30 @@ namespace {
 std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const MeasuredLevel> levels) {
   const Topology& topology = item.file.topology;
   const auto triangles = static_cast<double>(topology.corner_count() - 2 * topology.face_count());
+  constexpr double kFewestTriangles = 300;
   std::vector<double> shares;
   for (const MeasuredLevel& level : levels) {
-    shares.push_back(
-        std::min(1.0, std::max(level.level.share, WornLevel::kFewestTriangles / triangles)));
+    shares.push_back(std::min(1.0, std::max(level.level.share, kFewestTriangles / triangles)));
   }
-  const auto faces = topology.face_count();
-  std::vector<std::uint32_t> looks = face_materials(item.file.materials, faces).of_face;
-  looks.resize(static_cast<std::size_t>(faces));
-  return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}}, looks,
-                       shares);
+  return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}},
+                       face_materials(item.file.materials, topology.face_count()).of_face, shares);
 }
 
 }  // namespace
 
 const DetailLevel* WornLevel::find(const Attachment& item) const {
-  const auto found = items_.find(&item);
-  return found == items_.end() ? nullptr : &found->second;
+  const auto found = items.find(&item);
+  return found == items.end() ? nullptr : &found->second;
 }
 
 std::vector<WornAttachment> WornLevel::of(std::span<const WornAttachment> worn) const {
   std::vector<WornAttachment> reduced;
   for (const WornAttachment& one : worn) {
-    const DetailLevel& level = items_.at(one.item);
+    const DetailLevel& level = items.at(one.item);
     reduced.push_back({one.item, level.of(one.positions)});
     for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
   }
   return reduced;
-}
-
-std::vector<std::uint32_t> on_level(const DetailLevel& level,
-                                    std::span<const std::uint32_t> of_face) {
-  std::vector<std::uint32_t> some;
-  for (const std::uint32_t face : level.faces) some.push_back(of_face[face]);
-  return some;
 }
 
 std::vector<WornLevel> worn_levels(const Inputs& inputs, std::span<const CastFace> crowd) {
@@ -62,7 +52,7 @@ std::vector<WornLevel> worn_levels(const Inputs& inputs, std::span<const CastFac
                     [&](std::size_t i) { of_items[i] = levels_of(*items[i], inputs.levels); });
   for (std::size_t i = 0; i < items.size(); ++i) {
     for (std::size_t l = 0; l < levels.size(); ++l) {
-      levels[l].items_.emplace(items[i], std::move(of_items[i][l]));
+      levels[l].items.emplace(items[i], std::move(of_items[i][l]));
     }
   }
   return levels;

@@ -31,7 +31,7 @@ void write_attachments(const Job& job, const CastFace& face, MeshFormat format,
   writers.add_to(meshes, face.id, worn);
   for (const EncodedMesh& mesh : meshes) {
     if (!mesh.name.shape.empty()) continue;
-    write_mesh(mesh, file.parent_path() / (file.stem().string() + file_end(mesh.name)));
+    mesh.file.write(file.parent_path() / (file.stem().string() + file_end(mesh.name)));
   }
   for (const std::string& name : face.attachments) {
     for (const MaterialFile& material : job.inputs.attachments.at(name).materials.files) {
@@ -68,7 +68,7 @@ void write_face(const Job& job, const FaceTextures& textures, const CastFace& fa
   write_attachments(job, face, format, worn, file);
   write_iris(job, format, file.parent_path());
   if (!textures.any()) {
-    write_mesh(writers.encode(face, positions, moves, {}, worn).front(), file);
+    writers.encode(face, positions, moves, {}, worn).front().file.write(file);
     return;
   }
   const OwnTextures own(job.config, job.inputs, {&face, 1});
@@ -77,7 +77,7 @@ void write_face(const Job& job, const FaceTextures& textures, const CastFace& fa
     (*encoded)[p] = own.encode(p, textures.blend(face.recipe, p));
   });
   const std::vector<std::string_view> of_mesh = own.of_mesh(*encoded);
-  write_mesh(writers.encode(face, positions, moves, of_mesh, worn).front(), file);
+  writers.encode(face, positions, moves, of_mesh, worn).front().file.write(file);
   for (const OwnFile& beside : own.files(face, std::span(&format, 1), encoded)) {
     const std::filesystem::path path = file.parent_path() / beside.name;
     make_directories(path.parent_path());

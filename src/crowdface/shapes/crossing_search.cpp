@@ -8,8 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "crowdface/core/grouped.h"
-#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 #include "crowdface/validity/triangle_scene.h"
 #include "crowdface/validity/triangles.h"
 
@@ -37,14 +36,9 @@ constexpr std::uint64_t kOnce = [] {
 /// Which triangles are how many edges from one.
 class Rings {
  public:
-  Rings(std::span<const Triangle> triangles, Index vertex_count)
+  Rings(const std::vector<Triangle>& triangles, Index vertex_count)
       : triangles_(triangles),
-        around_(grouped<std::uint32_t>(static_cast<std::size_t>(vertex_count),
-                                       [&](const auto& put) {
-                                         for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-                                           for (const std::uint32_t v : triangles[t]) put(v, t);
-                                         }
-                                       })),
+        around_(topology_of(triangles, vertex_count)),
         seen_(triangles.size(), kNoIndex) {}
 
   /// Those within kSheetRings, the one itself included.
@@ -68,8 +62,8 @@ class Rings {
   }
 
  private:
-  std::span<const Triangle> triangles_;
-  Grouped<std::uint32_t> around_;    ///< #V
+  const std::vector<Triangle>& triangles_;
+  FacesAround around_;
   std::vector<std::uint32_t> seen_;  ///< #triangles: from which
   std::vector<std::uint32_t> reached_;
 };
@@ -99,14 +93,9 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   std::vector<Triangle> numbered = triangles_;
   for (Triangle& triangle : numbered) {
-    for (std::uint32_t& v : triangle) {
-      v = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
-    }
+    for (std::uint32_t& v : triangle) v = place_in(vertices_, v);
   }
-  Positions points(static_cast<Index>(vertices_.size()), 3);
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    points.row(static_cast<Index>(i)) = mesh.row(vertices_[i]);
-  }
+  const Positions points = mesh(vertices_, Eigen::all);
   tree_ = TriangleTree(numbered, points, reach);
   find_near(numbered, points, reach, facing);
 }
@@ -164,12 +153,9 @@ void CrossingSearch::measure(std::size_t l, Boxes& boxes) const {
 
 CrossingSearch::Boxes CrossingSearch::boxes_of(const Positions& mesh) const {
   const std::size_t leaves = tree_.leaf_count();
-  Boxes boxes{SingleRows(static_cast<Index>(vertices_.size()), 3), std::vector<LeafBoxes>(leaves),
+  Boxes boxes{mesh(vertices_, Eigen::all).cast<float>(), std::vector<LeafBoxes>(leaves),
               std::vector<LeafNormals>(leaves), std::vector<Box>(leaves),
               std::vector<std::uint8_t>(leaves, 1)};
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    boxes.points.row(static_cast<Index>(i)) = mesh.row(vertices_[i]).cast<float>();
-  }
   for (std::size_t l = 0; l < leaves; ++l) measure(l, boxes);
   return boxes;
 }

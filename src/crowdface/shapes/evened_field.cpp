@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -84,17 +85,12 @@ class CellMeans {
 EvenedField::EvenedField(std::vector<Eigen::Vector3d> around, double cell, double whole,
                          double none)
     : around_(std::move(around)), cell_(cell), whole_(whole), none_(none) {
-  if (around_.empty()) return;
-  low_ = high_ = around_.front();
-  for (const Eigen::Vector3d& place : around_) {
-    low_ = low_.cwiseMin(place).eval();
-    high_ = high_.cwiseMax(place).eval();
-  }
+  for (const Eigen::Vector3d& place : around_) box_.extend(place);
 }
 
 bool EvenedField::in_reach(const Eigen::Vector3d& place, double reach) const {
-  return !around_.empty() && (place.array() > low_.array() - reach).all() &&
-         (place.array() < high_.array() + reach).all();
+  return (place.array() > box_.min().array() - reach).all() &&
+         (place.array() < box_.max().array() + reach).all();
 }
 
 bool EvenedField::hears(const Eigen::Vector3d& place) const {
@@ -112,17 +108,17 @@ double EvenedField::distance(const Eigen::Vector3d& place) const {
 }
 
 std::vector<EvenedField::Change> EvenedField::changes(std::span<const Sample> samples) const {
+  if (samples.empty()) return {};
   const double margin = none_ + cell_;
-  CellMeans means(low_.array() - margin, high_.array() + margin, cell_);
+  CellMeans means(box_.min().array() - margin, box_.max().array() + margin, cell_);
   for (const Sample& sample : samples) means.add(sample.place, sample.value);
   std::vector<Change> changes;
   for (const Sample& sample : samples) {
     if (!in_reach(sample.place, none_)) continue;
     const double away = distance(sample.place);
     if (away >= none_) continue;
-    const double t = std::clamp((none_ - away) / (none_ - whole_), 0.0, 1.0);
-    changes.push_back(
-        {sample.number, t * t * (3 - 2 * t) * (means.at(sample.place) - sample.value)});
+    changes.push_back({sample.number,
+                       smooth_step(none_, whole_, away) * (means.at(sample.place) - sample.value)});
   }
   return changes;
 }

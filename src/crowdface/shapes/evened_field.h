@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -37,7 +39,7 @@ class EvenedField {
   double distance(const Eigen::Vector3d& place) const;
 
   std::vector<Eigen::Vector3d> around_;
-  Eigen::Vector3d low_ = Eigen::Vector3d::Zero(), high_ = low_;
+  Eigen::AlignedBox3d box_;  ///< of those
   double cell_, whole_, none_;
 };
 

@@ -2,11 +2,11 @@
 #include "crowdface/shapes/frame_field.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -21,11 +21,6 @@ constexpr double kWhole = 0.02;
 /// Vertices that stand for all: of the skin, of candidates for places, of a patch.
 constexpr std::size_t kMostSkin = 4000, kMostCandidates = 20000, kMostPatch = 400;
 
-double bump(double distance) {
-  const double rest = 1 - distance * distance;
-  return rest > 0 ? rest * rest : 0;
-}
-
 /// Vertices that lie as far from each other as can be: the next is always the farthest from those
 /// before, until none is as far as `spacing`.
 std::vector<std::uint32_t> spread_over(const Positions& positions,
@@ -38,8 +33,7 @@ std::vector<std::uint32_t> spread_over(const Positions& positions,
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       nearest[i] = std::min(nearest[i], length3(row3(positions, vertices[i]) - here));
     }
-    next = static_cast<std::size_t>(std::max_element(nearest.begin(), nearest.end()) -
-                                    nearest.begin());
+    next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
   }
   return chosen;
 }
@@ -77,7 +71,7 @@ FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> 
     for (std::uint32_t p = 0; p < places_.size(); ++p) {
       const double distance = length3(row3(neutral, v) - places_[p].middle);
       if (distance < nearest.weight) nearest = {p, distance};
-      const double weight = bump(distance / (kBetween * extent));
+      const double weight = biweight(std::min(1.0, distance / (kBetween * extent)));
       if (weight > 0) shares.push_back({p, weight});
       sum += weight;
     }
@@ -96,7 +90,7 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
   double sum = 0;
   for (const std::uint32_t v : patch) {
     const Eigen::Vector3d from = row3(neutral, v) - place.middle;
-    weights.push_back(bump(length3(from) / reach));
+    weights.push_back(biweight(std::min(1.0, length3(from) / reach)));
     mean += weights.back() * from;
     sum += weights.back();
   }
@@ -104,9 +98,8 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < patch.size(); ++i) {
     const Eigen::Vector3d from = row3(neutral, patch[i]) - place.middle - mean;
-    for (Index r = 0; r < 3; ++r) {
-      for (Index c = 0; c < 3; ++c) spread(r, c) += weights[i] * from(r) * from(c);
-    }
+    const Eigen::Vector3d weighted = weights[i] * from;
+    spread += weighted * from.transpose();
   }
   const double whole = kWhole * (spread(0, 0) + spread(1, 1) + spread(2, 2));
   if (!(whole > 0)) {
@@ -134,9 +127,7 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
     const Eigen::Vector3d origin = row3(face, place.vertex);
     for (const Sample& sample : place.samples) {
       const Eigen::Vector3d from = row3(face, sample.vertex) - origin;
-      for (Index r = 0; r < 3; ++r) {
-        for (Index c = 0; c < 3; ++c) map(r, c) += from(r) * sample.weight(c);
-      }
+      map += from * sample.weight.transpose();
     }
   }
   return frames;

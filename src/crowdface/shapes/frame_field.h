@@ -61,13 +61,6 @@ class FrameField {
   Grouped<Share> shares_;  ///< #used
 };
 
-/// Written out: a library's product chooses its order by the machine.
-inline Eigen::Vector3d apply3(const Eigen::Matrix3d& map, const Eigen::Vector3d& v) {
-  return {map(0, 0) * v.x() + map(0, 1) * v.y() + map(0, 2) * v.z(),
-          map(1, 0) * v.x() + map(1, 1) * v.y() + map(1, 2) * v.z(),
-          map(2, 0) * v.x() + map(2, 1) * v.y() + map(2, 2) * v.z()};
-}
-
 /// The inverse of a matrix that has one, by cofactors.
 Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m);
 

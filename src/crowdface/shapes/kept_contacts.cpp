@@ -17,7 +17,6 @@ constexpr double kMostChange = 1e-3;
 KeptContacts::KeptContacts(const FaceSet& faces, const Adjacency& adjacency,
                            std::span<const std::uint32_t> skin)
     : contacts_(faces, adjacency, skin),
-      moved_(contacts_.moved()),
       most_(kMostChange * extent_of(faces.heads.front().positions, skin)) {}
 
 bool KeptContacts::moved_by(std::span<const std::uint32_t> vertices) const {

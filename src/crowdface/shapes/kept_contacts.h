@@ -23,7 +23,7 @@ class KeptContacts {
   std::vector<std::uint32_t> vertices() const;
 
   /// The vertices that `keep` may move.
-  const std::vector<std::uint32_t>& moved() const { return moved_; }
+  std::vector<std::uint32_t> moved() const { return contacts_.moved(); }
 
   /// Of all places. \param positions  #V by 3
   std::vector<double> gaps(const Positions& positions) const { return contacts_.gaps(positions); }
@@ -41,7 +41,6 @@ class KeptContacts {
 
  private:
   SkinContacts contacts_;
-  std::vector<std::uint32_t> moved_;
   double most_ = 0;  ///< a gap that changes by more is not kept
 };
 

@@ -8,7 +8,9 @@
 #include <set>
 
 #include "crowdface/core/fixed_order.h"
+#include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 
 namespace crowdface {
 namespace {
@@ -34,12 +36,6 @@ constexpr double kSure = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // as good as no gap
 
-/// From 1 up to `whole` to 0 from `none` on, smoothly.
-double fading(double at, double whole, double none) {
-  const double t = std::clamp((none - at) / (none - whole), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
 /// Where the lid's rim is at a place along the opening.
 Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
                        const Eigen::Vector3d& along) {
@@ -54,12 +50,6 @@ Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool uppe
     found = point;
   }
   return found;
-}
-
-std::uint32_t row_of(const Displacements& shape, std::uint32_t vertex) {
-  const auto at = std::lower_bound(shape.vertices.begin(), shape.vertices.end(), vertex);
-  if (at == shape.vertices.end() || *at != vertex) return kNoIndex;
-  return static_cast<std::uint32_t>(at - shape.vertices.begin());
 }
 
 }  // namespace
@@ -77,15 +67,16 @@ void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<sig
   }
 }
 
-FaceEye::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
+BallMap::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
   const BallMap::Gap found = ball->gap_at(motion.undo(point) - ball->centre());
   return {motion.scale * found.gap, motion.turn(found.normal) / motion.scale};
 }
 
-std::vector<double> eye_gaps(const TemplateEye& eye, const FaceEye& there, const Positions& mesh) {
-  std::vector<double> gaps;
-  for (const std::uint32_t v : eye.skin) gaps.push_back(there.gap_at(row3(mesh, v)).gap);
-  return gaps;
+FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
+                 const Positions& mesh) {
+  FaceEye there{&ball, motion};
+  for (const std::uint32_t v : eye.skin) there.rest_gaps.push_back(there.gap_at(row3(mesh, v)).gap);
+  return there;
 }
 
 LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
@@ -96,18 +87,18 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   const FaceEye at_rest{&eye.ball, {}};
   const Eigen::Vector3d along = axes.side();
   for (std::uint32_t i = 0; i < eye.skin.size(); ++i) {
-    const std::uint32_t v = eye.skin[i], row = row_of(shape, v);
+    const std::uint32_t v = eye.skin[i], row = place_in(shape.vertices, v);
     if (row == kNoIndex) continue;
     const Eigen::Vector3d before = row3(neutral, v), after = before + row3(shape.moves, row);
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
     const double cosine = dot3(from, axes.front) / length3(from);
     Lid lid{row, v, i, 0, 0};
-    lid.hold = fading(std::min(std::abs(gap_before), std::abs(gap_after)), kWholeHold * radius_,
-                      kNoHold * radius_) *
+    lid.hold = smooth_step(kNoHold * radius_, kWholeHold * radius_,
+                           std::min(std::abs(gap_before), std::abs(gap_after))) *
                std::clamp((cosine - kHoldFrom) / kHoldOver, 0.0, 1.0);
     if (!places_.empty())
-      lid.share = fading(length3(from), kWholeShare * radius_, kNoShare * radius_);
+      lid.share = smooth_step(kNoShare * radius_, kWholeShare * radius_, length3(from));
     if (lid.share > 0 || lid.hold > 0) lids_.push_back(lid);
   }
   put_profiles_first();
@@ -164,7 +155,7 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     Place place{{}, {}, at, before - after};
     const auto add = [&](const std::vector<EdgePoint>& points, std::vector<Point>& to) {
       for (const EdgePoint& point : points) {
-        to.push_back({point, row_of(shape, point.a), row_of(shape, point.b)});
+        to.push_back({point, place_in(shape.vertices, point.a), place_in(shape.vertices, point.b)});
       }
     };
     add(cut.low, place.low);
@@ -184,15 +175,14 @@ LidClosure::Axes LidClosure::axes_on(const RigidMotion& whole) const {
 }
 
 LidClosure::Goals LidClosure::goals(const Positions& mesh, const FaceEye& eye,
-                                    std::span<const double> rest_gaps, const RigidMotion& whole,
-                                    const Positions& moves) const {
+                                    const RigidMotion& whole, const Positions& moves) const {
   Goals goals;
   if (!places_.empty()) goals.gaps = gaps(axes_on(whole), mesh, moves);
   for (Gap& gap : goals.gaps) gap = {gap.paired / whole.scale, gap.plumb / whole.scale};
   for (const Lid& lid : lids_) {
     const double after = eye.gap_at(row3(mesh, lid.vertex) + row3(moves, lid.row)).gap;
     goals.least.push_back(after / whole.scale);
-    goals.gap_change.push_back((after - rest_gaps[lid.number]) / whole.scale);
+    goals.gap_change.push_back((after - eye.rest_gaps[lid.number]) / whole.scale);
   }
   return goals;
 }
@@ -270,29 +260,27 @@ double LidClosure::least_gap(std::size_t lid, double rest, double scale, const G
 }
 
 void LidClosure::hold_off(std::size_t count, const Positions& face, const FaceEye& eye,
-                          std::span<const double> rest_gaps, double scale, const Goals& goals,
-                          Positions& moves) const {
+                          double scale, const Goals& goals, Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
     const Lid& lid = lids_[i];
     if (lid.hold == 0) continue;
-    const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
-    const double rest = rest_gaps[lid.number];
+    const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
+    const double rest = eye.rest_gaps[lid.number];
     const double wanted =
         std::max(rest + scale * goals.gap_change[i], least_gap(i, rest, scale, goals));
     moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
   }
 }
 
-bool LidClosure::keep_out(const Positions& face, const FaceEye& eye,
-                          std::span<const double> rest_gaps, const RigidMotion& whole,
+bool LidClosure::keep_out(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
                           const Goals& goals, Positions& moves) const {
   const double some = kSomeDeeper * whole.scale * radius_;
   bool is_out = true;
   for (std::size_t i = 0; i < lids_.size(); ++i) {
     const Lid& lid = lids_[i];
     if (lid.hold == 0) continue;
-    const double least = least_gap(i, rest_gaps[lid.number], whole.scale, goals);
-    const FaceEye::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
+    const double least = least_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
+    const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
     // Of what is held in part only, that part.
     is_out = is_out && lid.hold * (least - now.gap) < some;
@@ -334,18 +322,18 @@ std::vector<double> LidClosure::missing_gaps(const std::vector<Gap>& now, const 
   return missing;
 }
 
-void LidClosure::fit(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
-                     const RigidMotion& whole, const Goals& goals, Positions& moves) const {
+void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
+                     const Goals& goals, Positions& moves) const {
   const Axes axes = axes_on(whole);
   if (places_.empty()) {
-    return hold_off(lids_.size(), face, eye, rest_gaps, whole.scale, goals, moves);
+    return hold_off(lids_.size(), face, eye, whole.scale, goals, moves);
   }
   const Positions carried = moves;
   std::vector<double> gains(places_.size(), 0.0);
   double sure = 0;
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) close(in_profiles_, axes.up, carried, gains, moves);
-    hold_off(in_profiles_, face, eye, rest_gaps, whole.scale, goals, moves);
+    hold_off(in_profiles_, face, eye, whole.scale, goals, moves);
     const std::vector<double> missing = missing_gaps(gaps(axes, face, moves), goals, whole.scale);
     if (step == 0) {
       for (const double gap : missing) sure = std::max(sure, std::abs(gap) / 2);
@@ -356,7 +344,7 @@ void LidClosure::fit(const Positions& face, const FaceEye& eye, std::span<const 
     }
   }
   close(lids_.size(), axes.up, carried, gains, moves);
-  hold_off(lids_.size(), face, eye, rest_gaps, whole.scale, goals, moves);
+  hold_off(lids_.size(), face, eye, whole.scale, goals, moves);
 }
 
 }  // namespace crowdface

@@ -11,7 +11,6 @@
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/shape_set.h"
-#include "crowdface/shapes/shape_shares.h"
 
 namespace crowdface {
 
@@ -22,20 +21,18 @@ struct TemplateEye {
   std::vector<std::uint32_t> skin;  ///< around the eye, ascending
 };
 
-/// Where an eyeball of a face is: a map of one, and the motion that carries it there.
+/// An eyeball of a face: a map of one, the motion that carries it there, and how far the skin around is from it at
+/// rest.
 struct FaceEye {
   const BallMap* ball;
   RigidMotion motion;
+  std::vector<double> rest_gaps = {};  ///< #skin of the template's eye
 
-  struct Gap {
-    double gap;
-    Eigen::Vector3d normal;  ///< outward, unit
-  };
-  Gap gap_at(const Eigen::Vector3d& point) const;
+  BallMap::Gap gap_at(const Eigen::Vector3d& point) const;
 };
-
-/// How far the skin around an eye is from the eyeball, #skin. \param mesh  #V by 3
-std::vector<double> eye_gaps(const TemplateEye& eye, const FaceEye& there, const Positions& mesh);
+/// \param mesh  at rest, #V by 3
+FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
+                 const Positions& mesh);
 
 /// Writes 1 for skin around an eye that belongs to the upper lid and −1 for the lower one's, by what of the rim is
 /// nearest.
@@ -69,9 +66,8 @@ class LidClosure {
   /// \param mesh   #V by 3, at rest
   /// \param whole  from the template to the mesh
   /// \param moves  its own, as the shape's rows
-  /// \param rest_gaps  see eye_gaps
-  Goals goals(const Positions& mesh, const FaceEye& eye, std::span<const double> rest_gaps,
-              const RigidMotion& whole, const Positions& moves) const;
+  Goals goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& whole,
+              const Positions& moves) const;
   /// Between those of several sets.
   static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
   /// Whether the shape closes the lids.
@@ -89,11 +85,11 @@ class LidClosure {
   /// \param face   #V by 3, at rest
   /// \param whole  from the template to the face
   /// \param moves  as the shape's, carried to the face; made to fit
-  void fit(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
-           const RigidMotion& whole, const Goals& goals, Positions& moves) const;
+  void fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole, const Goals& goals,
+           Positions& moves) const;
   /// Brings out what something else took into the eyeball. \return  whether there was nothing
-  bool keep_out(const Positions& face, const FaceEye& eye, std::span<const double> rest_gaps,
-                const RigidMotion& whole, const Goals& goals, Positions& moves) const;
+  bool keep_out(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
+                const Goals& goals, Positions& moves) const;
 
  private:
   /// A point of a lid's profile; rows are of the shape, or kNoIndex for what does not move.
@@ -132,9 +128,8 @@ class LidClosure {
              std::span<const double> gains, Positions& moves) const;
   /// How near to the eyeball a lid may come, or how deep into it: as it is at rest, or as the shape has it.
   double least_gap(std::size_t lid, double rest, double scale, const Goals& goals) const;
-  void hold_off(std::size_t count, const Positions& face, const FaceEye& eye,
-                std::span<const double> rest_gaps, double scale, const Goals& goals,
-                Positions& moves) const;
+  void hold_off(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
+                const Goals& goals, Positions& moves) const;
   Axes axes_on(const RigidMotion& whole) const;
   static Rim rim_point(const std::vector<Point>& points, double sign, const Axes& axes,
                        const Positions& face, const Positions& moves);

@@ -22,7 +22,7 @@ constexpr double kFolds = 0.5;  // a difference between what the ends of an edge
 constexpr double kMeetingCell = 0.003;  // skin so near to each other that one vertex stands for it
 
 /// For each vertex of the skin one that lies in the same cell and faces the same way; other vertices: none.
-std::vector<std::uint32_t> representatives(const SkinMesh& skin, const Positions& shaped,
+std::vector<std::uint32_t> representatives(const SkinTriangles& skin, const Positions& shaped,
                                            const Positions& normals, double cell) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t, Index, bool>;
   std::vector<std::pair<Cell, std::uint32_t>> placed;
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> representatives(const SkinMesh& skin, const Positions
 
 }  // namespace
 
-std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neutral,
+std::vector<bool> skin_that_may_meet(const SkinTriangles& skin, const Positions& neutral,
                                      const Positions& shaped, double extent) {
   const Positions normals = vertex_normals(skin.triangles, shaped);
   const std::vector<std::uint32_t> representative =

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "crowdface/core/grouped.h"
@@ -12,7 +11,7 @@
 namespace crowdface {
 
 /// The skin of a mesh, as triangles among its vertices.
-struct SkinMesh {
+struct SkinTriangles {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<Triangle> triangles;
   Grouped<std::uint32_t> around;  ///< #V: triangles at each vertex
@@ -22,7 +21,7 @@ struct SkinMesh {
 /// \param neutral  of the template, #V by 3
 /// \param shaped   the template in the shape
 /// \param extent   of the skin
-std::vector<bool> skin_that_may_meet(const SkinMesh& skin, const Positions& neutral,
+std::vector<bool> skin_that_may_meet(const SkinTriangles& skin, const Positions& neutral,
                                      const Positions& shaped, double extent);
 
 }  // namespace crowdface

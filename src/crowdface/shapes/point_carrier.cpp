@@ -20,9 +20,7 @@ double nearest(const Eigen::Vector3d& point, const Positions& mesh,
 
 /// Whether a point is nearer to the middle of an eyeball than its surface is.
 bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Part& eyeball) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const std::uint32_t v : eyeball.surface) middle += row3(mesh, v);
-  middle /= static_cast<double>(eyeball.surface.size());
+  const Eigen::Vector3d middle = centre_of(mesh, eyeball.surface);
   return length3(point - middle) < nearest(middle, mesh, eyeball.surface);
 }
 
@@ -39,11 +37,10 @@ PointCarrier::PointCarrier(const PointSet& points, const PartList& parts,
   }
 }
 
-PointCarrier::Anchor PointCarrier::anchor_of(const Eigen::Vector3d& point, const Positions& mesh,
-                                             const PartList& parts,
-                                             std::span<const std::uint32_t> skin) {
+Socket PointCarrier::anchor_of(const Eigen::Vector3d& point, const Positions& mesh,
+                               const PartList& parts, std::span<const std::uint32_t> skin) {
   const auto whole = [](const std::vector<std::uint32_t>& vertices) {
-    return Anchor{vertices, std::vector<double>(vertices.size(), 1.0)};
+    return Socket{vertices, std::vector<double>(vertices.size(), 1.0)};
   };
   const double to_skin = nearest(point, mesh, skin);
   for (const Part& part : parts.parts) {
@@ -63,7 +60,7 @@ PointCarrier::Anchor PointCarrier::anchor_of(const Eigen::Vector3d& point, const
   const std::size_t fewest = std::min(kFewest, by_distance.size());
   const double reach = std::max(kFurther * to_skin, by_distance[fewest - 1].first);
   const double fades = 1.05 * reach;
-  Anchor anchor;
+  Socket anchor;
   for (const auto& [distance, vertex] : by_distance) {
     if (distance > reach) break;
     const double left = 1 - distance * distance / (fades * fades);
@@ -77,7 +74,7 @@ Positions PointCarrier::carry(Index target, const Positions& face) const {
   const std::size_t m = points_.meshes.size() > 1 ? static_cast<std::size_t>(target) : 0;
   Positions carried(static_cast<Index>(points_.names.size()), 3);
   for (Index p = 0; p < carried.rows(); ++p) {
-    const Anchor& anchor = anchors_[m][static_cast<std::size_t>(p)];
+    const Socket& anchor = anchors_[m][static_cast<std::size_t>(p)];
     const RigidMotion motion =
         fit_rigid_motion(points_.meshes[m], face, anchor.vertices, anchor.weights);
     carried.row(p) = motion.apply(row3(points_.positions[m], p)).transpose();

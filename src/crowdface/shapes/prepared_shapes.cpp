@@ -24,12 +24,6 @@ constexpr double kEyeSkin = 3;
 /// added to another.
 constexpr double kFarThrough = 0.012;
 
-std::uint32_t place_in(std::span<const std::uint32_t> sorted, std::uint32_t value) {
-  const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
-  if (at == sorted.end() || *at != value) return kNoIndex;
-  return static_cast<std::uint32_t>(at - sorted.begin());
-}
-
 std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
   std::vector<std::uint32_t> used;
   for (const Shape& shape : set.shapes) {
@@ -118,8 +112,7 @@ void PreparedShapes::add_part(const Part& part, const PartList& parts, const Pos
     const RigidMotion motion = fit_rigid_motion(mean, set.neutral, bound.fitted, bound.ones);
     bound.middle = motion.apply(parts.shapes[part.ball].centre);
   } else {
-    for (const std::uint32_t v : part.vertices) bound.middle += row3(set.neutral, v);
-    bound.middle /= static_cast<double>(part.vertices.size());
+    bound.middle = centre_of(set.neutral, part.vertices);
   }
   rigid.push_back(std::move(bound));
 }
@@ -168,11 +161,7 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   parallel_for_each(used.size(), [&](std::size_t i) {
     alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(used[i]));
   });
-  const std::vector<std::uint32_t> at_contacts = contacts.vertices();
-  contact_alpha.resize(static_cast<Index>(at_contacts.size()), regions.alpha.cols());
-  for (std::size_t p = 0; p < at_contacts.size(); ++p) {
-    contact_alpha.row(static_cast<Index>(p)) = regions.alpha.row(at_contacts[p]);
-  }
+  contact_alpha = regions.alpha(contacts.vertices(), Eigen::all);
   for (const RigidPart& part : rigid) {
     std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
     for (const std::uint32_t v : part.fitted) {
@@ -283,10 +272,9 @@ void PreparedShapes::add_sets() {
   const std::size_t heads = set.of_head.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
     const Carrier carrier = carrier_to(heads > 0 ? faces.heads[h].positions : set.neutral);
-    std::vector<PlacedEye> at_eyes;
-    for (const ActingEye& eye : eyes) {
-      const FaceEye there{heads > 0 ? &eye.balls[h] : &eye.of_template.ball, {}};
-      at_eyes.push_back(placed(eye, there, carrier.mesh));
+    std::vector<FaceEye> at_eyes;
+    for (const auto& [part, eye, balls] : eyes) {
+      at_eyes.push_back(face_eye(eye, heads > 0 ? balls[h] : eye.ball, {}, carrier.mesh));
     }
     parallel_for_each(shapes.size(), [&](std::size_t s) {
       const Displacements own = shape_of_set(h, s);
@@ -305,7 +293,7 @@ Displacements PreparedShapes::shape_of_set(std::size_t number, std::size_t shape
 }
 
 void PreparedShapes::add_set(const Carrier& carrier, const Positions& rest,
-                             const Displacements& shape, std::span<const PlacedEye> at_eyes,
+                             const Displacements& shape, std::span<const FaceEye> at_eyes,
                              PreparedShape& state) const {
   const Positions& moves = shape.moves;
   const RigidMotion& whole = carrier.frames.whole;
@@ -318,8 +306,7 @@ void PreparedShapes::add_set(const Carrier& carrier, const Positions& rest,
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     LidMove& move = state.lids[e];
     if (move.lids.empty()) continue;
-    const auto& [eye, rest_gaps] = at_eyes[e];
-    move.goals.push_back(move.lids.goals(carrier.mesh, eye, rest_gaps, whole, moves));
+    move.goals.push_back(move.lids.goals(carrier.mesh, at_eyes[e], whole, moves));
   }
   Positions moved = rest;
   shape.add_to(moved);

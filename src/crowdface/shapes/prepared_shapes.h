@@ -95,11 +95,6 @@ struct PreparedShapes {
   CrossingSearch watched;  ///< of any shape
   std::vector<PreparedShape> shapes;
 
-  /// An eyeball of a face, and how far the skin around it is from it at rest.
-  struct PlacedEye {
-    FaceEye eye;
-    std::vector<double> rest_gaps;
-  };
   /// A face, and how it is turned and stretched.
   struct Carrier {
     const Positions& mesh;
@@ -109,9 +104,6 @@ struct PreparedShapes {
     std::vector<bool> at_rest;          ///< #V: at crossings of its skin
   };
   Carrier carrier_to(const Positions& face) const;
-  PlacedEye placed(const ActingEye& eye, const FaceEye& there, const Positions& face) const {
-    return {there, eye_gaps(eye.of_template, there, face)};
-  }
   /// Of a part's skin, the mean.
   Eigen::Matrix3d map_of(const PartMove& part, const PreparedShape& state,
                          std::span<const Eigen::Matrix3d> maps) const;
@@ -129,7 +121,7 @@ struct PreparedShapes {
   Displacements shape_of_set(std::size_t number, std::size_t shape) const;
   /// \param rest  what the shape is added to
   void add_set(const Carrier& carrier, const Positions& rest, const Displacements& shape,
-               std::span<const PlacedEye> at_eyes, PreparedShape& state) const;
+               std::span<const FaceEye> at_eyes, PreparedShape& state) const;
   SingleRows undone(const Carrier& carrier, const PreparedShape& state,
                     const Positions& moves) const;
 };

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 #include "crowdface/shapes/frame_field.h"
 
 namespace crowdface {
@@ -16,10 +17,10 @@ using Eigen::Vector3d;
 /// Of less than half a turn.
 std::array<double, 4> quaternion_of(const RigidMotion& motion) {
   constexpr double kLeast = 1e-6;
-  const auto& r = motion.rotation;
-  const double w = std::sqrt(std::max(1 + r[0][0] + r[1][1] + r[2][2], kLeast)) / 2;
-  return {w, (r[2][1] - r[1][2]) / (4 * w), (r[0][2] - r[2][0]) / (4 * w),
-          (r[1][0] - r[0][1]) / (4 * w)};
+  const Eigen::Matrix3d& r = motion.rotation;
+  const double w = std::sqrt(std::max(1 + r(0, 0) + r(1, 1) + r(2, 2), kLeast)) / 2;
+  return {w, (r(2, 1) - r(1, 2)) / (4 * w), (r(0, 2) - r(2, 0)) / (4 * w),
+          (r(1, 0) - r(0, 1)) / (4 * w)};
 }
 
 void normalize(std::array<double, 4>& q) {
@@ -48,15 +49,13 @@ Vector3d by_turn(const std::array<double, 4>& quaternion, const PlacedPart& plac
 RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
                             std::span<const std::uint32_t> vertices,
                             std::span<const std::uint32_t> rows, const Positions& moves) {
-  Positions rest(static_cast<Index>(part.fitted.size()), 3);
+  const Positions rest = mesh(part.fitted, Eigen::all);
+  Positions shape = rest;
   std::vector<std::uint32_t> all(part.fitted.size());
   std::iota(all.begin(), all.end(), 0U);
-  for (const std::uint32_t i : all) rest.row(i) = mesh.row(part.fitted[i]);
-  Positions shape = rest;
   for (const std::uint32_t i : all) {
-    const auto at = std::ranges::lower_bound(vertices, part.fitted[i]);
-    if (at == vertices.end() || *at != part.fitted[i]) continue;
-    shape.row(i) += moves.row(rows[static_cast<std::size_t>(at - vertices.begin())]);
+    const std::uint32_t place = place_in(vertices, part.fitted[i]);
+    if (place != kNoIndex) shape.row(i) += moves.row(rows[place]);
   }
   return fit_rigid_motion(rest, shape, all, part.ones);
 }

@@ -8,7 +8,7 @@
 
 #include "crowdface/mesh/topology.h"
 #include "crowdface/parts/rigid_motion.h"
-#include "crowdface/shapes/shape_shares.h"
+#include "crowdface/shapes/shape_set.h"
 
 namespace crowdface {
 

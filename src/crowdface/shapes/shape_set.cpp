@@ -12,17 +12,11 @@ namespace crowdface {
 Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh, double extent) {
   constexpr double kStill = 1e-5;
   Shape shape{std::move(name), {}};
-  std::vector<Eigen::Vector3d> moves;
-  for (Index v = 0; v < neutral.rows(); ++v) {
-    const Eigen::Vector3d move = row3(mesh, v) - row3(neutral, v);
-    if (!(length3(move) > kStill * extent)) continue;
-    shape.moves.vertices.push_back(static_cast<std::uint32_t>(v));
-    moves.push_back(move);
+  std::vector<std::uint32_t>& vertices = shape.moves.vertices;
+  for (std::uint32_t v = 0; v < neutral.rows(); ++v) {
+    if (length3(row3(mesh, v) - row3(neutral, v)) > kStill * extent) vertices.push_back(v);
   }
-  shape.moves.moves.resize(static_cast<Index>(moves.size()), 3);
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    shape.moves.moves.row(static_cast<Index>(i)) = moves[i].transpose();
-  }
+  shape.moves.moves = mesh(vertices, Eigen::all) - neutral(vertices, Eigen::all);
   return shape;
 }
 

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "crowdface/mesh/displacements.h"
-#include "crowdface/mesh/single_rows.h"
 
 namespace crowdface {
 
@@ -44,5 +45,28 @@ Displacements displacements_of(const OwnShape& shape);
 
 /// The mean of all heads' displacements: of the vertices that one of them moves.
 Displacements mean_of(const std::vector<std::vector<OwnShape>>& of_head, std::size_t shape);
+
+/// How much one of several sets of shapes counts.
+struct SetShare {
+  std::uint32_t set;
+  double share;
+};
+using SetShares = std::vector<SetShare>;
+
+/// The sets whose shape a face has, region by region; those of a region add up to one.
+using RegionShares = std::vector<SetShares>;
+
+/// At a place that belongs to several regions.
+/// \param alpha  #regions, of sum one
+inline SetShares shares_at(std::span<const double> alpha, const RegionShares& of_region) {
+  SetShares shares;
+  for (std::size_t k = 0; k < of_region.size(); ++k) {
+    if (alpha[k] == 0) continue;
+    for (const SetShare& of_set : of_region[k]) {
+      shares.push_back({of_set.set, alpha[k] * of_set.share});
+    }
+  }
+  return shares;
+}
 
 }  // namespace crowdface

@@ -18,17 +18,16 @@ constexpr int kMends = 3;
 /// As many crossing triangles, out of sight between lids that meet, as a gap between those by the eyeball's radius.
 constexpr double kOpenIsAsBad = 1000;
 
-using PlacedEye = PreparedShapes::PlacedEye;
 using Carrier = PreparedShapes::Carrier;
 
-std::vector<PlacedEye> placed_eyes(const PreparedShapes& prepared, std::size_t target,
-                                   const Positions& face) {
-  std::vector<PlacedEye> there;
-  for (const ActingEye& eye : prepared.eyes) {
-    const RigidPart& part = prepared.rigid[eye.part];
+std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t target,
+                                 const Positions& face) {
+  std::vector<FaceEye> there;
+  for (const auto& [number, eye, balls] : prepared.eyes) {
+    const RigidPart& part = prepared.rigid[number];
     const RigidMotion motion =
         fit_rigid_motion(prepared.faces.heads[target].positions, face, part.fitted, part.ones);
-    there.push_back(prepared.placed(eye, {&eye.balls[target], motion}, face));
+    there.push_back(face_eye(eye, balls[target], motion, face));
   }
   return there;
 }
@@ -38,9 +37,9 @@ class CarriedShape {
  public:
   /// \param rest  what the shape is added to: the face at rest, or in the shape's companion
   /// \param mesh  the same; changed while it works
-  CarriedShape(const PreparedShapes& prepared, std::size_t number,
-               std::span<const PlacedEye> at_eyes, const Carrier& carrier,
-               const RegionShares& shares, const Positions& rest, Positions& mesh)
+  CarriedShape(const PreparedShapes& prepared, std::size_t number, std::span<const FaceEye> at_eyes,
+               const Carrier& carrier, const RegionShares& shares, const Positions& rest,
+               Positions& mesh)
       : prepared_(prepared),
         shape_(prepared.shapes[number]),
         at_eyes_(at_eyes),
@@ -70,11 +69,8 @@ class CarriedShape {
 
  private:
   bool has_own_sets() const { return !shape_.of_head.empty(); }
-  SetShares shares_of(std::span<const double> alpha) const {
-    return has_own_sets() ? shares_at(alpha, shares_) : SetShares{{0, 1}};
-  }
   SetShares shares_of_part(std::size_t part) const {
-    return has_own_sets() ? shares_of(prepared_.rigid_alpha[part]) : SetShares{{0, 1}};
+    return has_own_sets() ? shares_at(prepared_.rigid_alpha[part], shares_) : SetShares{{0, 1}};
   }
   Positions mixed_moves() const;
   void move_skin(const Positions& moves);
@@ -91,7 +87,7 @@ class CarriedShape {
 
   const PreparedShapes& prepared_;
   const PreparedShape& shape_;
-  std::span<const PlacedEye> at_eyes_;
+  std::span<const FaceEye> at_eyes_;
   const Carrier& carrier_;
   const RegionShares& shares_;
   const Positions& rest_;
@@ -154,9 +150,8 @@ void CarriedShape::fit_lids() {
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidMove& move = shape_.lids[e];
     if (move.lids.empty()) continue;
-    const auto& [eye, rest_gaps] = at_eyes_[e];
     goals_[e] = LidClosure::mean(move.goals, shares_of_part(prepared_.eyes[e].part));
-    move.lids.fit(carrier_.mesh, eye, rest_gaps, carrier_.frames.whole, goals_[e], result_.moves);
+    move.lids.fit(carrier_.mesh, at_eyes_[e], carrier_.frames.whole, goals_[e], result_.moves);
   }
 }
 
@@ -167,8 +162,8 @@ void CarriedShape::keep_contacts() {
     SetShares here = {{0, 1}};
     if (has_own_sets()) {
       const auto& alpha = prepared_.contact_alpha;
-      here = shares_of(
-          std::span(&alpha(static_cast<Index>(p), 0), static_cast<std::size_t>(alpha.cols())));
+      here = shares_at({&alpha(static_cast<Index>(p), 0), static_cast<std::size_t>(alpha.cols())},
+                       shares_);
     }
     for (const SetShare& of_set : here) {
       widening[p] += of_set.share * carrier_.frames.whole.scale * shape_.widening[of_set.set][p];
@@ -241,9 +236,8 @@ bool CarriedShape::keep_lids_out() {
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (lids.empty()) continue;
-    const auto& [eye, rest_gaps] = at_eyes_[e];
-    const bool is_out = lids.keep_out(carrier_.mesh, eye, rest_gaps, carrier_.frames.whole,
-                                      goals_[e], result_.moves);
+    const bool is_out =
+        lids.keep_out(carrier_.mesh, at_eyes_[e], carrier_.frames.whole, goals_[e], result_.moves);
     are_out = are_out && is_out;
   }
   return are_out;

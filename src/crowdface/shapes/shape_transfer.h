@@ -11,7 +11,6 @@
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
 #include "crowdface/shapes/shape_set.h"
-#include "crowdface/shapes/shape_shares.h"
 
 namespace crowdface {
 

@@ -279,11 +279,7 @@ SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint
       skin_.triangles.push_back(triangle);
     }
   }
-  skin_.around = grouped<std::uint32_t>(is_skin_.size(), [&](const auto& put) {
-    for (std::uint32_t t = 0; t < skin_.triangles.size(); ++t) {
-      for (const std::uint32_t v : skin_.triangles[t]) put(v, t);
-    }
-  });
+  skin_.around = FacesAround(topology_of(skin_.triangles, topology.vertex_count));
 }
 
 SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,

@@ -25,7 +25,7 @@ class SkinCrossings {
   SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin, double extent,
                 const HeadAxes& axes);
 
-  const SkinMesh& mesh() const { return skin_; }
+  const SkinTriangles& mesh() const { return skin_; }
 
   /// Which skin of a shape is looked at: see skin_that_may_meet.
   struct Watched {
@@ -78,7 +78,7 @@ class SkinCrossings {
   double extent_ = 0;
   HeadAxes axes_;
   std::vector<bool> is_skin_;  ///< #V
-  SkinMesh skin_;
+  SkinTriangles skin_;
 };
 
 }  // namespace crowdface

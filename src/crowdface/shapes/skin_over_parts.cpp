@@ -13,6 +13,8 @@
 
 #include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
+#include "crowdface/validity/triangles.h"
 
 namespace crowdface {
 namespace {
@@ -30,14 +32,13 @@ constexpr double kFewestRings = 2, kMostRings = 12;
 constexpr double kSlides = 0.007;
 constexpr int kFrontRounds = 6;
 
-Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& corners) {
+Eigen::Vector3d normal_of(const Corners& corners) {
   return unit3(cross3(corners[1] - corners[0], corners[2] - corners[0]));
 }
 
 /// How far a triangle is in front of a point, if it is in front of or behind it.
-std::optional<double> ahead_of(const Eigen::Vector3d& point,
-                               const std::array<Eigen::Vector3d, 3>& corners, const HeadAxes& axes,
-                               const Eigen::Vector3d& side) {
+std::optional<double> ahead_of(const Eigen::Vector3d& point, const Corners& corners,
+                               const HeadAxes& axes, const Eigen::Vector3d& side) {
   std::array<double, 3> x{}, y{}, shares{};
   for (std::size_t k = 0; k < 3; ++k) {
     x[k] = dot3(corners[k] - point, side);
@@ -81,14 +82,10 @@ class FrontView {
     if (cell == cells_.end()) return std::nullopt;
     std::optional<Hit> best;
     for (const std::uint32_t t : cell->second) {
-      const auto ahead = ahead_of(point, corners_of(t), axes_, side_);
+      const auto ahead = ahead_of(point, corners_of(positions_, triangles_[t]), axes_, side_);
       if (ahead && (!best || *ahead > best->ahead)) best = Hit{t, *ahead};
     }
     return best;
-  }
-  std::array<Eigen::Vector3d, 3> corners_of(std::uint32_t triangle) const {
-    const auto& [a, b, c] = triangles_[triangle];
-    return {row3(positions_, a), row3(positions_, b), row3(positions_, c)};
   }
 
  private:
@@ -112,14 +109,13 @@ class FrontView {
 
 }  // namespace
 
-SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
+SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
                              std::span<const std::uint32_t> inner,
                              std::span<const std::uint32_t> moved, const HeadAxes& axes,
                              double extent)
     : axes_(axes), extent_(extent) {
   if (inner.empty()) return;
-  Eigen::AlignedBox3d box;
-  for (const std::uint32_t v : inner) box.extend(row3(shaped, v));
+  Eigen::AlignedBox3d box = bounding_box(shaped, inner);
   box = {box.min().array() - kFrontReach * extent, box.max().array() + kFrontReach * extent};
   std::vector<std::uint32_t> numbers;
   std::vector<Triangle> around;
@@ -149,7 +145,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinMesh& skin,
     if (taken.contains(at)) continue;
     const auto hit = view.foremost(point);
     if (!hit || hit->ahead <= 0) continue;
-    const double facing = dot3(axes.front, normal_of(view.corners_of(hit->triangle)));
+    const double facing = dot3(axes.front, normal_of(corners_of(shaped, around[hit->triangle])));
     const double depth = hit->ahead * facing;
     if (facing < kFacesFront || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
@@ -196,9 +192,6 @@ void SkinOverParts::keep(const Positions& rest, const RigidMotion& whole,
 std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
                                                           const RigidMotion& whole,
                                                           std::span<double> most) const {
-  const auto corners_of = [&](const Triangle& triangle) {
-    return std::array{row3(mesh, triangle[0]), row3(mesh, triangle[1]), row3(mesh, triangle[2])};
-  };
   const double scale = whole.scale;
   const HeadAxes axes = moved(axes_, whole);
   const Eigen::Vector3d side = axes.side();
@@ -207,12 +200,12 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
     const Covered& covered = covered_[i];
     if (most[i] <= 0) continue;
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
-    const auto over = corners_of(covered.over);
+    const Corners over = corners_of(mesh, covered.over);
     if (dot3(over[0] - point, normal_of(over)) > kNear * scale * extent_) continue;
     std::optional<double> foremost;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const Triangle& triangle : covered.near) {
-      const auto corners = corners_of(triangle);
+      const Corners corners = corners_of(mesh, triangle);
       const auto ahead = ahead_of(point, corners, axes, side);
       if (!ahead || (foremost && *ahead <= *foremost)) continue;
       foremost = ahead;

@@ -26,8 +26,9 @@ class SkinOverParts {
   /// \param inner   vertices of what lies under it, and maybe elsewhere
   /// \param moved   by the shape, ascending
   /// \param extent  of the skin
-  SkinOverParts(const Positions& shaped, const SkinMesh& skin, std::span<const std::uint32_t> inner,
-                std::span<const std::uint32_t> moved, const HeadAxes& axes, double extent);
+  SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
+                std::span<const std::uint32_t> inner, std::span<const std::uint32_t> moved,
+                const HeadAxes& axes, double extent);
 
   /// Moves skin outwards until what lies under it on the template does so on a face.
   /// \param rest   what the shape is added to, #V by 3

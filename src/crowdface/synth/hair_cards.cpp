@@ -33,14 +33,13 @@ struct Root {
 
 /// Evenly over the scalp, none nearer to another than kBetween.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
-  const HairForm form(cut);
   const double least = cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
   for (const Address& address : make_layout(24'000).addresses) {
     const SkinPoint skin = mean_skin_with_sockets(address);
     const Vector3d& p = skin.position;
     const bool at_nape = cut.layers > 1 && p.y() < 0;  // curls would stand off the neck
-    if (skin.relief < 0.5 || form.within(p) < (at_nape ? 0.6 : least)) continue;
+    if (skin.relief < 0.5 || hair_within(cut, p) < (at_nape ? 0.6 : least)) continue;
     const bool near = std::ranges::any_of(roots, [&](const Root& other) {
       return (other.place - p).squaredNorm() < kBetween * kBetween;
     });
@@ -58,7 +57,6 @@ class Grower {
  public:
   explicit Grower(const HairCut& cut)
       : cut_(cut),
-        form_(cut),
         locks_(mix(7, 1, 5), 1.6),
         pieces_(std::max(cut.length, cut.sides) > kShort ? kPieces : kPiecesOfShort) {}
 
@@ -76,9 +74,9 @@ class Grower {
     const double hem = cut_.hem - 1.2 * unit("hem");
     const double fringe = cut_.fringe + 0.5 * (unit("hem") - 0.5),
                  twist = 0.35 * (unit("twist") - 0.5);
-    const Vector3d way = form_.combed(root.place);
+    const Vector3d way = combed_way(cut_, root.place);
     Vector3d p = root.place - 0.2 * way;
-    double rest = form_.stand_off(p);
+    double rest = hair_stand_off(cut_, p);
     p += (rest + 0.02 - head_distance(p)) * away_from_head(p);
     Vector3d direction = (0.1 * root.normal + way).normalized();
     Card card;
@@ -93,13 +91,13 @@ class Grower {
       const double held = cut_.tied ? smooth_step(-3, -6, p.z()) : 1;
       const double falls = held * smooth_step(0.5, 5, grown);
       const double combed = (0.95 - 0.7 * falls) * (1 - falls * smooth_step(1, -3, p.y()));
-      direction += combed * form_.combed(p) + 0.75 * falls * Vector3d(0, -1, 0);
+      direction += combed * combed_way(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
       Vector3d next = p + step * direction.normalized();
       const double swing = cut_.wave * smooth_step(0, 0.4, t);
       next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
       next = beside_face(next, fringe);
       // Hair lies on what grows below it, wherever it has come from.
-      rest = std::max(rest, form_.stand_off(next));
+      rest = std::max(rest, hair_stand_off(cut_, next));
       next = laid(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
       const double limit = over_face(next) ? fringe : hem;
       if (i > 0 && next.y() < limit && p.y() > limit)
@@ -177,75 +175,50 @@ class Grower {
   }
 
   const HairCut& cut_;
-  HairForm form_;
   SmoothNoise locks_;
   int pieces_;
 };
 
-void add_card(const Card& card, double width, int strip, bool turned, std::vector<Vector3d>& points,
-              std::vector<Eigen::Vector2d>& uvs, Topology& topology) {
-  const auto first = static_cast<std::uint32_t>(points.size());
+void add_card(const Card& card, double width, int strip, bool turned, HairMesh& hair) {
+  const auto first = static_cast<std::uint32_t>(hair.points.size());
   const auto pieces = static_cast<std::uint32_t>(card.middle.size() - 1);
   for (std::size_t i = 0; i <= pieces; ++i) {
     const double t = static_cast<double>(i) / pieces;
     const double half = width / 2 * (0.7 + 0.3 * smooth_step(0, 0.3, t)) * (1 - 0.35 * t * t);
     for (const double side : {-1.0, 1.0}) {
-      points.emplace_back(card.middle[i] + side * half * card.across[i]);
-      uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kHairStrips,
-                       0.998 - 0.996 * t);
+      hair.points.emplace_back(card.middle[i] + side * half * card.across[i]);
+      hair.uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kHairStrips,
+                            0.998 - 0.996 * t);
     }
   }
   for (std::uint32_t i = 0; i < pieces; ++i) {
     const std::uint32_t a = first + 2 * i;
     const std::array<std::uint32_t, 4> quad = {a, a + 1, a + 3, a + 2};
-    topology.add_face(quad, quad);
+    hair.topology.add_face(quad, quad);
   }
 }
 
 }  // namespace
 
-Mesh hair_cards(const HairCut& cut) {
+void add_hair_cards(const HairCut& cut, HairMesh& hair) {
   const std::vector<Root> roots = roots_on_scalp(cut);
   const double width = cut.layers > 1 ? 0.55 * kCardWidth : kCardWidth;
-  Mesh mesh;
-  std::vector<Vector3d> points;
-  std::vector<Eigen::Vector2d> uvs;
   const Grower grower(cut);
   for (std::size_t r = 0; r < roots.size(); ++r) {
     for (int layer = 0; layer < cut.layers; ++layer) {
       const std::uint64_t number = r * 16 + static_cast<std::uint64_t>(layer);
       const double strip = kCardStrips * random_unit({17, number, "strip"});
       const bool turned = random_unit({17, number, "turned"}) < 0.5;
-      add_card(grower.grow(roots[r], number, layer), width, static_cast<int>(strip), turned, points,
-               uvs, mesh.topology);
+      add_card(grower.grow(roots[r], number, layer), width, static_cast<int>(strip), turned, hair);
     }
   }
-  mesh.topology.vertex_count = static_cast<Index>(points.size());
-  mesh.positions.resize(mesh.topology.vertex_count, 3);
-  mesh.uvs.resize(mesh.topology.vertex_count, 2);
-  for (Index v = 0; v < mesh.topology.vertex_count; ++v) {
-    mesh.positions.row(v) = points[static_cast<std::size_t>(v)].transpose();
-    mesh.uvs.row(v) = uvs[static_cast<std::size_t>(v)].transpose();
-  }
-  return mesh;
 }
 
 Mesh head_of_hair(const HairCut& cut) {
-  Mesh hair = hair_cap(cut);
-  const Mesh cards = hair_cards(cut);
-  const Index below = hair.topology.vertex_count;
-  for (Index f = 0; f < cards.topology.face_count(); ++f) {
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t v : cards.topology.face(f))
-      corners.push_back(v + static_cast<std::uint32_t>(below));
-    hair.topology.add_face(corners, corners);
-  }
-  hair.topology.vertex_count += cards.topology.vertex_count;
-  hair.positions.conservativeResize(hair.topology.vertex_count, 3);
-  hair.positions.bottomRows(cards.positions.rows()) = cards.positions;
-  hair.uvs.conservativeResize(hair.topology.vertex_count, 2);
-  hair.uvs.bottomRows(cards.uvs.rows()) = cards.uvs;
-  return hair;
+  HairMesh hair;
+  add_hair_cap(cut, hair);
+  add_hair_cards(cut, hair);
+  return std::move(hair).finished();
 }
 
 }  // namespace crowdface::synth

@@ -2,16 +2,16 @@
 #pragma once
 
 #include "crowdface/mesh/topology.h"
-#include "crowdface/synth/hair_cut.h"
+#include "crowdface/synth/hair_form.h"
 
 namespace crowdface::synth {
 
-/// The hair in cards (narrow strips of quads, seen from both sides), as it sits on the average head.
+/// Adds the hair in cards (narrow strips of quads, seen from both sides), as it sits on the average head.
 /// Each card shows one of the first strips of hair_picture from its root (v = 1) to its tips. The same on every
 /// machine.
-Mesh hair_cards(const HairCut& cut);
+void add_hair_cards(const HairCut& cut, HairMesh& hair);
 
-/// Cards and what lies below them, hair_cap.
+/// Cards and what lies below them.
 Mesh head_of_hair(const HairCut& cut);
 
 }  // namespace crowdface::synth

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 namespace crowdface::synth {
 namespace {
@@ -20,15 +21,13 @@ constexpr std::array<Window, 4> kWindows = {{{Sheet::kEye, 2, 4, 2, 3},
 }  // namespace
 
 double column_unit(int column) {
-  double sum = 0;
-  for (int i = 0; i < std::abs(column); ++i) sum += kColumnWeights[static_cast<std::size_t>(i)];
+  const auto first = kColumnWeights.begin();
+  const double sum = std::accumulate(first, first + std::abs(column), 0.0);
   return column < 0 ? -sum : sum;
 }
 
 double row_unit(int row) {
-  double sum = 0;
-  for (int j = 0; j < row; ++j) sum += kRowWeights[static_cast<std::size_t>(j)];
-  return sum;
+  return std::accumulate(kRowWeights.begin(), kRowWeights.begin() + row, 0.0);
 }
 
 const Window& window_of(Sheet sheet) {

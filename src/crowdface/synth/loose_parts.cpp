@@ -96,7 +96,7 @@ LooseParts::LooseParts(double edge_cm) {
 
 void LooseParts::add_eyeball(double side, int n) {
   first_.push_back(vertex_count());
-  first_faces_.push_back(static_cast<Index>(corners_.size() / 4));
+  first_faces_.push_back(face_count());
   // Points on a cube's surface by their whole-numbered place, so that its sides share their edges.
   std::vector<std::uint32_t> known(static_cast<std::size_t>((n + 1) * (n + 1) * (n + 1)), kNoIndex);
   const auto vertex = [&](int face, int i, int j) {
@@ -121,19 +121,17 @@ void LooseParts::add_eyeball(double side, int n) {
   for (int face = 0; face < 6; ++face) {
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) {
-        for (const std::uint32_t v : {vertex(face, i, j), vertex(face, i + 1, j),
-                                      vertex(face, i + 1, j + 1), vertex(face, i, j + 1)}) {
-          corners_.push_back(v);
-        }
+        corners_.insert(corners_.end(), {vertex(face, i, j), vertex(face, i + 1, j),
+                                         vertex(face, i + 1, j + 1), vertex(face, i, j + 1)});
       }
     }
   }
 }
 
 void LooseParts::add_teeth(double up, int along, int around) {
-  first_.push_back(vertex_count());
-  first_faces_.push_back(static_cast<Index>(corners_.size() / 4));
   const Index first = vertex_count();
+  first_.push_back(first);
+  first_faces_.push_back(face_count());
   constexpr double kThickness = 0.36;
   const int quarter = around / 4;
   for (int i = 0; i <= along; ++i) {
@@ -171,9 +169,7 @@ void LooseParts::close_band(Index first, int along, int around) {
   };
   for (int i = 0; i < along; ++i) {
     for (int k = 0; k < around; ++k) {
-      for (const std::uint32_t v : {at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)}) {
-        corners_.push_back(v);
-      }
+      corners_.insert(corners_.end(), {at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)});
     }
   }
   for (const int end : {0, along}) {
@@ -187,13 +183,8 @@ void LooseParts::close_band(Index first, int along, int around) {
     uvs_.push_back(uv / around);
     const auto centre = static_cast<std::uint32_t>(points_.size() - 1);
     for (int k = 0; k < around; k += 2) {
-      const std::array<std::uint32_t, 4> quad = {centre, at(end, k), at(end, k + 1),
-                                                 at(end, k + 2)};
-      if (end == 0) {
-        corners_.insert(corners_.end(), {quad[0], quad[3], quad[2], quad[1]});
-      } else {
-        corners_.insert(corners_.end(), quad.begin(), quad.end());
-      }
+      const int from = end == 0 ? k + 2 : k, to = end == 0 ? k : k + 2;
+      corners_.insert(corners_.end(), {centre, at(end, from), at(end, k + 1), at(end, to)});
     }
   }
 }

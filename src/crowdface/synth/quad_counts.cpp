@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 namespace crowdface::synth {
 namespace {
@@ -37,15 +38,12 @@ QuadCounts::QuadCounts(double scale_in) : scale(scale_in) {
 }
 
 int QuadCounts::column(int k) const {
-  int sum = 0;
-  for (int i = 0; i < std::abs(k); ++i) sum += columns[static_cast<std::size_t>(i)];
+  const int sum = std::accumulate(columns.begin(), columns.begin() + std::abs(k), 0);
   return k < 0 ? -sum : sum;
 }
 
 int QuadCounts::row(int k) const {
-  int sum = 0;
-  for (int j = 0; j < k; ++j) sum += rows[static_cast<std::size_t>(j)];
-  return sum;
+  return std::accumulate(rows.begin(), rows.begin() + k, 0);
 }
 
 std::vector<double> QuadCounts::rings(Sheet sheet) const {

@@ -16,8 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 double bump(double x) {
-  const double q = 1 - x * x;
-  return q > 0 ? q * q : 0;
+  return biweight(std::min(1.0, std::abs(x)));
 }
 
 /// A fold as a quadratic Bézier curve in the front view (x, y), side x > 0.
@@ -32,8 +31,8 @@ struct Fold {
 };
 
 // clang-format off
-auto make_fold_list() {
-  return std::array{
+const auto& fold_list() {
+  static const std::array list = {
     Fold{"lid_crease", {1.75, 0.40}, {3.1, 1.42}, {4.8, 0.42}, 0.17, 0.055, 1, 0.1, 0.3, 0},
     Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.06, 0.3, 0.5, 0.2, 0},
     Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.5}, 0.48, 0.13, 0.35, 0.5, 0.2, 0.6},
@@ -54,18 +53,14 @@ auto make_fold_list() {
     Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.05, 0.3, 0.4, 0.3, 0, false},
     Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.05, 0.2, 0.4, 0.3, 0, false},
   };
-}
-// clang-format on
-
-const auto& fold_list() {
-  static const auto list = make_fold_list();
   return list;
 }
+// clang-format on
 
 /// How coarse the skin is at a place: nose, cheeks and chin most, scalp least.
 double coarseness(const Vector3d& p) {
   const double face = smooth_step(2, 6, p.z());
-  const double middle = bump(std::min(1.0, Vector2d(p.x() / 5.5, (p.y() + 4.2) / 6).norm()));
+  const double middle = bump(Vector2d(p.x() / 5.5, (p.y() + 4.2) / 6).norm());
   const double scalp = smooth_step(6, 8.5, p.y() + 0.5 * std::max(0.0, 4 - p.z()));
   return (0.5 + 0.5 * face + 0.8 * face * middle) * (1 - 0.6 * scalp);
 }
@@ -171,8 +166,8 @@ double Relief::grain(const Vector3d& p) const {
   const double coarse = coarseness(p);
   for (const Octave& octave : fine_) sum += coarse * octave.amplitude * octave.noise.at(p);
   if (lip_depth_ <= 0) return sum;
-  const double lips = bump(std::min(1.0, Vector2d(p.x() / 2.5, (p.y() + 7.05) / 0.95).norm())) *
-                      smooth_step(7, 8.5, p.z());
+  const double lips =
+      bump(Vector2d(p.x() / 2.5, (p.y() + 7.05) / 0.95).norm()) * smooth_step(7, 8.5, p.z());
   if (lips > 0) {
     // Creases run from the lips' edge to the slit: drawn out in y.
     sum += lips * lip_depth_ * lip_creases_.at({p.x(), 0.2 * p.y(), 0.2 * p.z()});

@@ -58,24 +58,18 @@ double on_lips(const Vector3d& p) {
 
 }  // namespace
 
-SmoothNoise SkinPaint::noise(std::uint64_t lane, double spacing) const {
-  return {mix(seed_, index_, 100 + lane), spacing};
-}
-
 SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
-    : seed_(seed),
-      index_(index),
-      person_(draw_person(seed, index)),
+    : person_(draw_person(seed, index)),
       look_(draw_complexion(seed, index)),
       relief_(Identity(seed, index), kFinest),
-      mottle_(noise(1, 1.1)),
-      blotch_(noise(2, 0.35)),
-      pores_(noise(3, 0.06)),
-      freckles_(noise(4, 0.11)),
-      spots_(noise(5, 0.34)),
-      hairs_(noise(6, 0.045)),
-      tufts_(noise(7, 0.3)),
-      hairline_(noise(8, 0.5)),
+      mottle_(mix(seed, index, 101), 1.1),
+      blotch_(mix(seed, index, 102), 0.35),
+      pores_(mix(seed, index, 103), 0.06),
+      freckles_(mix(seed, index, 104), 0.11),
+      spots_(mix(seed, index, 105), 0.34),
+      hairs_(mix(seed, index, 106), 0.045),
+      tufts_(mix(seed, index, 107), 0.3),
+      hairline_(mix(seed, index, 108), 0.5),
       hair_(seed, index),
       scalp_hair_(scalp_hair) {}
 
@@ -227,10 +221,6 @@ ScreenColour SkinPaint::eyeball(const Vector& ball) const {
   return colour;
 }
 
-double SkinPaint::scalp_cover(const Vector& p, double lock) const {
-  return scalp_hair_ * hair_.cover(p, lock);
-}
-
 ScreenColour SkinPaint::at(const SkinPlace& place) const {
   if (place.ball > 0.5) return eyeball(place.on_ball.normalized()).max(0.0).min(1.0);
   const Vector& p = place.skin.position;
@@ -244,7 +234,7 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
   if (!ear && hair_.reaches(p)) {
     const double lock = hair_.strand(p);
     cover(colour, look_.hair * (1 + (0.24 - 0.16 * look_.hair.mean()) * lock),
-          scalp_cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
+          scalp_hair_ * hair_.cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
   }
   cover(colour, look_.brow_hair, brow_cover(p));
   return colour.max(0.0).min(1.0);
@@ -257,7 +247,7 @@ double SkinPaint::roughness_at(const SkinPlace& place) const {
     hair = std::max(hair, beard_length(p) * beard_cover(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
   }
   if (place.skin.relief >= 0.5 && hair_.reaches(p)) {
-    hair = std::max(hair, scalp_cover(p, hair_.strand(p)));
+    hair = std::max(hair, scalp_hair_ * hair_.cover(p, hair_.strand(p)));
   }
   const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
   return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.aged());

@@ -33,10 +33,7 @@ class SkinPaint {
   double brow_cover(const Vector& p) const;
   double beard_cover(const Vector& p, double strand) const;
   double beard_length(const Vector& p) const;
-  double scalp_cover(const Vector& p, double lock) const;
-  SmoothNoise noise(std::uint64_t lane, double spacing) const;
 
-  std::uint64_t seed_, index_;
   Person person_;
   Complexion look_;
   Relief relief_;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/core/smooth_step.h"
+#include "crowdface/synth/complexion.h"
 
 namespace crowdface::synth {
 namespace {
@@ -53,9 +56,8 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas) {
     steps.push_back((atlas[i].skin.position - atlas[i - 1].skin.position).norm());
   }
   if (steps.empty()) return 1;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  const std::size_t middle = steps.size() / 2;
+  return value_of_rank(std::move(steps), middle);
 }
 
 std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas,
@@ -76,8 +78,7 @@ std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& a
         Eigen::Vector3d(-slopes.across(left, i, right), -slopes.across(below, i, above), 1)
             .normalized();
     for (std::size_t c = 0; c < 3; ++c) {
-      const double value = 127.5 * (normal[static_cast<Eigen::Index>(c)] + 1);
-      bytes[3 * i + c] = static_cast<std::uint8_t>(std::floor(value + 0.5));
+      bytes[3 * i + c] = to_byte((normal[static_cast<Eigen::Index>(c)] + 1) / 2);
     }
   });
   return bytes;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
+#include "crowdface/synth/loose_parts.h"
+#include "crowdface/synth/mean_head.h"
 
 namespace crowdface {
 
@@ -27,7 +29,6 @@ class SyntheticHeads {
   /// \param vertices  wanted number, 5,000 … 1,200,000; nearest the layout can give, within 10 %.
   /// \throws BrokenPrecondition outside that range.
   explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin, Scalp scalp = Scalp::kBare);
-  ~SyntheticHeads();
 
   /// A component's name and the first of its faces, ascending.
   struct Piece {
@@ -37,22 +38,26 @@ class SyntheticHeads {
   std::vector<Piece> pieces() const;
 
   /// The same for every seed. Each corner has a texture coordinate.
-  const Topology& topology() const;
+  const Topology& topology() const { return topology_; }
   /// #T by 2 in [0, 1]², one tile without overlaps, cut open down the back of the head.
-  const TextureCoordinates& uvs() const;
+  const TextureCoordinates& uvs() const { return uvs_; }
 
   /// Head number `index` of a seed: #V by 3 in centimetres, +Y up, looking along +Z, the origin
   /// between the eyes' height and the ears. The same surface at every resolution, the same bits on
   /// every machine.
   Positions positions(std::uint64_t seed, std::uint64_t index) const;
   /// The usual length of an edge, centimetres: finer relief the mesh does not have.
-  double edge_cm() const;
+  double edge_cm() const { return edge_cm_; }
   /// The average head, bare and smooth, on which hair in cards sits.
   Positions average() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Topology topology_;
+  TextureCoordinates uvs_;
+  double edge_cm_ = 0;
+  std::vector<synth::SkinPoint> mean_;
+  Scalp scalp_;
+  std::optional<synth::LooseParts> loose_;
 };
 
 /// A region mask that fits the heads' texture coordinates at every resolution: `size` × `size` × 3

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "crowdface/synth/skin_atlas.h"
 #include "crowdface/synth/synthetic_head.h"
 
 namespace crowdface {
@@ -16,11 +16,8 @@ class SyntheticSkins {
   /// \param size  side of the pictures in texels, 64 … 8,192. \throws BrokenPrecondition
   /// \param scalp  that of the heads
   explicit SyntheticSkins(int size, SyntheticHeads::Scalp scalp = SyntheticHeads::Scalp::kHaired);
-  ~SyntheticSkins();
-  SyntheticSkins(SyntheticSkins&&) noexcept;
-  SyntheticSkins& operator=(SyntheticSkins&&) noexcept;
 
-  int size() const;
+  int size() const { return size_; }
   /// The colours (sRGB) of head `index` of a seed, for the texture coordinates of SyntheticHeads: size ×
   /// size × 3 bytes, row by row, first row at v = 1. The same bytes on every machine.
   std::vector<std::uint8_t> albedo(std::uint64_t seed, std::uint64_t index) const;
@@ -30,8 +27,10 @@ class SyntheticSkins {
   std::vector<std::uint8_t> roughness(std::uint64_t seed, std::uint64_t index) const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  int size_;
+  double scalp_hair_;  ///< see SkinPaint
+  std::vector<synth::SkinPlace> atlas_;
+  double texel_cm_ = 0;
 };
 
 }  // namespace crowdface

@@ -26,12 +26,10 @@ NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index
                                    const std::vector<TrianglePair>& target_pairs)
     : excused_(triangles.size(), false) {
   std::vector<bool> there(static_cast<std::size_t>(vertex_count), false);
-  const auto mark = [&](std::uint32_t triangle) {
-    for (const std::uint32_t vertex : triangles[triangle]) there[vertex] = true;
-  };
   for (const auto& [a, b] : target_pairs) {
-    mark(a);
-    mark(b);
+    for (const std::uint32_t triangle : {a, b}) {
+      for (const std::uint32_t vertex : triangles[triangle]) there[vertex] = true;
+    }
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     excused_[t] =

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "crowdface/mesh/single_rows.h"
 #include "crowdface/mesh/triangles.h"
 
 namespace crowdface {

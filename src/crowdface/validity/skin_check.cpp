@@ -2,6 +2,7 @@
 #include "crowdface/validity/skin_check.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "crowdface/mesh/vector3.h"
@@ -28,6 +29,88 @@ std::vector<Triangle> outward(std::vector<Triangle> triangles, const Positions& 
   return triangles;
 }
 
+/// What is seen at a flatter angle is hardly seen.
+constexpr double kFlattestCosine = 0.2;
+/// How far apart the points of a triangle are that are looked for, and how many there are along an edge.
+constexpr double kSpacingMm = 1;
+constexpr int kMostAlongEdge = 8;
+
+int points_along_edge(const Corners& at, double mm_per_unit) {
+  const double longest =
+      std::max({length3(at[1] - at[0]), length3(at[2] - at[1]), length3(at[0] - at[2])});
+  return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMostAlongEdge);
+}
+
+/// Which share of a triangle shows its back, told at the middles of n² equal triangles that it is cut into.
+/// \param in_the_way  #directions: of the last ray to each viewer
+double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
+                     const Viewing& viewing, std::span<std::uint32_t> in_the_way) {
+  const Eigen::Vector3d normal = cross3(at[1] - at[0], at[2] - at[0]);
+  std::vector<std::size_t> behind;
+  for (std::size_t i = 0; i < viewing.directions.size(); ++i) {
+    const Eigen::Vector3d& viewer = viewing.directions[i];
+    if (-dot3(normal, viewer) > kFlattestCosine * length3(normal) * length3(viewer)) {
+      behind.push_back(i);
+    }
+  }
+  if (behind.empty()) return 0;
+  const int n = points_along_edge(at, viewing.mm_per_unit);
+  int shown = 0;
+  const auto look_at = [&](int thirds_b, int thirds_c) {
+    const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
+    const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
+    shown += std::ranges::any_of(behind, [&](std::size_t viewer) {
+      std::uint32_t& other = in_the_way[viewer];
+      other = scene.met_by(point, viewing.directions[viewer], triangle, other);
+      return other == kNoIndex;
+    });
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      look_at(3 * i + 1, 3 * j + 1);
+      if (i + j < n - 1) look_at(3 * i + 2, 3 * j + 2);
+    }
+  }
+  return static_cast<double>(shown) / (n * n);
+}
+
+/// How much of a skin shows its back to somebody who looks at it, in the positions' unit squared: where skin
+/// passes through other skin, the lining of a nostril through its wing, say. Counted is what hangs
+/// together with triangles that intersect others, at points a millimetre apart.
+/// \param around        the triangles at each vertex.
+/// \param intersecting  pairs of triangles that pass through each other.
+double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& triangles,
+                    const Positions& positions, const FacesAround& around,
+                    const std::vector<TrianglePair>& intersecting, const Viewing& viewing) {
+  std::vector<bool> seen(triangles.size(), false);
+  std::vector<std::uint32_t> waiting;
+  const auto look_around = [&](std::uint32_t triangle) {
+    for (const std::uint32_t vertex : triangles[triangle]) {
+      for (const std::uint32_t other : around.of(vertex)) {
+        if (seen[other]) continue;
+        seen[other] = true;
+        waiting.push_back(other);
+      }
+    }
+  };
+  for (const auto& [a, b] : intersecting) {
+    look_around(a);
+    look_around(b);
+  }
+  std::vector<std::uint32_t> in_the_way(viewing.directions.size(), kNoIndex);
+  double exposed = 0;
+  while (!waiting.empty()) {
+    const std::uint32_t t = waiting.back();
+    waiting.pop_back();
+    const double share =
+        exposed_share(scene, corners_of(positions, triangles[t]), t, viewing, in_the_way);
+    if (share == 0) continue;
+    exposed += 0.5 * share * length3(area_vector(positions, triangles[t]));
+    look_around(t);
+  }
+  return exposed;
+}
+
 /// What of a skin passes through itself, and how much of its back shows there.
 struct Crossing {
   std::vector<TrianglePair> pairs;
@@ -35,11 +118,11 @@ struct Crossing {
 };
 
 Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree& tree,
-                     const Positions& positions, const TriangleNeighbours& neighbours,
+                     const Positions& positions, const FacesAround& around,
                      const Viewing& viewing) {
   const TriangleScene scene(triangles, tree, positions, margin_of(positions));
   std::vector<TrianglePair> pairs = intersecting(triangles, positions, scene.near_pairs());
-  const double exposed = exposed_back(scene, triangles, positions, neighbours, pairs, viewing);
+  const double exposed = exposed_back(scene, triangles, positions, around, pairs, viewing);
   return {std::move(pairs), exposed};
 }
 
@@ -51,7 +134,7 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
     : triangles_(outward(triangles_of(topology, components, components.largest()),
                          heads.front().positions)),
       tree_(triangles_, heads.front().positions),
-      neighbours_(triangles_, topology.vertex_count),
+      around_(topology_of(triangles_, topology.vertex_count)),
       viewing_(std::move(viewing)) {
   for (const Index target : targets) {
     targets_.emplace(target, prepared(heads[static_cast<std::size_t>(target)].positions));
@@ -59,7 +142,7 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
 }
 
 SkinCheck::Target SkinCheck::prepared(const Positions& positions) const {
-  const Crossing crossing = crossing_of(triangles_, tree_, positions, neighbours_, viewing_);
+  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, viewing_);
   return {TargetTriangles(triangles_, positions),
           NewIntersections(triangles_, positions.rows(), crossing.pairs), crossing.exposed};
 }
@@ -75,7 +158,7 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Positions& targ
 SkinDefects SkinCheck::compare(const Positions& positions, const Target& target) const {
   SkinDefects defects;
   defects.local = target.triangles.compare(positions);
-  const Crossing crossing = crossing_of(triangles_, tree_, positions, neighbours_, viewing_);
+  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, viewing_);
   defects.intersecting = target.intersections.count(crossing.pairs);
   defects.exposed_mm2 = std::max(0.0, crossing.exposed - target.exposed) * viewing_.mm_per_unit *
                         viewing_.mm_per_unit;

@@ -6,10 +6,15 @@
 #include <set>
 #include <vector>
 
-#include "crowdface/validity/exposed_back.h"
 #include "crowdface/validity/intersections.h"
 
 namespace crowdface {
+
+/// From where a face is looked at, and how large it is.
+struct Viewing {
+  std::vector<Eigen::Vector3d> directions;  ///< towards viewers, of any length but zero
+  double mm_per_unit = 1;
+};
 
 /// What is wrong with a face's skin against that of its target.
 struct SkinDefects {
@@ -18,7 +23,7 @@ struct SkinDefects {
   /// How much farther skin that nearly touches is apart than in any head; measured by whoever knows
   /// where it touches.
   double wider_mm = 0;
-  double exposed_mm2 = 0;  ///< skin that shows its back, beyond the target's; see exposed_back
+  double exposed_mm2 = 0;  ///< skin that shows its back, beyond the target's
 };
 
 /// Judges whole meshes of one topology against their targets, from any thread.
@@ -50,7 +55,7 @@ class SkinCheck {
 
   std::vector<Triangle> triangles_;  ///< their backs to the inside
   TriangleTree tree_;
-  TriangleNeighbours neighbours_;
+  FacesAround around_;
   Viewing viewing_;
   std::map<Index, Target> targets_;
 };

@@ -19,46 +19,43 @@ class Ray {
   Ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
       : origin_(origin), direction_(direction), inverse_(direction.cwiseInverse()) {}
 
-  bool meets(const Positions& positions, const Triangle& triangle) const;
-  bool meets(const Box& box) const;
+  /// Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
+  bool meets(const Positions& positions, const Triangle& triangle) const {
+    const Eigen::Vector3d a = row3(positions, triangle[0]);
+    const Eigen::Vector3d ab = row3(positions, triangle[1]) - a;
+    const Eigen::Vector3d ac = row3(positions, triangle[2]) - a;
+    const Eigen::Vector3d p = cross3(direction_, ac);
+    const double determinant = dot3(ab, p);
+    if (determinant == 0) return false;
+    const Eigen::Vector3d from_a = origin_ - a;
+    const double u = dot3(from_a, p) / determinant;
+    if (u < 0 || u > 1) return false;
+    const Eigen::Vector3d q = cross3(from_a, ab);
+    const double v = dot3(direction_, q) / determinant;
+    return v >= 0 && u + v <= 1 && dot3(ac, q) / determinant > 0;
+  }
+
+  /// Slabs, Kay & Kajiya 1986; never without a box that it meets.
+  bool meets(const Box& box) const {
+    constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
+    double near = 0, far = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto axis = static_cast<Index>(c);
+      const double low = box.low[c] - origin_[axis], high = box.high[c] - origin_[axis];
+      if (direction_[axis] == 0) {
+        if (low > 0 || high < 0) return false;
+        continue;
+      }
+      const double a = low * inverse_[axis], b = high * inverse_[axis];
+      near = std::max(near, std::min(a, b));
+      far = std::min(far, std::max(a, b));
+    }
+    return near <= far * kRounding;
+  }
 
  private:
   Eigen::Vector3d origin_, direction_, inverse_;
 };
-
-/// Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
-bool Ray::meets(const Positions& positions, const Triangle& triangle) const {
-  const Eigen::Vector3d a = row3(positions, triangle[0]);
-  const Eigen::Vector3d ab = row3(positions, triangle[1]) - a;
-  const Eigen::Vector3d ac = row3(positions, triangle[2]) - a;
-  const Eigen::Vector3d p = cross3(direction_, ac);
-  const double determinant = dot3(ab, p);
-  if (determinant == 0) return false;
-  const Eigen::Vector3d from_a = origin_ - a;
-  const double u = dot3(from_a, p) / determinant;
-  if (u < 0 || u > 1) return false;
-  const Eigen::Vector3d q = cross3(from_a, ab);
-  const double v = dot3(direction_, q) / determinant;
-  return v >= 0 && u + v <= 1 && dot3(ac, q) / determinant > 0;
-}
-
-/// Slabs, Kay & Kajiya 1986; never without a box that it meets.
-bool Ray::meets(const Box& box) const {
-  constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
-  double near = 0, far = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto axis = static_cast<Index>(c);
-    const double low = box.low[c] - origin_[axis], high = box.high[c] - origin_[axis];
-    if (direction_[axis] == 0) {
-      if (low > 0 || high < 0) return false;
-      continue;
-    }
-    const double a = low * inverse_[axis], b = high * inverse_[axis];
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near <= far * kRounding;
-}
 
 }  // namespace
 
@@ -107,13 +104,14 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
   }
 }
 
-void TriangleScene::compare_leaves(const LeafPair& pair, std::vector<TrianglePair>& found) const {
-  const auto ones = tree_.leaf(pair.one), others = tree_.leaf(pair.other);
-  for (std::uint64_t left = overlapping(leaves_[pair.one], leaves_[pair.other]); left != 0;
+void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other,
+                                   std::vector<TrianglePair>& found) const {
+  const auto ones = tree_.leaf(one), others = tree_.leaf(other);
+  for (std::uint64_t left = overlapping(leaves_[one], leaves_[other]); left != 0;
        left &= left - 1) {
     const auto bit = static_cast<std::size_t>(std::countr_zero(left));
     const std::size_t i = bit / kLeaf, j = bit % kLeaf;
-    if (pair.one == pair.other && j <= i) continue;
+    if (one == other && j <= i) continue;
     if (share_vertex(triangles_[ones[i]], triangles_[others[j]])) continue;
     found.emplace_back(std::min(ones[i], others[j]), std::max(ones[i], others[j]));
   }
@@ -146,7 +144,7 @@ void TriangleScene::visit_leaves(const NodePair& from, const Use& use) const {
     const NodePair pair = waiting.back();
     waiting.pop_back();
     if (are_leaves(pair)) {
-      use(LeafPair{tree_.nodes[pair.a].leaf(), tree_.nodes[pair.b].leaf()});
+      use(tree_.nodes[pair.a].leaf(), tree_.nodes[pair.b].leaf());
     } else {
       split(pair, waiting);
     }
@@ -157,7 +155,9 @@ std::vector<TrianglePair> TriangleScene::near_pairs() const {
   const std::vector<NodePair> tasks = first_pairs();
   std::vector<std::vector<TrianglePair>> found(tasks.size());
   parallel_for_each(tasks.size(), [&](std::size_t t) {
-    visit_leaves(tasks[t], [&](const LeafPair& pair) { compare_leaves(pair, found[t]); });
+    visit_leaves(tasks[t], [&](std::uint32_t one, std::uint32_t other) {
+      compare_leaves(one, other, found[t]);
+    });
   });
   std::vector<TrianglePair> pairs;
   for (const auto& some : found) pairs.insert(pairs.end(), some.begin(), some.end());

@@ -40,10 +40,6 @@ class TriangleScene {
   struct NodePair {
     std::uint32_t a, b;
   };
-  /// The same one, or the one that comes first in the tree first.
-  struct LeafPair {
-    std::uint32_t one, other;
-  };
 
   bool are_leaves(const NodePair& pair) const {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
@@ -53,7 +49,9 @@ class TriangleScene {
   std::vector<NodePair> first_pairs() const;
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
-  void compare_leaves(const LeafPair& pair, std::vector<TrianglePair>& found) const;
+  /// \param one, other  the same leaf, or the one that comes first in the tree first
+  void compare_leaves(std::uint32_t one, std::uint32_t other,
+                      std::vector<TrianglePair>& found) const;
 
   const std::vector<Triangle>& triangles_;
   const TriangleTree& tree_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -19,9 +21,8 @@ std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vert
   }
   std::vector<bool> left_out;
   for (const Triangle& triangle : triangles) {
-    left_out.push_back(std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
-      return around[vertex] > kMostAround;
-    }));
+    left_out.push_back(std::ranges::any_of(
+        triangle, [&](std::uint32_t vertex) { return around[vertex] > kMostAround; }));
   }
   return left_out;
 }
@@ -32,13 +33,10 @@ void add_nodes(TriangleTree& tree, const std::vector<Eigen::Vector3d>& middles, 
   const std::size_t node = tree.nodes.size();
   tree.nodes.push_back({begin, end, 0});
   if (end - begin <= TriangleTree::kLeaf) return;
-  Eigen::Vector3d low = middles[tree.order[begin]], high = low;
-  for (std::uint32_t i = begin + 1; i < end; ++i) {
-    low = low.cwiseMin(middles[tree.order[i]]);
-    high = high.cwiseMax(middles[tree.order[i]]);
-  }
+  Eigen::AlignedBox3d box;
+  for (std::uint32_t i = begin; i < end; ++i) box.extend(middles[tree.order[i]]);
   Index axis = 0;
-  (high - low).maxCoeff(&axis);
+  box.sizes().maxCoeff(&axis);
   const std::uint32_t leaves = (end - begin + TriangleTree::kLeaf - 1) / TriangleTree::kLeaf;
   const std::uint32_t middle = begin + (leaves + 1) / 2 * TriangleTree::kLeaf;
   const auto at = [&](std::uint32_t place) { return tree.order.begin() + place; };

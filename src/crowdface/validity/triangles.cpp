@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 
@@ -12,29 +14,29 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// Where triangle `t`, whose corners have these distances from the other's plane, meets the line
-/// that both planes share, along `axis`. False if it does not cross the plane.
-bool interval_on_line(const std::array<Vector, 3>& t, const std::array<double, 3>& distance,
-                      int axis, double& low, double& high) {
-  // The corner that is alone on its side.
-  int alone = -1;
-  for (int c = 0; c < 3; ++c) {
-    const double one = distance[static_cast<std::size_t>(c)];
-    const double two = distance[static_cast<std::size_t>((c + 1) % 3)];
-    const double three = distance[static_cast<std::size_t>((c + 2) % 3)];
+/// How far the corners of `other` are from the plane of `t`, times a factor.
+/// \return false if none of them is beyond it, or all are.
+bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
+                   std::array<double, 3>& distance) {
+  for (std::size_t c = 0; c < 3; ++c) distance[c] = dot3(normal, other[c] - t[0]);
+  const auto [least, most] = std::ranges::minmax(distance);
+  return least < 0 && most > 0;
+}
+
+/// Where triangle `t`, whose corners have these distances from the other's plane, on both sides of it, meets the
+/// line that both planes share, along `axis`: from and to.
+std::pair<double, double> interval_on_line(const Corners& t, const std::array<double, 3>& distance,
+                                           Index axis) {
+  std::size_t alone = 0;  // the corner that is alone on its side
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double one = distance[c], two = distance[(c + 1) % 3], three = distance[(c + 2) % 3];
     if ((one > 0 && two <= 0 && three <= 0) || (one < 0 && two >= 0 && three >= 0)) alone = c;
   }
-  if (alone < 0) return false;
-  double ends[2];
-  for (int e = 0; e < 2; ++e) {
-    const auto a = static_cast<std::size_t>(alone);
-    const auto b = static_cast<std::size_t>((alone + 1 + e) % 3);
-    const double share = distance[a] / (distance[a] - distance[b]);
-    ends[e] = t[a][axis] + share * (t[b][axis] - t[a][axis]);
-  }
-  low = std::min(ends[0], ends[1]);
-  high = std::max(ends[0], ends[1]);
-  return true;
+  const auto end_towards = [&](std::size_t other) {
+    const double share = distance[alone] / (distance[alone] - distance[other]);
+    return t[alone][axis] + share * (t[other][axis] - t[alone][axis]);
+  };
+  return std::minmax({end_towards((alone + 1) % 3), end_towards((alone + 2) % 3)});
 }
 
 }  // namespace
@@ -81,35 +83,26 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
   return defects;
 }
 
+Corners corners_of(const Positions& positions, const Triangle& triangle) {
+  return {row3(positions, triangle[0]), row3(positions, triangle[1]), row3(positions, triangle[2])};
+}
+
 bool triangles_intersect(const Positions& positions, const Triangle& a, const Triangle& b) {
-  std::array<Vector, 3> p, q;
-  for (std::size_t c = 0; c < 3; ++c) {
-    p[c] = row3(positions, a[c]);
-    q[c] = row3(positions, b[c]);
-  }
+  const Corners p = corners_of(positions, a), q = corners_of(positions, b);
+  std::array<double, 3> p_side, q_side;
   const Vector n = cross3(p[1] - p[0], p[2] - p[0]);
-  std::array<double, 3> q_side;
-  for (std::size_t c = 0; c < 3; ++c) q_side[c] = dot3(n, q[c] - p[0]);
-  if (std::min({q_side[0], q_side[1], q_side[2]}) >= 0) return false;
-  if (std::max({q_side[0], q_side[1], q_side[2]}) <= 0) return false;
+  if (!crosses_plane(p, n, q, q_side)) return false;
   const Vector m = cross3(q[1] - q[0], q[2] - q[0]);
-  std::array<double, 3> p_side;
-  for (std::size_t c = 0; c < 3; ++c) p_side[c] = dot3(m, p[c] - q[0]);
-  if (std::min({p_side[0], p_side[1], p_side[2]}) >= 0) return false;
-  if (std::max({p_side[0], p_side[1], p_side[2]}) <= 0) return false;
-  const Vector line = cross3(n, m);
-  int axis = 0;
-  for (int c = 1; c < 3; ++c) {
-    if (std::abs(line[c]) > std::abs(line[axis])) axis = c;
-  }
-  double p_low = 0, p_high = 0, q_low = 0, q_high = 0;
-  return interval_on_line(p, p_side, axis, p_low, p_high) &&
-         interval_on_line(q, q_side, axis, q_low, q_high) && p_low < q_high && q_low < p_high;
+  if (!crosses_plane(q, m, p, p_side)) return false;
+  Index axis = 0;
+  cross3(n, m).cwiseAbs().maxCoeff(&axis);
+  const auto [p_low, p_high] = interval_on_line(p, p_side, axis);
+  const auto [q_low, q_high] = interval_on_line(q, q_side, axis);
+  return p_low < q_high && q_low < p_high;
 }
 
 bool share_vertex(const Triangle& a, const Triangle& b) {
-  return std::ranges::any_of(
-      a, [&](std::uint32_t vertex) { return std::ranges::find(b, vertex) != b.end(); });
+  return std::ranges::any_of(a, [&](std::uint32_t vertex) { return contains(b, vertex); });
 }
 
 }  // namespace crowdface

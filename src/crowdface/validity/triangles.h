@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,10 @@ class TargetTriangles {
   };
   std::vector<Frame> frames_;  ///< of those with an area
 };
+
+/// Where the corners of a triangle are.
+using Corners = std::array<Eigen::Vector3d, 3>;
+Corners corners_of(const Positions& positions, const Triangle& triangle);
 
 /// Whether two triangles pass through each other. Such as only touch, or lie in one plane, do not.
 /// Source: Möller 1997, "A fast triangle-triangle intersection test".

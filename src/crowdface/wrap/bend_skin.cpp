@@ -18,6 +18,9 @@ namespace {
 constexpr double kLeastOpen = 0.04;       // a vertex that sees less is inside
 constexpr double kOpennessOfSkin = 0.25;  // from here on the scan counts in full
 constexpr std::size_t kMostScanPoints = 8000;
+constexpr int kBendSteps = 3;              // in each round
+constexpr double kHiddenStiffnessMm = 10;  // least stiffness where the scan shows nothing
+constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
 /// What one vertex, or one point of the scan, found.
@@ -72,9 +75,7 @@ class Bending {
       const double share =
           rounds > 1 ? static_cast<double>(r) / static_cast<double>(rounds - 1) : 1;
       run_round(
-          options_.stiffness_mm[r],
-          options_.reach_first_mm *
-              std::pow(options_.reach_last_mm / options_.reach_first_mm, share),
+          options_.stiffness_mm[r], kReachFirstMm * std::pow(kReachLastMm / kReachFirstMm, share),
           options_.landmarks_first + share * (options_.landmarks_last - options_.landmarks_first),
           options_.tangential_first +
               share * (options_.tangential_last - options_.tangential_first));
@@ -121,7 +122,7 @@ class Bending {
     Eigen::VectorXd factors(areas_.size()), typical(areas_.size());
     for (Index v = 0; v < areas_.size(); ++v) {
       const double seen = visible_[static_cast<std::size_t>(v)];
-      const double hidden = std::pow(std::max(length, options_.hidden_stiffness_mm), 4);
+      const double hidden = std::pow(std::max(length, kHiddenStiffnessMm), 4);
       factors(v) = seen * fourth + (1 - seen) * hidden;
       typical(v) = areas_(v) * (0.8 * seen + 1e-4);
     }
@@ -129,12 +130,12 @@ class Bending {
     for (const WrapLandmark& landmark : landmarks_) typical(landmark.vertex) += for_landmarks;
     const SparseMatrix stiffness = bending_energy(laplacian_, areas_, factors);
     const ElasticSolver solver(stiffness, typical);
-    for (int i = 0; i < options_.steps; ++i) {
+    for (int i = 0; i < kBendSteps; ++i) {
       const Positions current = base_ + displacements_;
       Wishes wishes(base_.rows());
       ask_scan(current, reach, tangential, wishes);
       ask_rims(current, std::min(reach, kRimReachMm), wishes);
-      if (options_.backward > 0) ask_skin(current, reach, tangential, wishes);
+      ask_skin(current, reach, tangential, wishes);
       for (const WrapLandmark& landmark : landmarks_) {
         wishes.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
                    landmark.place - base_.row(landmark.vertex).transpose());
@@ -178,8 +179,7 @@ class Bending {
       const SurfaceHit hit = hits[i] =
           tree.nearest_facing(point, normal, kLeastCosine, reach, hits[i].triangle);
       if (hit.triangle == kNoIndex || at_rim(hit)) return;
-      pulls[i] = {true, normal, point - hit.point,
-                  options_.backward * scan_weight_ * scan_areas_(s)};
+      pulls[i] = {true, normal, point - hit.point, scan_weight_ * scan_areas_(s)};
     });
     const double spread = spread_of(pulls, reach);
     for (std::size_t i = 0; i < pulls.size(); ++i) {

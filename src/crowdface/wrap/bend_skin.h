@@ -13,13 +13,9 @@ struct BendOptions {
   /// Stiffness of each round as a length: shorter waves than this are kept out of the displacements,
   /// whatever the resolution.
   std::vector<double> stiffness_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
-  int steps = 3;  ///< in each round
   /// Weight along the surface, against 1 across it, in the first and in the last round.
   double tangential_first = 0.2, tangential_last = 0.8;
-  double backward = 1;  ///< weight of what the scan asks of the skin
   double landmarks_first = 1, landmarks_last = 0.3;
-  double hidden_stiffness_mm = 10;  ///< least stiffness where the scan shows nothing
-  double reach_first_mm = 30, reach_last_mm = 6;
 };
 
 /// Bends a skin onto a scan: non-rigid iterated closest points (Amberg et al. 2007) with a bilaplacian
@@ -27,6 +23,6 @@ struct BendOptions {
 /// \param base   #skin by 3, in millimetres, where the scan stands: the shape that is bent.
 /// \return       #skin by 3
 Positions bend_skin(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
-                    const std::vector<WrapLandmark>& landmarks, const BendOptions& options = {});
+                    const std::vector<WrapLandmark>& landmarks, const BendOptions& options);
 
 }  // namespace crowdface

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 
-#include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/smooth/iterate.h"
@@ -16,6 +15,9 @@
 namespace crowdface {
 namespace {
 
+constexpr double kReachMm = 3;
+constexpr double kStiffnessEdges = 0.5;  ///< in edges of the skin: what is finer is taken for noise
+constexpr int kDetailRounds = 2;
 constexpr double kNoWall = 0.7;  // cosine of the scan's normal with the skin's at least
 constexpr double kLeastOpenness = 0.15;
 constexpr double kUnasked = 1e-4;  ///< weight of staying where the scan says nothing
@@ -88,7 +90,7 @@ struct AskedOfSkin {
 };
 
 AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Positions& normals,
-                     const ScanSurface& scan, double reach) {
+                     const ScanSurface& scan) {
   AskedOfSkin asked{Eigen::VectorXd::Constant(positions.rows(), kUnasked),
                     Eigen::VectorXd::Zero(positions.rows())};
   parallel_blocks(positions.rows(), 256, [&](Index begin, Index end) {
@@ -96,11 +98,11 @@ AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Pos
     for (Index v = begin; v < end; ++v) {
       if (skin.openness[static_cast<std::size_t>(v)] < kLeastOpenness) continue;
       const Eigen::Vector3d point = row3(positions, v), normal = row3(normals, v);
-      const auto place = scan.nearest(point, normal, kNoWall, reach, before);
+      const auto place = scan.nearest(point, normal, kNoWall, kReachMm, before);
       before = place.triangle;
       if (!place.found) continue;
       const double off = dot3(place.point - point, place.normal) / dot3(normal, place.normal);
-      const double share = off / reach;
+      const double share = off / kReachMm;
       asked.values(v) = off;
       asked.weights(v) += 1 / ((1 + share * share) * (1 + share * share));
     }
@@ -141,9 +143,9 @@ std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& re
 }
 
 /// Around triangles that offsets turn over less is asked: nothing at them, all of it where a patch ends.
-void hold_back(const SkinMesh& skin, const Positions& rest, const Positions& before,
-               const Positions& normals, std::span<const std::uint32_t> turned,
-               const PatchMender& mender, Eigen::VectorXd& along) {
+void hold_back(const Positions& rest, const Positions& before, const Positions& normals,
+               std::span<const std::uint32_t> turned, const PatchMender& mender,
+               Eigen::VectorXd& along) {
   const auto is_bad = [&](const Triangle& t) {
     return turns_over(rest, before, normals, along, t);
   };
@@ -156,11 +158,7 @@ void hold_back(const SkinMesh& skin, const Positions& rest, const Positions& bef
             for (std::size_t i = 0; i < rows.size(); ++i) along(rows[i]) *= 1 - patch.share(i);
           },
       .undo = [&](const GrowingPatch& patch) { along(patch.vertices()) = asked; }};
-  for (const std::uint32_t i : turned) {
-    throw_if_interrupted();
-    const Triangle& triangle = skin.triangles[i];
-    if (is_bad(triangle)) mender.mend(triangle, is_bad, change);
-  }
+  mender.mend(turned, is_bad, change);
 }
 
 /// Neighbours that found different sheets of the scan would turn the triangles between them over: there,
@@ -200,7 +198,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
   }
   if (turned.empty()) return;
   if (!mender) mender.emplace(skin, rest);
-  hold_back(skin, rest, before, normals, turned, *mender, along);
+  hold_back(rest, before, normals, turned, *mender, along);
 }
 
 void move_along(const Positions& normals, const Eigen::VectorXd& along, Positions& positions) {
@@ -210,16 +208,16 @@ void move_along(const Positions& normals, const Eigen::VectorXd& along, Position
 }  // namespace
 
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
-                        const ScanSurface& scan, const DetailOptions& options) {
+                        const ScanSurface& scan, int smoothings) {
   std::optional<PatchMender> mender;
   Positions result = positions;
   Positions normals = vertex_normals(skin.triangles, result);
-  if (options.smoothings > 0) {
+  if (smoothings > 0) {
     const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
-    const auto times = static_cast<std::uint64_t>(options.smoothings);
+    const auto times = static_cast<std::uint64_t>(smoothings);
     normals = iterate(lazy, normals, times);
     for (Index v = 0; v < normals.rows(); ++v) normals.row(v) = unit3(row3(normals, v)).transpose();
-    const AskedOfSkin asked = ask_scan(skin, result, normals, scan, options.reach_mm);
+    const AskedOfSkin asked = ask_scan(skin, result, normals, scan);
     Columns sums(result.rows(), 2);
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;
     sums = iterate(lazy, sums, times);
@@ -228,10 +226,10 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     move_along(normals, along, result);
   }
   // On a regular mesh of edges h the mean of the neighbours is h²/4 times the Laplacian away.
-  const SmoothFit fit(skin.adjacency, 16 * std::pow(options.stiffness_edges, 4));
-  for (int round = 0; round < options.rounds; ++round) {
-    if (options.smoothings == 0) normals = vertex_normals(skin.triangles, result);
-    const AskedOfSkin asked = ask_scan(skin, result, normals, scan, options.reach_mm);
+  const SmoothFit fit(skin.adjacency, 16 * std::pow(kStiffnessEdges, 4));
+  for (int round = 0; round < kDetailRounds; ++round) {
+    if (smoothings == 0) normals = vertex_normals(skin.triangles, result);
+    const AskedOfSkin asked = ask_scan(skin, result, normals, scan);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
     even_out_folds(skin, rest, result, normals, mender, along);
     move_along(normals, along, result);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -43,8 +44,18 @@ PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest)
   most_rings_ = static_cast<int>(std::clamp(kMostPatchMm / edge, kLeastRings, kMostRings));
 }
 
-void PatchMender::mend(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,
+void PatchMender::mend(std::span<const std::uint32_t> triangles,
+                       const std::function<bool(const Triangle&)>& is_bad,
                        const PatchChange& change) const {
+  for (const std::uint32_t t : triangles) {
+    throw_if_interrupted();
+    if (is_bad(skin_.triangles[t])) mend_around(skin_.triangles[t], is_bad, change);
+  }
+}
+
+void PatchMender::mend_around(const Triangle& triangle,
+                              const std::function<bool(const Triangle&)>& is_bad,
+                              const PatchChange& change) const {
   GrowingPatch patch(skin_, triangle);
   const auto count_bad = [&] {
     std::vector<std::uint32_t> bad;

@@ -45,12 +45,15 @@ class PatchMender {
   /// \param rest  #skin by 3, in millimetres: patches have up to twelve rings, or reach some 15 mm of it.
   PatchMender(const SkinMesh& skin, const Positions& rest);
 
-  /// Makes a change to the smallest patch around a triangle in which that leaves fewer bad triangles than there were;
-  /// none if there is none.
-  void mend(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,
-            const PatchChange& change) const;
+  /// Makes a change, around each of some triangles that is bad still, to the smallest patch in which that leaves
+  /// fewer bad triangles than there were; none if there is none.
+  void mend(std::span<const std::uint32_t> triangles,
+            const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 
  private:
+  void mend_around(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,
+                   const PatchChange& change) const;
+
   const SkinMesh& skin_;
   FacesAround around_;  ///< of its triangles
   int most_rings_ = 0;

@@ -2,12 +2,9 @@
 #include "crowdface/wrap/reduced_skin.h"
 
 #include <algorithm>
-#include <functional>
-#include <limits>
-#include <queue>
-#include <utility>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/edge_distances.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/smooth/iterate.h"
@@ -18,33 +15,6 @@ namespace crowdface {
 
 namespace {
 
-/// The vertex of some that is nearest along the edges (Dijkstra), #V; kNoIndex where none is joined.
-std::vector<std::uint32_t> nearest_along_edges(const SkinMesh& skin, const Positions& positions,
-                                               const std::vector<std::uint32_t>& sources) {
-  using Reached = std::pair<double, std::uint32_t>;
-  std::vector<double> distance(skin.vertices.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::uint32_t> source(skin.vertices.size(), kNoIndex);
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> waiting;
-  for (std::uint32_t i = 0; i < sources.size(); ++i) {
-    distance[sources[i]] = 0;
-    source[sources[i]] = i;
-    waiting.emplace(0.0, sources[i]);
-  }
-  while (!waiting.empty()) {
-    const auto [so_far, v] = waiting.top();
-    waiting.pop();
-    if (so_far > distance[v]) continue;
-    for (const std::uint32_t n : skin.adjacency.of(v)) {
-      const double longer = so_far + length3(row3(positions, n) - row3(positions, v));
-      if (longer >= distance[n]) continue;
-      distance[n] = longer;
-      source[n] = source[v];
-      waiting.emplace(longer, n);
-    }
-  }
-  return source;
-}
-
 /// Where each vertex of the large skin lies on the small one: on a triangle around the small one's vertex
 /// that is nearest along the surface or around one beside that. Lips touch, nostrils have thin walls: the
 /// nearest place in space may be of the other side.
@@ -52,7 +22,8 @@ std::vector<ReducedSkin::Place> find_places(const SkinMesh& skin, const Position
                                             const SkinMesh& small) {
   const Positions corners = small.of(positions);
   const FacesAround around(topology_of(small.triangles, small.vertex_count()));
-  const std::vector<std::uint32_t> source = nearest_along_edges(skin, positions, small.vertices);
+  const std::vector<std::uint32_t> source =
+      nearest_along_edges(skin.adjacency, positions, small.vertices);
   const SurfaceTree tree(corners, small.triangles);
   std::vector<ReducedSkin::Place> places(skin.vertices.size());
   parallel_for_each(positions.rows(), 1024, [&](Index v) {
@@ -102,14 +73,10 @@ std::vector<double> ReducedSkin::carry(const std::vector<double>& values) const 
 }
 
 ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::size_t vertices) {
-  const ReducedMesh small =
-      reduce_mesh(topology_of(skin.triangles, positions.rows()), positions, {}, 2 * vertices);
+  const ReducedMesh small = reduce_mesh(skin.triangles, positions, 2 * vertices);
   ReducedSkin reduced;
   reduced.mesh.vertices = small.vertices;
-  for (std::size_t i = 0; i + 2 < small.triangles.size(); i += 3) {
-    reduced.mesh.triangles.push_back(
-        {small.triangles[i], small.triangles[i + 1], small.triangles[i + 2]});
-  }
+  reduced.mesh.triangles = small.triangles;
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
   reduced.places = find_places(skin, positions, reduced.mesh);

@@ -2,6 +2,7 @@
 #include "crowdface/wrap/report.h"
 
 #include <algorithm>
+#include <array>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,11 @@
 #include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
+#include "crowdface/io/image.h"
+#include "crowdface/render/contact_sheet.h"
+#include "crowdface/render/face_renderer.h"
+#include "crowdface/render/heat_colours.h"
+#include "crowdface/wrap/scan_surface.h"
 
 namespace crowdface {
 namespace {
@@ -64,6 +70,33 @@ std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
 
 nlohmann::ordered_json rounded(double value) {
   return nlohmann::ordered_json::parse(format_fixed(value, 3));
+}
+
+nlohmann::ordered_json spread_json(const std::vector<double>& values) {
+  return {{"median", rounded(percentile(values, 0.5))},
+          {"95 %", rounded(percentile(values, 0.95))}};
+}
+
+constexpr int kSidePx = 320;
+constexpr double kScaleEndMm = 2;  // where the heat map's scale ends
+constexpr std::array<View, 3> kViews = {View::kFront, View::kThreeQuarter, View::kProfile};
+
+/// Eyeballs are shown as such, lashes and tear lines not at all.
+Surfaces surfaces_of(const WrapTemplate& shape) {
+  std::vector<SurfaceKind> of_component(shape.parts.classes.size(), SurfaceKind::kSkin);
+  for (const Part& part : shape.parts.parts) {
+    for (const std::uint32_t c : part.components) {
+      of_component[c] = part.part_class == PartClass::kBound ? SurfaceKind::kHidden
+                        : part.eyeball && c == part.ball     ? SurfaceKind::kEye
+                        : part.eyeball                       ? SurfaceKind::kHidden
+                                                             : SurfaceKind::kTeeth;
+    }
+  }
+  Surfaces surfaces;
+  for (Index f = 0; f < shape.topology.face_count(); ++f) {
+    surfaces.kinds.push_back(of_component[shape.components.of_vertex[shape.topology.face(f)[0]]]);
+  }
+  return surfaces;
 }
 
 }  // namespace
@@ -153,13 +186,10 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
   report["output_scale"] = facts.output_scale;
   report["turned_degrees"] = rounded(result.pose.angle_degrees());
   report["pose_residual_mm"] = rounded(result.pose_residual_mm);
-  const WrapDistances distances = distances_of(shape, result);
-  report["distance_mm"] = {{"median", rounded(distances.median)},
-                           {"95 %", rounded(distances.percentile_95)}};
+  report["distance_mm"] = spread_json(seen_distances(shape, result));
   for (std::size_t r = 0; r < regions.names.size(); ++r) {
-    const std::vector<double> of_region = seen_distances(shape, result, &regions, r);
-    report["regions_mm"][regions.names[r]] = {{"median", rounded(percentile(of_region, 0.5))},
-                                              {"95 %", rounded(percentile(of_region, 0.95))}};
+    report["regions_mm"][regions.names[r]] =
+        spread_json(seen_distances(shape, result, &regions, r));
   }
   report["without_data"] = rounded(share_without_data(shape, result));
   report["flipped_triangles"] = result.flipped;
@@ -169,23 +199,47 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
                                    {"pose_mm", rounded(landmark.pose_mm)},
                                    {"final_mm", rounded(landmark.final_mm)},
                                    {"outlier", landmark.outlier}});
-    const auto left_out = facts.left_out_mm.find(landmark.name);
-    if (left_out != facts.left_out_mm.end()) {
-      report["landmarks"].back()["left_out_mm"] = rounded(left_out->second);
-    }
-    const auto unseen = facts.unseen_mm.find(landmark.name);
-    if (unseen != facts.unseen_mm.end()) {
-      report["landmarks"].back()["unseen_mm"] = rounded(unseen->second);
+    for (const auto& [key, all] :
+         {std::pair{"left_out_mm", &facts.left_out_mm}, std::pair{"unseen_mm", &facts.unseen_mm}}) {
+      const auto found = all->find(landmark.name);
+      if (found != all->end()) report["landmarks"].back()[key] = rounded(found->second);
     }
   }
   if (!facts.unseen_mm.empty()) {
     std::vector<double> all;
     for (const auto& [name, mm] : facts.unseen_mm) all.push_back(mm);
-    report["correspondence_mm"] = {{"median", rounded(percentile(all, 0.5))},
-                                   {"95 %", rounded(percentile(all, 0.95))}};
+    report["correspondence_mm"] = spread_json(all);
   }
   report["warnings"] = warnings;
   return report.dump(2) + "\n";
+}
+
+std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const WrapResult& result,
+                         const HeadFrame& frame, const std::string& title) {
+  const Positions standing = inverse(result.pose).apply(scan.positions);
+  const std::array<const Positions*, 1> heads = {&result.positions};
+  const std::vector<Camera> cameras = fit_cameras(heads, frame, kViews, {.cut_below = 0.1});
+  const RenderOptions options{.size_px = kSidePx, .front = frame.front};
+  const Topology scan_topology = topology_of(scan.triangles, scan.positions.rows());
+  const FaceRenderer of_scan(scan_topology, options, {}, &standing),
+      of_head(shape.topology, options, surfaces_of(shape), &result.positions);
+  Eigen::VectorXd distances = Eigen::VectorXd::Zero(shape.topology.vertex_count);
+  for (std::size_t i = 0; i < shape.skin.vertices.size(); ++i) {
+    distances(shape.skin.vertices[i]) = result.distance_mm(static_cast<Index>(i));
+  }
+  const VertexColours colours = heat_colours(distances, kScaleEndMm);
+  std::vector<Rgb8Image> scans, wrapped, heat;
+  for (const Camera& camera : cameras) {
+    scans.push_back(of_scan.render(standing, camera));
+    wrapped.push_back(of_head.render(result.positions, camera));
+    heat.push_back(of_head.render(result.positions, camera, &colours));
+  }
+  const std::vector<SheetCell> cells = {{side_by_side(scans), "scan"},
+                                        {side_by_side(wrapped), "wrapped template"},
+                                        {side_by_side(heat), "distance to the scan"}};
+  const Rgb8Image sheet =
+      contact_sheet(cells, {.columns = 1, .title = title, .legend = HeatLegend{kScaleEndMm, "mm"}});
+  return encode_png(sheet.width, sheet.height, 3, sheet.pixels);
 }
 
 }  // namespace crowdface

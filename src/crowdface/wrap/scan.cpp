@@ -50,7 +50,7 @@ std::vector<double> areas_of_pieces(const Scan& scan) {
 }
 
 double largest(const std::vector<double>& areas) {
-  return areas.empty() ? 0 : *std::max_element(areas.begin(), areas.end());
+  return areas.empty() ? 0 : std::ranges::max(areas);
 }
 
 }  // namespace
@@ -112,10 +112,7 @@ void weld(Scan& scan) {
   const auto place = [&](std::uint32_t v) {
     return std::array{scan.positions(v, 0), scan.positions(v, 1), scan.positions(v, 2)};
   };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto x = place(a), y = place(b);
-    return x < y || (x == y && a < b);
-  });
+  std::ranges::stable_sort(order, {}, place);
   std::vector<std::uint32_t> first(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     first[order[i]] =

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/scan_faults.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -22,8 +21,8 @@ constexpr double kHairMm = 10;      // heads of people without hair differ by le
 constexpr double kMostFar = 0.05;
 constexpr std::size_t kFewest = 20;  // vertices of a region
 
-std::optional<double> median(std::vector<double> values, std::size_t fewest) {
-  if (values.size() < fewest) return std::nullopt;
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
   const std::size_t rank = values.size() / 2;
   return value_of_rank(std::move(values), rank);
 }
@@ -38,7 +37,7 @@ std::optional<double> lid_opening(const Lids& lids, const ComponentShape& ball,
     if (std::abs(dot3(row3(rest, v) - ball.centre, axes.side())) > kMiddle * ball.radius) continue;
     (lids.upper[i] ? upper : lower).push_back(dot3(row3(positions, v), axes.up));
   }
-  const auto above = median(upper, 1), below = median(lower, 1);
+  const auto above = median(upper), below = median(lower);
   if (!above || !below) return std::nullopt;
   return *above - *below;
 }
@@ -71,7 +70,7 @@ void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const Sk
                             after = contacts.gaps(result.positions);
   std::vector<double> wider;
   for (std::size_t i = 0; i < contacts.size(); ++i) wider.push_back(after[i] - before[i]);
-  if (const auto by = median(wider, 1); by && *by > kOpenMouthMm) {
+  if (const auto by = median(wider); by && *by > kOpenMouthMm) {
     faults.push_back(concat("the mouth seems to be open: lips are ", format_fixed(*by, 1),
                             " mm farther apart than the template's; scans need a closed mouth"));
   }
@@ -98,7 +97,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
     if (result.distance_mm(v) > kFarFromScanMm) ++far;
   }
   const double share = static_cast<double>(far) / static_cast<double>(skull.size());
-  const double above = median(std::move(out), 1).value_or(0);
+  const double above = median(std::move(out)).value_or(0);
   if (above <= kHairMm && share <= kMostFar) return;
   faults.push_back(concat("the scan seems to show hair: above the brows it stands ",
                           format_fixed(above, 0), " mm out beyond the template's head, and ",

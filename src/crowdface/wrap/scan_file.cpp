@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -26,7 +25,7 @@ bool has_area(const Scan& scan) {
 }
 
 /// A fan of slivers is a surface to no search: near their vertex they all lie everywhere.
-void refuse_fan(const Scan& scan, const std::string& name) {
+void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
   constexpr std::uint32_t kManyTriangles = 4096;
   std::vector<std::uint32_t> triangles_at(static_cast<std::size_t>(scan.positions.rows()), 0);
   for (const Triangle& triangle : scan.triangles) {
@@ -35,9 +34,9 @@ void refuse_fan(const Scan& scan, const std::string& name) {
   const auto most = std::max_element(triangles_at.begin(), triangles_at.end());
   if (*most < kManyTriangles || *most < scan.triangles.size() / 2) return;
   const Eigen::Vector3d at = row3(scan.positions, most - triangles_at.begin());
-  throw InvalidInput(concat(name, ": expected a scanned surface, found ", *most, " of its ",
-                            scan.triangles.size(), " triangles at one vertex, at (", at.x(), ", ",
-                            at.y(), ", ", at.z(), ")"));
+  refuse_file(path,
+              concat("expected a scanned surface, found ", *most, " of its ", scan.triangles.size(),
+                     " triangles at one vertex, at (", at.x(), ", ", at.y(), ", ", at.z(), ")"));
 }
 
 }  // namespace
@@ -55,44 +54,20 @@ Scan read_scan(const std::filesystem::path& path) {
   } else if (ending == ".glb") {
     scan = parse_glb(MappedFile(path).bytes(), name);
   } else {
-    throw InvalidInput(
-        concat(name, ": expected a scan whose name ends in .obj, .ply, .stl or .glb"));
+    refuse_file(path, "expected a scan whose name ends in .obj, .ply, .stl or .glb");
   }
   if (scan.triangles.empty()) {
-    throw InvalidInput(concat(name, ": expected a surface of triangles, found ",
-                              scan.positions.rows(), " points and no face"));
+    refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),
+                             " points and no face"));
   }
   if (!(scan.positions.array().abs() <= kFarthest).all()) {
-    throw InvalidInput(concat(name, ": expected finite positions, none farther than ", kFarthest,
-                              " from the origin, found another"));
+    refuse_file(path, concat("expected finite positions, none farther than ", kFarthest,
+                             " from the origin, found another"));
   }
-  if (!has_area(scan)) {
-    throw InvalidInput(concat(name, ": expected a surface, found triangles without area"));
-  }
+  if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
   weld(scan);
-  refuse_fan(scan, name);
+  refuse_fan(scan, path);
   return without_shells(scan);
-}
-
-std::string encode_scan(const Scan& scan) {
-  std::string bytes =
-      concat("ply\nformat binary_little_endian 1.0\nelement vertex ", scan.positions.rows(),
-             "\nproperty float x\nproperty float y\nproperty float z\nelement face ",
-             scan.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
-  const std::size_t header = bytes.size();
-  const auto points = static_cast<std::size_t>(scan.positions.size());
-  bytes.resize(header + 4 * points + 13 * scan.triangles.size());
-  char* out = bytes.data() + header;
-  for (std::size_t i = 0; i < points; ++i, out += 4) {
-    const auto value = static_cast<float>(scan.positions.data()[i]);
-    std::memcpy(out, &value, 4);
-  }
-  for (const Triangle& t : scan.triangles) {
-    *out++ = 3;
-    std::memcpy(out, t.data(), 12);
-    out += 12;
-  }
-  return bytes;
 }
 
 }  // namespace crowdface

@@ -22,7 +22,4 @@ Scan parse_stl(std::string_view bytes, const std::string& name);
 /// compressed primitives are refused.
 Scan parse_glb(std::string_view bytes, const std::string& name);
 
-/// A scan as a binary PLY file.
-std::string encode_scan(const Scan& scan);
-
 }  // namespace crowdface

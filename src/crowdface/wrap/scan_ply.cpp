@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <optional>
 
@@ -14,20 +13,27 @@ namespace {
 
 enum class Coding { kText, kLittleEndian, kBigEndian };
 
+template <class T>
+double number_in(const std::array<char, 8>& raw) {
+  T number;
+  std::memcpy(&number, raw.data(), sizeof number);
+  return static_cast<double>(number);
+}
+
 /// What a number is, as long as it takes in a binary file.
 struct Type {
   std::string_view name, other;
   std::size_t bytes;
-  bool real, is_signed;
+  double (*read)(const std::array<char, 8>&);
 };
-constexpr std::array<Type, 8> kTypes = {{{"char", "int8", 1, false, true},
-                                         {"uchar", "uint8", 1, false, false},
-                                         {"short", "int16", 2, false, true},
-                                         {"ushort", "uint16", 2, false, false},
-                                         {"int", "int32", 4, false, true},
-                                         {"uint", "uint32", 4, false, false},
-                                         {"float", "float32", 4, true, true},
-                                         {"double", "float64", 8, true, true}}};
+constexpr std::array<Type, 8> kTypes = {{{"char", "int8", 1, number_in<std::int8_t>},
+                                         {"uchar", "uint8", 1, number_in<std::uint8_t>},
+                                         {"short", "int16", 2, number_in<std::int16_t>},
+                                         {"ushort", "uint16", 2, number_in<std::uint16_t>},
+                                         {"int", "int32", 4, number_in<std::int32_t>},
+                                         {"uint", "uint32", 4, number_in<std::uint32_t>},
+                                         {"float", "float32", 4, number_in<float>},
+                                         {"double", "float64", 8, number_in<double>}}};
 
 struct Property {
   std::string name;
@@ -123,17 +129,7 @@ class PlyReader {
     std::memcpy(raw.data(), bytes_.data() + at_, type.bytes);
     at_ += type.bytes;
     if (coding_ == Coding::kBigEndian) std::reverse(raw.data(), raw.data() + type.bytes);
-    if (type.real) return type.bytes == 4 ? as<float>(raw) : as<double>(raw);
-    if (type.bytes == 1) return type.is_signed ? as<std::int8_t>(raw) : as<std::uint8_t>(raw);
-    if (type.bytes == 2) return type.is_signed ? as<std::int16_t>(raw) : as<std::uint16_t>(raw);
-    return type.is_signed ? as<std::int32_t>(raw) : as<std::uint32_t>(raw);
-  }
-
-  template <class T>
-  static double as(const std::array<char, 8>& raw) {
-    T number;
-    std::memcpy(&number, raw.data(), sizeof number);
-    return static_cast<double>(number);
+    return type.read(raw);
   }
 
   double word() {
@@ -149,8 +145,7 @@ class PlyReader {
     std::array<std::size_t, 3> column{};
     for (std::size_t c = 0; c < 3; ++c) {
       const std::string wanted(1, "xyz"[c]);
-      const auto found = std::find_if(element.properties.begin(), element.properties.end(),
-                                      [&](const Property& p) { return p.name == wanted; });
+      const auto found = std::ranges::find(element.properties, wanted, &Property::name);
       if (found == element.properties.end()) fail(concat("its vertices have no ", wanted));
       column[c] = static_cast<std::size_t>(found - element.properties.begin());
     }

@@ -37,7 +37,6 @@ class ScanSurface {
   const Scan& scan() const { return scan_; }
   const Positions& normals() const { return normals_; }
   const std::vector<bool>& rim() const { return rim_; }
-  const SurfaceTree& tree() const { return tree_; }
 
  private:
   Place place_of(const SurfaceHit& hit) const;

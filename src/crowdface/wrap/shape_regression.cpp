@@ -19,7 +19,7 @@ constexpr Index kPose = 7;
 
 /// How far a vertex is displaced along a direction, as the scan or a landmark has it.
 struct Asked {
-  std::uint32_t vertex;
+  std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d direction;
   double value, variance;
 };
@@ -134,24 +134,16 @@ std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
                             double noise_mm) {
   const Positions normals = vertex_normals(skin.triangles, positions);
   std::vector<Asked> asked(places.size());
-  std::vector<char> found(places.size(), 0);
   parallel_for_each(places.size(), 64, [&](std::size_t i) {
     const std::uint32_t v = places[i];
     const auto place = scan.nearest(row3(positions, v), row3(normals, v), kLeastCosine, reach);
     if (!place.found) return;
-    found[i] = 1;
     const double off = dot3(place.normal, place.point - row3(positions, v));
     asked[i] = {v, place.normal, dot3(place.normal, place.point - row3(model.mean, v)), off};
   });
-  std::size_t kept = 0;
+  std::erase_if(asked, [](const Asked& one) { return one.vertex == kNoIndex; });
   std::vector<double> distances;
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (found[i] == 0) continue;
-    distances.push_back(std::abs(asked[i].variance));
-    asked[kept++] = asked[i];
-  }
-  asked.resize(kept);
-  if (asked.empty()) return asked;
+  for (const Asked& one : asked) distances.push_back(std::abs(one.variance));
   const double spread = outlier_distance(std::move(distances), reach);
   for (Asked& one : asked) {  // what is far off the others counts little
     const double share = 1 + one.variance * one.variance / (spread * spread);

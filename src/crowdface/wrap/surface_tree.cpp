@@ -115,15 +115,12 @@ SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, const SurfaceHit& s
 
 SurfaceHit SurfaceTree::on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point,
                                     double reach) const {
-  SurfaceHit hit;
   if (triangle != kNoIndex) {
-    hit = nearest_on_triangle(positions_, triangles_[triangle], point);
+    SurfaceHit hit = nearest_on_triangle(positions_, triangles_[triangle], point);
     hit.triangle = triangle;
+    if (hit.distance <= reach) return hit;
   }
-  if (hit.triangle != kNoIndex && hit.distance <= reach) return hit;
-  SurfaceHit none;
-  none.distance = reach;
-  return none;
+  return {.distance = reach};
 }
 
 SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach,

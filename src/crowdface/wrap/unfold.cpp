@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/unfold.h"
 
-#include <algorithm>
-
-#include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/wrap/growing_patch.h"
@@ -53,11 +50,7 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
           [&](const GrowingPatch& patch) { positions(patch.vertices(), Eigen::all) = as_it_was; }};
   for (std::size_t before = folded.size() + 1; folded.size() < before && !folded.empty();) {
     before = folded.size();
-    for (const std::uint32_t i : folded) {
-      throw_if_interrupted();
-      const Triangle& triangle = skin.triangles[i];
-      if (is_bad(triangle)) mender.mend(triangle, is_bad, lay);
-    }
+    mender.mend(folded, is_bad, lay);
     folded = folded_triangles(skin, rest, positions);
   }
   return static_cast<Index>(folded.size());

@@ -6,11 +6,15 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/find_mirror.h"
 #include "crowdface/parts/follower.h"
-#include "crowdface/wrap/guess_pose.h"
+#include "crowdface/wrap/bend_skin.h"
+#include "crowdface/wrap/detail.h"
+#include "crowdface/wrap/shape_regression.h"
 #include "crowdface/wrap/unfold.h"
 
 namespace crowdface {
@@ -24,10 +28,8 @@ std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
                                   const std::vector<WrapLandmark>& landmarks) {
   std::vector<WrapLandmark> result;
   for (const WrapLandmark& landmark : landmarks) {
-    const auto at = std::lower_bound(skin.vertices.begin(), skin.vertices.end(), landmark.vertex);
-    if (at == skin.vertices.end() || *at != landmark.vertex) continue;
-    result.push_back(landmark);
-    result.back().vertex = static_cast<std::uint32_t>(at - skin.vertices.begin());
+    const std::uint32_t row = place_in(skin.vertices, landmark.vertex);
+    if (row != kNoIndex) result.push_back({landmark.name, row, landmark.place});
   }
   return result;
 }
@@ -47,15 +49,14 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
 /// others, and so ends far from where it was picked.
 void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landmarks,
                std::vector<LandmarkResidual>& residuals) {
-  std::vector<double> sorted;
+  std::vector<double> all;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     residuals[i].final_mm =
         length3(wrapped.row(landmarks[i].vertex).transpose() - landmarks[i].place);
-    sorted.push_back(residuals[i].final_mm);
+    all.push_back(residuals[i].final_mm);
   }
-  if (sorted.empty()) return;
-  std::sort(sorted.begin(), sorted.end());
-  const double most = std::max(kLeastOutlierMm, kOutlier * sorted[sorted.size() / 2]);
+  if (all.empty()) return;
+  const double most = std::max(kLeastOutlierMm, kOutlier * value_of_rank(all, all.size() / 2));
   for (LandmarkResidual& residual : residuals) residual.outlier = residual.final_mm > most;
 }
 
@@ -63,10 +64,6 @@ void move(std::vector<WrapLandmark>& landmarks, const Similarity& motion) {
   for (WrapLandmark& landmark : landmarks) {
     landmark.place = carried(motion, landmark.place);
   }
-}
-
-Scan moved_scan(const Scan& scan, const Similarity& motion) {
-  return {motion.apply(scan.positions), scan.triangles};
 }
 
 void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& result) {
@@ -146,8 +143,8 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
 }
 
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
-                const std::vector<WrapLandmark>& all_landmarks, const std::optional<PoseHint>& hint,
-                const WrapOptions& options) {
+                const std::vector<WrapLandmark>& all_landmarks,
+                const std::optional<PoseHint>& hint) {
   const SkinMesh& skin = shape.skin;
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
   std::vector<WrapLandmark> landmarks = on_skin(skin, all_landmarks);
@@ -162,35 +159,41 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
     if (shape.reduced) small = reduce(shape, rest, model, landmarks, fit.pose);
     const auto& marks = small ? small->landmarks : landmarks;
     const ShapeModel alone{small ? small->rest : rest, {}};
-    fit = fit_shape(bent, alone, surface, marks, fit, options.pose);
+    fit = fit_shape(bent, alone, surface, marks, fit);
     result.pose_residual_mm = fit.residual;
     result.landmarks = residuals_of(rest, fit.pose, landmarks);
     if (model != nullptr) {
       used = small ? &*small->model : model;
-      fit = fit_shape(bent, *used, surface, marks, fit, options.person);
+      fit =
+          fit_shape(bent, *used, surface, marks, fit,
+                    {.reach_mm = {20, 16, 12, 8, 6, 4}, .measurements = 6, .landmark_weight = 0.1});
     }
   }
   result.pose = fit.pose;
   refuse_no_pose(fit.pose);
   const Similarity back = inverse(fit.pose);
-  const ScanSurface surface(moved_scan(scan, back));
+  const ScanSurface surface({back.apply(scan.positions), scan.triangles});
   move(landmarks, back);
   if (small) move(small->landmarks, back);
   const auto& marks = small ? small->landmarks : landmarks;
   Positions wrapped = small ? small->rest : rest;
+  BendOptions bend;
   if (used != nullptr) {
-    wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks,
-                            options.regression);
+    wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks);
+    // Once a model has found the person what is left is smaller, and places lie so near to theirs that
+    // what holds them along the surface would rather keep them off.
+    bend = {.stiffness_mm = {10, 5, 2.5},
+            .tangential_first = 0,
+            .tangential_last = 0.05,
+            .landmarks_first = 2,
+            .landmarks_last = 1.5};
   }
-  wrapped = bend_skin(bent, wrapped, surface, marks,
-                      used == nullptr ? options.bend : options.bend_with_model);
+  wrapped = bend_skin(bent, wrapped, surface, marks, bend);
   if (small) {
     unfold(bent, small->rest, wrapped);
     wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
   }
-  DetailOptions detail = options.detail;
-  if (small) detail.smoothings = shape.reduced->smoothings;
-  wrapped = follow_detail(skin, rest, wrapped, surface, detail);
+  wrapped = follow_detail(skin, rest, wrapped, surface, small ? shape.reduced->smoothings : 0);
   result.flipped = unfold(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
@@ -202,6 +205,29 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   const FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
   PartFollower(faces, shape.parts, shape.axes).follow(0, result.positions);
   return result;
+}
+
+std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const ShapeModel* model,
+                                               const Scan& scan,
+                                               const std::vector<WrapLandmark>& landmarks,
+                                               const std::optional<PoseHint>& hint) {
+  constexpr std::size_t kOneByOne = 12, kFolds = 4;
+  std::map<std::string, double> unseen;
+  if (!hint && landmarks.size() <= kFewestLandmarks) return unseen;
+  const std::size_t folds = landmarks.size() < kOneByOne ? landmarks.size() : kFolds;
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    std::vector<WrapLandmark> known, left_out;
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+      (i % folds == fold ? left_out : known).push_back(landmarks[i]);
+    }
+    const WrapResult result = wrap(shape, model, scan, known, hint);
+    const Similarity back = inverse(result.pose);
+    for (const WrapLandmark& landmark : left_out) {
+      unseen[landmark.name] =
+          length3(row3(result.positions, landmark.vertex) - carried(back, landmark.place));
+    }
+  }
+  return unseen;
 }
 
 }  // namespace crowdface

@@ -1,35 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "crowdface/wrap/bend_skin.h"
-#include "crowdface/wrap/detail.h"
 #include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/shape_fit.h"
 #include "crowdface/wrap/shape_model.h"
-#include "crowdface/wrap/shape_regression.h"
 #include "crowdface/wrap/wrap_template.h"
 
 namespace crowdface {
-
-struct WrapOptions {
-  ShapeFitOptions pose;
-  ShapeFitOptions person = {
-      .reach_mm = {20, 16, 12, 8, 6, 4}, .measurements = 6, .landmark_weight = 0.1};
-  RegressionOptions regression;
-  BendOptions bend;
-  /// Once a model has found the person: what is left is smaller, and places lie so near to theirs that
-  /// what holds them along the surface would rather keep them off.
-  BendOptions bend_with_model = {.stiffness_mm = {10, 5, 2.5},
-                                 .tangential_first = 0,
-                                 .tangential_last = 0.05,
-                                 .landmarks_first = 2,
-                                 .landmarks_last = 1.5};
-  DetailOptions detail;
-};
 
 /// How far a landmark of the template is from that of the scan.
 struct LandmarkResidual {
@@ -62,7 +44,15 @@ inline constexpr std::size_t kFewestLandmarks = 4;  ///< that tell how a scan st
 /// \throws InvalidInput if there are fewer than kFewestLandmarks and no hint, or nothing of the scan is
 /// where the landmarks say.
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
-                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint,
-                const WrapOptions& options = {});
+                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
+
+/// How far each landmark ends from where it was picked when the wrap does not know it, in mm: an estimate of how well
+/// places correspond where none was picked, the error of picking along. One more wrap for each of up to eleven
+/// landmarks, four more for others; nothing where too few would be left.
+/// \param shape, model, scan, landmarks, hint  as wrap takes them
+std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const ShapeModel* model,
+                                               const Scan& scan,
+                                               const std::vector<WrapLandmark>& landmarks,
+                                               const std::optional<PoseHint>& hint);
 
 }  // namespace crowdface
