@@ -57,7 +57,9 @@ class TwoCharts {
     TextureBlending options;
     options.areas.assign(static_cast<std::size_t>(faces.topology.vertex_count), 1.0);
     options.of_target = of_target;
-    return {faces.topology, faces.uvs, adjacency, alpha, textures, options};
+    const ChebyshevFilter filter(SmoothingOperator(adjacency, Boundary::kFree, OperatorKind::kLazy),
+                                 Positions::Zero(faces.topology.vertex_count, 3));
+    return {faces.topology, faces.uvs, filter, alpha, textures, options};
   }
   SurfaceTexels texels() const { return {faces.topology, faces.uvs, textures.layout, 0}; }
 

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "crowdface/cast/face_area.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/level_size.h"
+#include "crowdface/smooth/smoothing_operator.h"
 
 namespace crowdface {
 namespace {
@@ -42,9 +44,12 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices) options.of_target[vertex] = true;
   }
+  const ChebyshevFilter filter(
+      SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
+      inputs.faces.heads.front().positions);
   const auto add = [&](const HeadTextures& textures) {
     blenders_.push_back(std::make_unique<TextureBlender>(
-        topology, inputs.faces.uvs, inputs.adjacency, inputs.regions, textures.blended, options));
+        topology, inputs.faces.uvs, filter, inputs.regions, textures.blended, options));
     for (std::size_t p = 0; p < textures.names.size(); ++p) {
       pictures_.push_back({blenders_.back().get(), p});
     }

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/smooth/iterate.h"
 
 namespace crowdface {
 namespace {
@@ -98,134 +99,172 @@ Grouped<Sample> sample_surface(const std::vector<SurfaceTexels>& texels, std::si
                          [&](const auto& put) { for_each_sample(texels, step, vertices, put); });
 }
 
-/// Smooths values that only some vertices have. \param values  #V by C, the last column 1 where there is
-/// one and else a row of zeros; there it becomes 0 where none is near.
-void smooth_known(const SmoothingOperator& smoothing, std::uint64_t level, Columns& values) {
-  values = iterate(smoothing, values, level);
-  for (Index v = 0; v < values.rows(); ++v) {
-    const double known = values(v, values.cols() - 1);
-    if (known > 0) values.row(v) /= known;
+/// Smooths rows of three values and a one, or of zeros at vertices that have no values, and hands back the means
+/// of what there is around each vertex: zeros where there is nothing.
+/// \param count   how many such rows each vertex has, smoothed some at a time.
+/// \param row_of  row_of(i, vertex): its row i, asked for by any thread.
+/// \param take    take(i, vertex, row): where the means go, likewise.
+template <class RowOf, class Take>
+void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_t count,
+                  const RowOf& row_of, const Take& take) {
+  constexpr std::size_t kMostAtOnce = 4;
+  constexpr double kTolerance = 1e-6;  // of values that are known to seven digits
+  constexpr float kLeastKnown = 1e-3F;
+  const ChebyshevSeries series = power_series(OperatorKind::kLazy, level, kTolerance);
+  const std::span<const std::uint32_t> vertex_of_row = filter.vertex_of_row();
+  const auto for_each_row = [&](const auto& visit) {
+    parallel_for_each(static_cast<Index>(vertex_of_row.size()), kBlock,
+                      [&](Index row) { visit(static_cast<std::size_t>(row)); });
+  };
+  for (std::size_t first = 0; first < count; first += kMostAtOnce) {
+    throw_if_interrupted();
+    std::vector<FilterInput<float>> inputs(std::min(kMostAtOnce, count - first));
+    for (FilterInput<float>& input : inputs) {
+      input.values.resize(vertex_of_row.size());
+      input.series = {series};
+    }
+    for_each_row([&](std::size_t row) {
+      for (std::size_t i = 0; i < inputs.size(); ++i) {
+        inputs[i].values[row] = row_of(first + i, vertex_of_row[row]);
+      }
+    });
+    const auto smoothed = filter.run<float>(inputs);
+    for_each_row([&](std::size_t row) {
+      for (std::size_t i = 0; i < inputs.size(); ++i) {
+        Row<float> means = smoothed[i].front()[row];
+        const float known = means.value[3];
+        for (float& mean : means.value) mean = known > kLeastKnown ? mean / known : 0;
+        take(first + i, vertex_of_row[row], means);
+      }
+    });
   }
 }
 
-Colours coarse_colours(const Grouped<Sample>& samples, const HeadMaps& maps, std::size_t head,
-                       const SmoothingOperator& smoothing, std::uint64_t level) {
-  const auto vertices = static_cast<Index>(samples.group_count());
-  Columns sums = Columns::Zero(vertices, 4);
-  parallel_for_each(vertices, kBlock, [&](Index v) {
-    double count = 0;
-    for (const Sample& sample : samples.of(v)) {
-      const TextureMap* map = maps[sample.picture][head].get();
-      if (map == nullptr) continue;
-      sums.row(v).head(3) += numbers_at(*map, sample.texel).cast<double>().matrix().transpose();
-      count += 1;
-    }
-    if (count == 0) return;
-    sums.row(v) /= count;
-    sums(v, 3) = 1;
-  });
-  smooth_known(smoothing, level, sums);
-  return sums.leftCols(3).cast<float>();
+/// The mean of a head's numbers at a vertex, and a one; zeros where it has none.
+Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, std::size_t head) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  double count = 0;
+  for (const Sample& sample : samples) {
+    const TextureMap* map = maps[sample.picture][head].get();
+    if (map == nullptr) continue;
+    sum += numbers_at(*map, sample.texel).cast<double>();
+    count += 1;
+  }
+  if (count == 0) return {};
+  const Eigen::Array3f mean = (sum / count).cast<float>();
+  return {mean[0], mean[1], mean[2], 1};
 }
 
-/// The mean products of details, before they are smoothed; of vertices where a head has nothing, 0.
+/// The mean products of details, before they are smoothed; not a number where one of the heads has nothing.
 void multiply_details(const Grouped<Sample>& samples, const HeadMaps& maps,
-                      SurfaceStatistics& statistics, std::vector<bool>& known) {
-  const std::size_t heads = statistics.coarse.size();
-  std::vector<std::uint8_t> is_known(known.size(), 0);
+                      SurfaceStatistics& statistics) {
+  const std::size_t heads = statistics.coarse.size(), pairs = statistics.pairs;
   parallel_blocks(static_cast<Index>(samples.group_count()), kBlock, [&](Index begin, Index end) {
-    std::vector<Eigen::Array3f> detail(heads);
-    std::vector<bool> has(heads);
-    std::vector<double> sums(statistics.pairs), counts(statistics.pairs);
+    // Of each head three differences, and a one where it has something.
+    std::array<std::vector<float>, 4> detail;
+    detail.fill(std::vector<float>(heads));
+    std::vector<float> sums(pairs), counts(pairs);
     for (Index v = begin; v < end; ++v) {
-      std::ranges::fill(sums, 0.0);
-      std::ranges::fill(counts, 0.0);
+      std::ranges::fill(sums, 0.0F);
+      std::ranges::fill(counts, 0.0F);
       for (const Sample& sample : samples.of(v)) {
         for (std::size_t h = 0; h < heads; ++h) {
           const TextureMap* map = maps[sample.picture][h].get();
-          has[h] = map != nullptr;
-          if (!has[h]) continue;
-          detail[h] = numbers_at(*map, sample.texel);
-          for (std::size_t c = 0; c < 3; ++c) {
-            detail[h] -=
-                sample.shares[c] * statistics.coarse[h].row(sample.vertices[c]).array().transpose();
+          Eigen::Array3f difference = Eigen::Array3f::Zero();
+          if (map != nullptr) {
+            difference = numbers_at(*map, sample.texel);
+            for (std::size_t c = 0; c < 3; ++c) {
+              difference -= sample.shares[c] *
+                            statistics.coarse[h].row(sample.vertices[c]).array().transpose();
+            }
           }
+          for (std::size_t c = 0; c < 3; ++c) detail[c][h] = difference[static_cast<Index>(c)];
+          detail[3][h] = map != nullptr ? 1.0F : 0.0F;
         }
+        const auto& [x, y, z, has] = detail;
         for (std::size_t a = 0; a < heads; ++a) {
-          for (std::size_t b = 0; has[a] && b <= a; ++b) {
-            if (!has[b]) continue;
-            sums[statistics.pair(a, b)] += static_cast<double>((detail[a] * detail[b]).sum());
-            counts[statistics.pair(a, b)] += 1;
+          float* const sum = sums.data() + statistics.pair(a, 0);
+          float* const count = counts.data() + statistics.pair(a, 0);
+          for (std::size_t b = 0; b <= a; ++b) {
+            sum[b] += x[a] * x[b] + y[a] * y[b] + z[a] * z[b];
+            count[b] += has[a] * has[b];
           }
         }
       }
-      for (std::size_t p = 0; p < statistics.pairs; ++p) {
-        const std::size_t at = static_cast<std::size_t>(v) * statistics.pairs + p;
-        if (counts[p] == 0) continue;
-        is_known[at] = 1;
-        statistics.covariances[at] = static_cast<float>(sums[p] / counts[p]);
-      }
+      float* const means = statistics.covariances.data() + static_cast<std::size_t>(v) * pairs;
+      for (std::size_t p = 0; p < pairs; ++p) means[p] = sums[p] / counts[p];
     }
   });
-  known.assign(is_known.begin(), is_known.end());
 }
 
-/// Pairs of heads that have something at the same vertices are smoothed together, some at a time.
-void smooth_covariances(const SmoothingOperator& smoothing, std::uint64_t level,
-                        const std::vector<bool>& known, SurfaceStatistics& statistics) {
-  constexpr std::size_t kMostAtOnce = 8;
-  const std::size_t pairs = statistics.pairs, vertices = known.size() / pairs;
-  const auto alike = [&](std::size_t a, std::size_t b) {
-    for (std::size_t v = 0; v < vertices; ++v) {
-      if (known[v * pairs + a] != known[v * pairs + b]) return false;
-    }
-    return true;
-  };
-  for (std::size_t first = 0; first < pairs;) {
-    throw_if_interrupted();
-    std::size_t end = first + 1;
-    while (end < pairs && end - first < kMostAtOnce && alike(first, end)) ++end;
-    const auto count = static_cast<Index>(end - first);
-    Columns values = Columns::Zero(static_cast<Index>(vertices), count + 1);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      if (!known[v * pairs + first]) continue;
-      const auto row = static_cast<Index>(v);
-      for (Index p = 0; p < count; ++p) {
-        values(row, p) = statistics.covariances[v * pairs + first + static_cast<std::size_t>(p)];
-      }
-      values(row, count) = 1;
-    }
-    smooth_known(smoothing, level, values);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      for (Index p = 0; p < count; ++p) {
-        statistics.covariances[v * pairs + first + static_cast<std::size_t>(p)] =
-            static_cast<float>(values(static_cast<Index>(v), p));
+/// Pairs of heads that stand together in the list, at most three, and both of whose heads have something in the
+/// same pictures: where one pair's products are known the others' are.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& maps) {
+  std::vector<std::vector<bool>> known;  // of each pair in each picture
+  for (std::size_t a = 0; a < maps.front().size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      known.emplace_back();
+      for (const auto& of_picture : maps) {
+        known.back().push_back(of_picture[a] != nullptr && of_picture[b] != nullptr);
       }
     }
-    first = end;
   }
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;
+  for (std::size_t p = 0; p < known.size(); ++p) {
+    const bool joins = !ranges.empty() && p - ranges.back().first < 3 && known[p] == known[p - 1];
+    if (!joins) ranges.emplace_back(p, p);
+    ranges.back().second = p + 1;
+  }
+  return ranges;
+}
+
+void smooth_covariances(const ChebyshevFilter& filter, std::uint64_t level, const HeadMaps& maps,
+                        SurfaceStatistics& statistics) {
+  const auto ranges = pairs_alike(maps);
+  const auto of_vertex = [&](std::size_t range, std::uint32_t vertex) {
+    return std::span(statistics.covariances)
+        .subspan(vertex * statistics.pairs + ranges[range].first,
+                 ranges[range].second - ranges[range].first);
+  };
+  smooth_known(
+      filter, level, ranges.size(),
+      [&](std::size_t range, std::uint32_t vertex) {
+        const std::span<const float> products = of_vertex(range, vertex);
+        Row<float> row = {};
+        if (std::isnan(products.front())) return row;
+        std::ranges::copy(products, row.value);
+        row.value[3] = 1;
+        return row;
+      },
+      [&](std::size_t range, std::uint32_t vertex, const Row<float>& means) {
+        const std::span<float> products = of_vertex(range, vertex);
+        std::copy_n(means.value, products.size(), products.begin());
+      });
 }
 
 }  // namespace
 
-SurfaceStatistics surface_statistics(const Adjacency& adjacency,
+SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
                                      const std::vector<SurfaceTexels>& texels, const HeadMaps& maps,
                                      const StatisticsScale& scale) {
   SurfaceStatistics statistics;
   if (maps.empty()) return statistics;
   const std::size_t heads = maps.front().size();
-  const auto vertices = static_cast<std::size_t>(adjacency.vertex_count());
-  const SmoothingOperator smoothing(adjacency, Boundary::kFree, OperatorKind::kLazy);
+  const auto vertices = static_cast<std::size_t>(filter.vertex_count());
   const Grouped<Sample> samples = sample_surface(texels, vertices);
-  for (std::size_t h = 0; h < heads; ++h) {
-    throw_if_interrupted();
-    statistics.coarse.push_back(coarse_colours(samples, maps, h, smoothing, scale.detail));
-  }
+  statistics.coarse.assign(heads, Colours(filter.vertex_count(), 3));
+  smooth_known(
+      filter, scale.detail, heads,
+      [&](std::size_t head, std::uint32_t vertex) {
+        return mean_numbers(samples.of(vertex), maps, head);
+      },
+      [&](std::size_t head, std::uint32_t vertex, const Row<float>& means) {
+        std::copy_n(means.value, 3, statistics.coarse[head].row(vertex).data());
+      });
   statistics.pairs = heads * (heads + 1) / 2;
-  statistics.covariances.assign(vertices * statistics.pairs, 0);
-  std::vector<bool> known(statistics.covariances.size());
-  multiply_details(samples, maps, statistics, known);
-  smooth_covariances(smoothing, scale.strength, known, statistics);
+  statistics.covariances.resize(vertices * statistics.pairs);
+  multiply_details(samples, maps, statistics);
+  smooth_covariances(filter, scale.strength, maps, statistics);
   return statistics;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowdface/mesh/adjacency.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/texture/crowd_textures.h"
 
 namespace crowdface {
@@ -35,8 +35,8 @@ struct StatisticsScale {
   std::uint64_t strength = 16;
 };
 
-/// \param texels  of each picture. \param maps  what heads have there.
-SurfaceStatistics surface_statistics(const Adjacency& adjacency,
+/// \param filter  of the mesh, whatever its kind. \param texels  of each picture. \param maps  what heads have there.
+SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
                                      const std::vector<SurfaceTexels>& texels, const HeadMaps& maps,
                                      const StatisticsScale& scale);
 

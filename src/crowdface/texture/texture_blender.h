@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "crowdface/blend/recipe.h"
-#include "crowdface/mesh/adjacency.h"
 #include "crowdface/region/region_weights.h"
+#include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/texture/crowd_textures.h"
 #include "crowdface/texture/paint_picture.h"
 #include "crowdface/texture/surface_statistics.h"
@@ -32,9 +32,9 @@ struct TextureBlending {
 /// texture the others have its weight. The same bits on any number of threads.
 class TextureBlender {
  public:
-  /// \param regions, textures  must outlive this object; so must the maps.
+  /// \param filter  of the mesh, whatever its kind. \param regions, textures  must outlive this object; so must the maps.
   TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
-                 const Adjacency& adjacency, const RegionWeights& regions,
+                 const ChebyshevFilter& filter, const RegionWeights& regions,
                  const CrowdTextures& textures, TextureBlending options);
 
   /// \param picture  of the layout's. Any thread may ask.

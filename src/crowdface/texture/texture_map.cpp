@@ -38,9 +38,9 @@ std::vector<Taps> taps_of(int from, int to) {
   return all;
 }
 
-using Row = std::vector<Eigen::Array3f>;
+using TexelRow = std::vector<Eigen::Array3f>;
 
-void add_row(const Row& row, float weight, Row& sum) {
+void add_row(const TexelRow& row, float weight, TexelRow& sum) {
   for (std::size_t x = 0; x < row.size(); ++x) sum[x] += weight * row[x];
 }
 
@@ -67,7 +67,7 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
     return map;
   }
   parallel_blocks(height, kRowsPerBlock, [&](int begin, int end) {
-    Row row(static_cast<std::size_t>(picture.width)), sum(row.size());
+    TexelRow row(static_cast<std::size_t>(picture.width)), sum(row.size());
     for (int y = begin; y < end; ++y) {
       const Taps& rows = down[static_cast<std::size_t>(y)];
       std::ranges::fill(sum, Eigen::Array3f::Zero());
