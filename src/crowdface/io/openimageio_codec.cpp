@@ -129,7 +129,12 @@ const char* describe(Form form, OIIO::ImageSpec& spec) {
   if (form == Form::kWordPng) spec.set_format(OIIO::TypeDesc::UINT16);
   spec.alpha_channel = spec.nchannels % 2 == 0 ? spec.nchannels - 1 : -1;
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (form != Form::kSmallPng) spec.attribute("png:compressionLevel", 1);
+  if (form != Form::kSmallPng) {
+    constexpr int kAverageOfLeftAndUpper =
+        64;  // libpng's number; left alone it tries all five a row
+    spec.attribute("png:compressionLevel", 1);
+    spec.attribute("png:filter", kAverageOfLeftAndUpper);
+  }
   return "png";
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "crowdface/core/error.h"
@@ -21,20 +22,17 @@ float opacity_at(const Image& image, int x, int y) {
   return std::clamp(image.at(x, y, channel), 0.0F, 1.0F);
 }
 
-std::shared_ptr<const Texture> opacity_of(const Image& image, int most_px) {
-  return std::make_shared<const Texture>(
-      shrunk_texture(image.width, image.height, most_px, [&](int y, std::span<Light> texels) {
-        for (int x = 0; x < image.width; ++x) {
-          texels[static_cast<std::size_t>(x)] = Light::Constant(opacity_at(image, x, y));
-        }
-      }));
+Texture opacity_texture(const Image& image, int most_px) {
+  return shrunk_texture(image.width, image.height, most_px, [&](int y, std::span<Light> texels) {
+    for (int x = 0; x < image.width; ++x) {
+      texels[static_cast<std::size_t>(x)] = Light::Constant(opacity_at(image, x, y));
+    }
+  });
 }
 
 /// Colours, of which those count that are to be seen: what holes are painted with shows at no edge.
-std::shared_ptr<const Texture> colour_of(const Image& image, int most_px) {
-  const LightRows light = light_of(image);
-  Texture plain = shrunk_texture(image.width, image.height, most_px, light.row);
-  if (image.alpha_channel < 0) return std::make_shared<const Texture>(std::move(plain));
+void keep_to_what_is_seen(const Image& image, const LightRows& light, int most_px,
+                          const Texture& opacity, Texture& colours) {
   const Texture weighted =
       shrunk_texture(image.width, image.height, most_px, [&](int y, std::span<Light> texels) {
         light.row(y, texels);
@@ -44,67 +42,76 @@ std::shared_ptr<const Texture> colour_of(const Image& image, int most_px) {
       });
   constexpr float kLeast = 0.01F;
   constexpr int kSpread = 4;
-  const auto opacity = opacity_of(image, most_px);
   std::vector<bool> painted;
-  for (std::size_t t = 0; t < plain.texels.size(); ++t) {
-    const float there = opacity->texels[t][0];
+  for (std::size_t t = 0; t < colours.texels.size(); ++t) {
+    const float there = opacity.texels[t][0];
     painted.push_back(there > kLeast);
-    if (there > kLeast) plain.texels[t] = weighted.texels[t] / there;
+    if (there > kLeast) colours.texels[t] = weighted.texels[t] / there;
   }
-  spread_colours(plain, std::move(painted), kSpread);
-  return std::make_shared<const Texture>(std::move(plain));
+  spread_colours(colours, std::move(painted), kSpread);
 }
 
-WornMaterial material_of(const SurfaceMaterial& made_of, int most_px, bool textured) {
+}  // namespace
+
+const WornSurface& WornSurfaces::at(const Attachment& item) const {
+  return surfaces_.get(&item, [&] {
+    const FaceMaterials named =
+        face_materials(item.file.materials, item.file.topology.face_count());
+    std::vector<WornMaterial> materials;
+    for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
+      materials.emplace_back();
+      try {
+        materials.back() = material_of(material);
+      } catch (const InvalidInput& error) {
+        log_warning(concat(error.what(), "; pictures do without"));
+      }
+    }
+    if (materials.empty()) materials.emplace_back();
+    return std::make_unique<const WornSurface>(item.file.topology, item.file.uvs,
+                                               std::move(materials), named.of_face);
+  });
+}
+
+WornMaterial WornSurfaces::material_of(const SurfaceMaterial& made_of) const {
   WornMaterial material;
   if (made_of.colour) {
     material.colour = Light((*made_of.colour)[0], (*made_of.colour)[1], (*made_of.colour)[2]);
   }
   material.share = made_of.opacity;
   if (!made_of.colour_map.empty()) {
-    const Image image = read_image(made_of.colour_map, {.jpeg = true});
-    const auto colours = colour_of(image, most_px);
-    if (textured) {
-      material.texture = colours;
+    const Picture& picture = colour_maps_.get(made_of.colour_map, [&] {
+      const Image image = read_image(made_of.colour_map, {.jpeg = true});
+      const LightRows light = light_of(image);
+      Texture colours = shrunk_texture(image.width, image.height, most_px_, light.row);
+      auto read = std::make_unique<Picture>();
+      if (image.alpha_channel >= 0) {
+        read->opacity = std::make_shared<const Texture>(opacity_texture(image, most_px_));
+        keep_to_what_is_seen(image, light, most_px_, *read->opacity, colours);
+      }
+      read->colours = std::make_shared<const Texture>(std::move(colours));
+      return read;
+    });
+    if (textured_) {
+      material.texture = picture.colours;
     } else if (!made_of.colour) {
       material.colour = albedo_of(SurfaceKind::kSkin);
     }
-    if (made_of.opacity_map.empty() && image.alpha_channel >= 0) {
-      material.opacity = opacity_of(image, most_px);
-    }
+    material.opacity = picture.opacity;
   }
   if (!made_of.opacity_map.empty()) {
-    material.opacity = opacity_of(read_image(made_of.opacity_map, {.jpeg = true}), most_px);
+    material.opacity = opacity_maps_.get(made_of.opacity_map, [&] {
+      return std::make_unique<std::shared_ptr<const Texture>>(std::make_shared<const Texture>(
+          opacity_texture(read_image(made_of.opacity_map, {.jpeg = true}), most_px_)));
+    });
   }
   return material;
 }
 
-std::unique_ptr<const WornSurface> surface_of(const Attachment& item, int most_px, bool textured) {
-  const FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
-  std::vector<WornMaterial> materials;
-  for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
-    materials.emplace_back();
-    try {
-      materials.back() = material_of(material, most_px, textured);
-    } catch (const InvalidInput& error) {
-      log_warning(concat(error.what(), "; pictures do without"));
-    }
-  }
-  if (materials.empty()) materials.emplace_back();
-  return std::make_unique<const WornSurface>(item.file.topology, item.file.uvs,
-                                             std::move(materials), named.of_face);
-}
-
-}  // namespace
-
-const WornSurface& WornSurfaces::at(const Attachment& item) const {
-  return surfaces_.get(&item, [&] { return surface_of(item, most_px_, textured_); });
-}
-
-std::uint64_t worn_picture_bytes(const Attachment& item, int most_px) {
+std::uint64_t worn_picture_bytes(std::span<const Attachment* const> items, int most_px) {
   std::uint64_t bytes = 0;
+  std::set<std::pair<std::filesystem::path, std::uint64_t>> known;
   const auto add = [&](const std::filesystem::path& picture, std::uint64_t textures) {
-    if (picture.empty()) return;
+    if (picture.empty() || !known.emplace(picture, textures).second) return;
     try {
       const ImageSize size = read_image_size(picture, {.jpeg = true});
       const int block = (std::max(size.width, size.height) + most_px - 1) / most_px;
@@ -114,9 +121,11 @@ std::uint64_t worn_picture_bytes(const Attachment& item, int most_px) {
       return;  // pictures will do without it
     }
   };
-  for (const SurfaceMaterial& material : read_surface_materials(item.materials)) {
-    add(material.colour_map, material.opacity_map.empty() ? 2 : 1);
-    add(material.opacity_map, 1);
+  for (const Attachment* item : items) {
+    for (const SurfaceMaterial& material : read_surface_materials(item->materials)) {
+      add(material.colour_map, 2);
+      add(material.opacity_map, 1);
+    }
   }
   return bytes;
 }

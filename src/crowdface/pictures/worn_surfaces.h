@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "crowdface/core/made_once.h"
 #include "crowdface/heads/face_attachments.h"
+#include "crowdface/io/surface_materials.h"
 #include "crowdface/render/worn_mesh.h"
 
 namespace crowdface {
@@ -24,12 +28,21 @@ class WornSurfaces {
   std::vector<WornMesh> meshes(const std::vector<WornAttachment>& worn) const;
 
  private:
+  struct Picture {
+    std::shared_ptr<const Texture> colours;
+    std::shared_ptr<const Texture> opacity;  ///< null: it has no alpha
+  };
+  WornMaterial material_of(const SurfaceMaterial& made_of) const;
+
   int most_px_;
   bool textured_;
   mutable MadeOnce<const Attachment*, WornSurface> surfaces_;
+  // Many attachments wear the same pictures.
+  mutable MadeOnce<std::filesystem::path, Picture> colour_maps_;
+  mutable MadeOnce<std::filesystem::path, std::shared_ptr<const Texture>> opacity_maps_;
 };
 
-/// What the pictures of an attachment take once they are read.
-std::uint64_t worn_picture_bytes(const Attachment& item, int most_px);
+/// What the pictures of some attachments take once they are read.
+std::uint64_t worn_picture_bytes(std::span<const Attachment* const> items, int most_px);
 
 }  // namespace crowdface

@@ -225,6 +225,15 @@ struct Summary {
   bool empty = true;
 };
 
+/// An empty list of this thread's, with the memory that it had before: of a megabyte, which would be made anew for every
+/// tile. For one user at a time.
+template <class Item>
+std::vector<Item>& emptied() {
+  thread_local std::vector<Item> list;
+  list.clear();
+  return list;
+}
+
 /// One square of the image; a rim of pixels around it that lend what they know of their lights, and one more that tells
 /// where these change.
 class Tile {
@@ -300,7 +309,7 @@ class Tile {
   /// What the camera's rays meet at these places of the pixels that ask.
   template <class Asks>
   void look(const std::vector<Eigen::Vector2f>& places, const Asks& asks) {
-    std::vector<Ray> rays;
+    std::vector<Ray>& rays = emptied<Ray>();
     for_each_pixel([&](int x, int y, const Pixel& pixel) {
       if (!asks(pixel)) return;
       std::uint32_t number = 0;
@@ -312,7 +321,12 @@ class Tile {
     });
     const auto hits = stage_.scene.nearest_hits(rays);
     std::vector<std::optional<RayHit>> worn(rays.size());
-    if (stage_.worn != nullptr) worn = stage_.worn->scene().nearest_hits(rays);
+    if (stage_.worn != nullptr) {
+      for (std::size_t r = 0; r < rays.size(); ++r) {
+        if (hits[r]) rays[r].furthest = hits[r]->distance;
+      }
+      worn = stage_.worn->scene().nearest_hits(rays);
+    }
     std::size_t ray = 0;
     for_each_pixel([&](int x, int y, Pixel& pixel) {
       if (!asks(pixel)) return;
@@ -321,7 +335,7 @@ class Tile {
       pixel.backdrop = Light::Zero();
       for (const Eigen::Vector2f& place : places) {
         fetch_ahead(stage_, hits, ray);
-        if (worn[ray] && !(hits[ray] && hits[ray]->distance < worn[ray]->distance)) {
+        if (worn[ray]) {
           meetings_.push_back(
               meet_worn(*stage_.worn, stage_.viewer, *worn[ray], rays[ray].direction));
         } else if (hits[ray]) {
@@ -402,8 +416,8 @@ class Tile {
 
   void ask_key() {
     const Vector key = key_direction();
-    std::vector<Ray> rays;
-    std::vector<Openness*> asking;
+    std::vector<Ray>& rays = emptied<Ray>();
+    std::vector<Openness*>& asking = emptied<Openness*>();
     for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
       if (!meeting.asks_key) return;
       const Vector start = meeting.start + kThickness * meeting.surface.normal;
@@ -416,8 +430,8 @@ class Tile {
 
   /// Directions are cosine-weighted.
   void ask_sky() {
-    std::vector<Ray> rays;
-    std::vector<Meeting*> asking;
+    std::vector<Ray>& rays = emptied<Ray>();
+    std::vector<Meeting*>& asking = emptied<Meeting*>();
     for_each_ask([&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
       const Vector& normal = meeting.surface.normal;
       const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
@@ -462,8 +476,15 @@ class Tile {
   std::vector<bool> are_blocked(const std::vector<Ray>& rays) const {
     std::vector<bool> blocked = stage_.scene.occluded(rays);
     if (stage_.worn == nullptr) return blocked;
-    const std::vector<bool> more = stage_.worn->scene().occluded(rays);
-    for (std::size_t r = 0; r < rays.size(); ++r) blocked[r] = blocked[r] || more[r];
+    std::vector<Ray> free;
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      if (!blocked[r]) free.push_back(rays[r]);
+    }
+    const std::vector<bool> by_worn = stage_.worn->scene().occluded(free);
+    auto next = by_worn.begin();
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      if (!blocked[r]) blocked[r] = *next++;
+    }
     return blocked;
   }
 
@@ -549,7 +570,7 @@ class Tile {
   int rim_left_, rim_top_, rim_right_, rim_bottom_;
   int outer_left_, outer_top_, outer_right_, outer_bottom_;
   std::vector<Pixel> pixels_;
-  std::vector<Meeting> meetings_;
+  std::vector<Meeting>& meetings_ = emptied<Meeting>();
 };
 
 }  // namespace

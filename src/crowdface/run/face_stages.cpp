@@ -87,13 +87,14 @@ std::uint64_t worn_bytes(const Config& config, const Inputs& inputs,
   std::set<std::string> worn;
   for (const CastFace& face : crowd) worn.insert(face.attachments.begin(), face.attachments.end());
   std::uint64_t bytes = 0;
+  std::vector<const Attachment*> items;
   for (const std::string& name : worn) {
-    const Attachment& item = inputs.attachments.at(name);
-    bytes += static_cast<std::uint64_t>(item.file.topology.vertex_count) * kMeshBytesAVertex;
-    if (!config.output.contact_sheet) continue;
-    bytes += worn_picture_bytes(item, shown_texels(*config.output.contact_sheet));
+    items.push_back(&inputs.attachments.at(name));
+    bytes +=
+        static_cast<std::uint64_t>(items.back()->file.topology.vertex_count) * kMeshBytesAVertex;
   }
-  return bytes;
+  if (!config.output.contact_sheet) return bytes;
+  return bytes + worn_picture_bytes(items, shown_texels(*config.output.contact_sheet));
 }
 
 [[noreturn]] void refuse_memory(std::string_view least, std::uint64_t memory) {

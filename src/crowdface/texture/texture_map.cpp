@@ -66,9 +66,20 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
     });
     return map;
   }
+  const auto write = [&](int x, int y, const Eigen::Array3f& numbers) {
+    for (int c = 0; c < coding.channels; ++c) {
+      map.row(c, y)[x] = coding.content == MapContent::kColours ? density_of_light(numbers[c])
+                                                                : coding.stored(numbers[c]);
+    }
+  };
   parallel_blocks(height, kRowsPerBlock, [&](int begin, int end) {
     TexelRow row(static_cast<std::size_t>(picture.width)), sum(row.size());
     for (int y = begin; y < end; ++y) {
+      if (same_size) {
+        picture.row(y, row);
+        for (int x = 0; x < width; ++x) write(x, y, row[static_cast<std::size_t>(x)]);
+        continue;
+      }
       const Taps& rows = down[static_cast<std::size_t>(y)];
       std::ranges::fill(sum, Eigen::Array3f::Zero());
       for (std::size_t t = 0; t < rows.weights.size(); ++t) {
@@ -81,10 +92,7 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
         for (std::size_t t = 0; t < texels.weights.size(); ++t) {
           light += texels.weights[t] * sum[static_cast<std::size_t>(texels.first) + t];
         }
-        for (int c = 0; c < coding.channels; ++c) {
-          map.row(c, y)[x] = coding.content == MapContent::kColours ? density_of_light(light[c])
-                                                                    : coding.stored(light[c]);
-        }
+        write(x, y, light);
       }
     }
   });
