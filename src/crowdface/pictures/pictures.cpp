@@ -110,11 +110,12 @@ void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
   const fs::path attachments = directory_.gallery_attachment("").parent_path();
   remove_others(attachments, worn);
   if (!worn.empty()) make_directories(attachments);
-  for (const std::string& name : worn) {
-    write_file(directory_.gallery_attachment(name),
-               gallery_->attachment_script(name, renders_.worn_surfaces()));
-  }
-  for (std::size_t h = 0; h < inputs_.faces.heads.size(); ++h) {
+  const std::vector<std::string> items(worn.begin(), worn.end());
+  parallel_for_each(items.size(), [&](std::size_t i) {
+    write_file(directory_.gallery_attachment(items[i]),
+               gallery_->attachment_script(items[i], renders_.worn_surfaces()));
+  });
+  parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
     const auto& [name, positions] = inputs_.faces.heads[h];
     const std::optional<TextureCoat> coat = renders_.coat_of(static_cast<Index>(h));
     // A face may bear a head's name.
@@ -122,7 +123,7 @@ void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
         directory_.gallery_head(name),
         gallery_->face_script(concat("head ", name), positions,
                               shapes_.of_head(static_cast<Index>(h)), coat ? &*coat : nullptr));
-  }
+  });
   write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
   write_scripts(crowd, likeness);
   for (const std::string_view file : kGalleryPageFiles) {

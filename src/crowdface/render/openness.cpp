@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/render/camera_space.h"
@@ -19,6 +20,7 @@ namespace {
 using Vector = Eigen::Vector3f;
 
 constexpr int kRays = 128;  // a vertex
+constexpr std::size_t kVerticesPerBlock = 64;
 // Shares of the head's largest extent.
 constexpr float kReach = 0.3F;
 constexpr float kClearance = 5e-4F;
@@ -50,23 +52,25 @@ std::vector<float> vertex_openness(const Topology& topology, const std::vector<S
   const RayDevice device;
   const RayScene scene(device, std::move(points), triangles);
   const InterleavedDisc disc(kRays);
-  std::vector<Ray> rays;
-  for (const std::uint32_t vertex : vertices) {
-    const Vector& normal = normals[vertex];
-    const auto [s, t] = perpendicular(normal);
-    const Vector start = scene.point(vertex) + kClearance * normal;
-    for (int k = 0; k < kRays; ++k) {
-      const Eigen::Vector2f& place = disc.point(0, 0, k);
-      const float height = std::sqrt(std::max(0.0F, 1 - place.squaredNorm()));
-      rays.push_back({start, place.x() * s + place.y() * t + height * normal, 0, kReach});
+  std::vector<float> open(vertices.size());
+  parallel_blocks(vertices.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<Ray> rays;
+    for (std::size_t v = begin; v < end; ++v) {
+      const Vector& normal = normals[vertices[v]];
+      const auto [s, t] = perpendicular(normal);
+      const Vector start = scene.point(vertices[v]) + kClearance * normal;
+      for (int k = 0; k < kRays; ++k) {
+        const Eigen::Vector2f& place = disc.point(0, 0, k);
+        const float height = std::sqrt(std::max(0.0F, 1 - place.squaredNorm()));
+        rays.push_back({start, place.x() * s + place.y() * t + height * normal, 0, kReach});
+      }
     }
-  }
-  const std::vector<bool> blocked = scene.occluded(rays);
-  std::vector<float> open;
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const auto first = blocked.begin() + static_cast<std::ptrdiff_t>(v * kRays);
-    open.push_back(static_cast<float>(std::count(first, first + kRays, false)) / kRays);
-  }
+    const std::vector<bool> blocked = scene.occluded(rays);
+    for (std::size_t v = begin; v < end; ++v) {
+      const auto first = blocked.begin() + static_cast<std::ptrdiff_t>((v - begin) * kRays);
+      open[v] = static_cast<float>(std::count(first, first + kRays, false)) / kRays;
+    }
+  });
   return open;
 }
 
