@@ -116,13 +116,11 @@ void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_
     parallel_for_each(static_cast<Index>(vertex_of_row.size()), kBlock,
                       [&](Index row) { visit(static_cast<std::size_t>(row)); });
   };
+  std::vector<FilterInput<float>> inputs;
   for (std::size_t first = 0; first < count; first += kMostAtOnce) {
     throw_if_interrupted();
-    std::vector<FilterInput<float>> inputs(std::min(kMostAtOnce, count - first));
-    for (FilterInput<float>& input : inputs) {
-      input.values.resize(vertex_of_row.size());
-      input.series = {series};
-    }
+    inputs.resize(std::min(kMostAtOnce, count - first),
+                  {std::vector<Row<float>>(vertex_of_row.size()), {series}});
     for_each_row([&](std::size_t row) {
       for (std::size_t i = 0; i < inputs.size(); ++i) {
         inputs[i].values[row] = row_of(first + i, vertex_of_row[row]);
