@@ -18,7 +18,7 @@ Positions read_face(const CrowdDirectory& directory, const std::string& id,
   }
   const MeshFormat format = formats.front();
   const std::filesystem::path path = directory.mesh(id, format);
-  const Positions positions = [&] {
+  Positions positions = [&] {
     switch (format) {
       case MeshFormat::kObj:
         return read_obj(path).positions;
